@@ -5,7 +5,7 @@
 
 #include "seaglint_version.h"
 #include "sim/core/numbers/constants.h"
-#include "tools/report/html.h"
+#include "tools/page/html.h"
 
 namespace seaglint {
 namespace {

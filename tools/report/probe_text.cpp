@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "tools/page/html.h"
 #include "tools/pipeline/metrics.h"
-#include "tools/report/html.h"
 
 namespace seaglint {
 

@@ -13,10 +13,11 @@
 #include "sim/core/text/json_keys.h"
 #include "sim/core/text/json_problem.h"
 #include "sim/scenario/writer.h"
+#include "tools/page/html.h"
+#include "tools/page/page_files.h"
 #include "tools/pipeline/scene.h"
 #include "tools/pipeline/train.h"
 #include "tools/pipeline/warnings.h"
-#include "tools/report/html.h"
 #include "tools/report/probe_text.h"
 #include "tools/report/report_figures.h"
 #include "tools/report/report_text.h"
@@ -79,14 +80,15 @@ std::string missing_input(const Scenario& scenario) {
   }
 }
 
-// The figures of a section, two per row.
-std::string figures(const std::vector<ReportFigure>& all, const std::string& section) {
+// The figures of a section, two per row. `still`: report.js draws something else in their place.
+std::string figures(const std::vector<ReportFigure>& all, const std::string& section, bool still = false) {
   std::string html;
   for (const ReportFigure& figure : all) {
     if (figure.section == section)
-      html += html_figure(figure.svg.empty() ? figure.png : figure.svg, figure.caption, figure.alternative);
+      html +=
+          html_figure(figure.svg.empty() ? figure.png : figure.svg, figure.caption, figure.alternative, figure.plot);
   }
-  return html.empty() ? html : "<div class=\"pair\">\n" + html + "</div>\n";
+  return html.empty() ? html : fmt::format("<div class=\"{}\">\n{}</div>\n", still ? "pair still" : "pair", html);
 }
 
 std::string section(const char* id, const char* title, const std::string& content) {
@@ -103,8 +105,17 @@ std::string targets_section(const std::vector<ReportFigure>& all, const std::str
   return pictures.empty() ? "<p>Ideal point scatterers; there is nothing to draw.</p>\n" : pictures;
 }
 
-std::string page(const ordered_json& metrics, const Scenario& scenario, const std::vector<ReportFigure>& all,
-                 const std::string& missing) {
+// Where report.js draws maps, with what it reads.
+std::string explorer(const ReportData& data) {
+  std::vector<SampleRecord> records;
+  for (const ReportRow& row : data.rows) records.push_back(row.record);
+  const double azimuth_deg = data.shown.empty() ? 0 : data.shown.front().sample.record.azimuth_deg;
+  return fmt::format("<div id=\"explorer\"><script type=\"application/json\">{}</script></div>\n",
+                     explorer_json(records, data.maps, data.axes, azimuth_deg, data.shown_wave_height_m));
+}
+
+std::string page(const ordered_json& metrics, const ReportData& data, const Scenario& scenario,
+                 const std::vector<ReportFigure>& all, const std::string& missing) {
   const std::string name = escape_html(scenario.name);
   std::string body = fmt::format(
       "<header>\n<h1>Ship or corner-reflector array?</h1>\n<p class=\"lead\">Simulated frequency-agile radar maps, "
@@ -122,7 +133,7 @@ std::string page(const ordered_json& metrics, const Scenario& scenario, const st
                   "<p>Levels in dB below each map’s strongest cell. Circles are the scattering centres that CLEAN "
                   "finds, the frame contains them all. Range grows away from the "
                   "radar, velocity is positive when receding.</p>\n" +
-                      figures(all, "maps"));
+                      explorer(data) + figures(all, "maps", true));
   body += section("accuracy", "Accuracy",
                   "<p>XGBoost (200 trees, depth 6 unless the scenario says otherwise) on three groups of features. In "
                   "brackets the 95 % interval of a bootstrap over sea "
@@ -133,7 +144,9 @@ std::string page(const ordered_json& metrics, const Scenario& scenario, const st
                       "<p>Whatever comes out is printed; nothing was tuned towards the paper. It used CST for the "
                       "echoes and DualSPHysics for the motion, "
                       "gives neither peak period nor wave direction, and tests on random rows.</p>\n");
-  body += section("features", "Hand-made and learned features", figures(all, "features") + feature_table(metrics));
+  body += section("features", "Hand-made and learned features",
+                  "<div id=\"scatter\"></div>\n" + figures(all, "scatter", true) + figures(all, "features") +
+                      feature_table(metrics));
   body += section("aspects", "Dependence on aspect", figures(all, "aspects"));
   body += section("probes", "Probes: what else could tell the class",
                   "<p>Each quantity is given to the same trees by itself. Quantities that know nothing of the target "
@@ -149,7 +162,7 @@ std::string page(const ordered_json& metrics, const Scenario& scenario, const st
   body +=
       "<footer>Made by seaglint. Every number of this page is in metrics.json, every figure a PNG (plots also SVG) "
       "beside it. Simulated data; nothing here was measured.</footer>\n";
-  return html_page("seaglint: " + scenario.name, body);
+  return html_page("seaglint: " + scenario.name, body, report_script());
 }
 
 using Clock = std::chrono::steady_clock;
@@ -166,7 +179,7 @@ double draw_and_write(const fs::path& directory, const Scenario& scenario, const
   metrics["run"]["seconds"]["report"] = seconds;
   std::string html;
   try {
-    html = page(metrics, scenario, all, missing);
+    html = page(metrics, results.data, scenario, all, missing);
   } catch (const nlohmann::json::exception& error) {
     throw InputError(fmt::format("{}: {}", (directory / kMetricsFile).string(), json_problem(error)));
   }

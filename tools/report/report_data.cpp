@@ -85,13 +85,18 @@ LineFit fit_line(const std::vector<StoredCentre>& centres) {
 ReportCollector::ReportCollector(const Scenario& scenario, const SamplePlan& plan)
     : wanted_(shown_samples(scenario, plan)) {
   data_.shown.resize(wanted_.size());
+  const std::size_t states = scenario.targets.size() * plan.views().size() * plan.sea_states().size();
+  of_each_state_ = std::max<std::size_t>(1, (kMostMaps + states - 1) / states);
   data_.handmade.names = {"mwr", "ccf", "sigma_r_m", "sigma_v_mps"};
 }
 
 void ReportCollector::add(const Shard& shard) {
+  data_.axes = shard.axes;
   for (const Sample& sample : shard.samples) {
     const SampleRecord& record = sample.record;
     data_.rows.push_back({record, fit_line(sample.centre_list)});
+    if (seen_[{record.target, record.view, record.sea_state}]++ < of_each_state_)
+      data_.maps.push_back(explorer_map(sample, shard.axes));
     for (const double value : {record.mwr, record.ccf, record.sigma_r_m, record.sigma_v_mps}) {
       data_.handmade.values.push_back(static_cast<float>(value));
     }

@@ -3,8 +3,10 @@
 
 // Data of the report: the samples of a run without their maps, and the few maps that it shows.
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -12,6 +14,7 @@
 #include "classify/model/booster.h"
 #include "sim/core/process/parallel.h"
 #include "sim/scenario/sample_plan.h"
+#include "tools/report/explorer.h"
 
 namespace seaglint {
 
@@ -38,12 +41,15 @@ struct ReportData {
   std::vector<ReportRow> rows;
   std::vector<ShownMap> shown;  // ship and array at the first aspect, then at the second
   double shown_wave_height_m = 0;
-  FeatureMatrix handmade;  // of all rows
-  FeatureMatrix fused;     // the same plus the network's embeddings
+  std::vector<ExplorerMap> maps;  // of every state in turn: at most about kMostMaps, see ReportCollector
+  StoredAxes axes;                // of all maps
+  FeatureMatrix handmade;         // of all rows
+  FeatureMatrix fused;            // the same plus the network's embeddings
 };
 
 // Collects the data of the report from shards, in their order. Maps shown: the first of each class at the aspects
 // nearest 80 and 170 deg azimuth in the sea nearest Hs 1 m (as in the paper's figures).
+// The first maps of every target, view and sea state are kept, reduced: as many of each as make kMostMaps in all.
 class ReportCollector {
  public:
   ReportCollector(const Scenario& scenario, const SamplePlan& plan);
@@ -56,7 +62,11 @@ class ReportCollector {
   std::vector<std::int64_t> samples() const;
 
  private:
-  std::vector<std::size_t> wanted_;  // samples of the maps shown
+  static constexpr std::size_t kMostMaps = 512;
+
+  std::vector<std::size_t> wanted_;                          // samples of the maps shown
+  std::size_t of_each_state_ = 1;                            // maps that are kept
+  std::map<std::array<std::int64_t, 3>, std::size_t> seen_;  // by target, view and sea state
   ReportData data_;
 };
 

@@ -15,9 +15,10 @@
 #include "sim/scenario/sample_plan.h"
 #include "tools/figure/figure.h"
 #include "tools/figure/mesh_picture.h"
+#include "tools/page/html.h"
+#include "tools/page/live_plot.h"
 #include "tools/pipeline/metrics.h"
 #include "tools/pipeline/scene.h"
-#include "tools/report/html.h"
 #include "tools/report/summary.h"
 
 namespace seaglint {
@@ -42,8 +43,13 @@ class FigureList {
   template <class Plot>
   void add(const std::string& section, const std::string& name, Plot plot, FigureSize size, std::string caption,
            std::string alternative, bool vector_too = true) {
-    ReportFigure figure{section, directory_ / (name + ".png"), vector_too ? directory_ / (name + ".svg") : fs::path(),
-                        std::move(caption), std::move(alternative)};
+    ReportFigure figure{section,
+                        directory_ / (name + ".png"),
+                        vector_too ? directory_ / (name + ".svg") : fs::path(),
+                        std::move(caption),
+                        std::move(alternative),
+                        ""};
+    if constexpr (std::is_same_v<Plot, LinePlot>) figure.plot = live_plot(plot);
     drawings_.push_back(
         {std::move(figure), [plot = std::move(plot), size](const fs::path& file) { write_figure(plot, file, size); }});
   }
@@ -51,7 +57,7 @@ class FigureList {
   void add_picture(const std::string& section, const std::string& name, std::function<void(const fs::path&)> draw,
                    std::string caption, std::string alternative) {
     drawings_.push_back(
-        {{section, directory_ / (name + ".png"), {}, std::move(caption), std::move(alternative)}, std::move(draw)});
+        {{section, directory_ / (name + ".png"), {}, std::move(caption), std::move(alternative), ""}, std::move(draw)});
   }
 
   std::vector<ReportFigure> draw(int threads, const StopFlag* stop) const {
@@ -205,7 +211,7 @@ void add_features(FigureList& list, const ReportData& data, std::uint64_t seed) 
   residual.title = "Line residual and contrast of the spreads";
   residual.x = {"MWR ((m/s)^2)", {}, true};
   residual.y = {"CCF", AxisRange{0, 1.02}, false};
-  list.add("features", "features_mwr_ccf", std::move(residual), {640, 400},
+  list.add("scatter", "features_mwr_ccf", std::move(residual), {640, 400},
            "The paper's two new features, every map a point; a residual of zero stands at 1e-6.",
            "Scatter of MWR and CCF by class");
   LinePlot spreads = class_scatter(
@@ -217,7 +223,7 @@ void add_features(FigureList& list, const ReportData& data, std::uint64_t seed) 
   spreads.title = "Spreads of the scattering centres";
   spreads.x.label = "sigma_r (m)";
   spreads.y.label = "sigma_v (m/s)";
-  list.add("features", "features_spreads", std::move(spreads), {640, 400},
+  list.add("scatter", "features_spreads", std::move(spreads), {640, 400},
            "Standard deviations of the centres' ranges and velocities.",
            "Scatter of range and velocity spread by class");
 

@@ -17,11 +17,12 @@ namespace seaglint {
 
 // A figure of the report; both files show the same picture; `svg` is empty for mesh pictures and maps.
 struct ReportFigure {
-  std::string section;  // maps, accuracy, features, aspects, sea, targets
+  std::string section;  // maps, accuracy, scatter, features, aspects, sea, targets
   std::filesystem::path png;
   std::filesystem::path svg;
   std::string caption;      // HTML
   std::string alternative;  // plain text
+  std::string plot;         // live_plot.h; empty: the picture alone
 };
 
 // Draws all figures into the run's directory, on `threads` threads; the list has the order of the page. `targets` are

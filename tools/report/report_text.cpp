@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "radar/waveform/pulse_train.h"
+#include "tools/page/html.h"
 #include "tools/pipeline/metrics.h"
-#include "tools/report/html.h"
 #include "tools/report/probe_text.h"
 
 namespace seaglint {

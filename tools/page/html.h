@@ -17,10 +17,15 @@ std::string base64(std::string_view bytes);  // RFC 4648, section 4
 std::string html_table(const std::vector<std::vector<std::string>>& rows, bool numbers = true);
 
 // A .png or .svg file as an embedded picture with its caption (HTML) below; `alternative` is the text for screen
-// readers.
-std::string html_figure(const std::filesystem::path& file, std::string_view caption, std::string_view alternative);
+// readers. `plot` (live_plot.h), unless empty, is drawn in its place where scripts run, except in print.
+std::string html_figure(const std::filesystem::path& file, std::string_view caption, std::string_view alternative,
+                        std::string_view plot = {});
 
-// The whole page around its body.
-std::string html_page(std::string_view title, std::string_view body);
+// JSON as content of an HTML script element: `<` written as \u003c.
+std::string script_json(std::string text);
+
+// The whole page around its body. A body with JSON for scripts gets plotly and page.js, then `script`; the page needs
+// no network.
+std::string html_page(std::string_view title, std::string_view body, std::string_view script = {});
 
 }  // namespace seaglint

@@ -1,0 +1,102 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""report_page_test.py SEAGLINT SOURCE: the report of a small run in headless Chromium, from a file and without a network,
+by what it shows after clicks and keys. Exit code 77: a package of Debian is missing."""
+import pathlib
+import subprocess
+import sys
+import tempfile
+import time
+
+
+def browser(*preferences):
+    from selenium import webdriver
+    options = webdriver.ChromeOptions()
+    for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--window-size=1280,1600", "--host-resolver-rules=MAP * ~NOTFOUND"):
+        options.add_argument(argument)
+    for key, value in preferences:
+        options.add_experimental_option(key, value)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+    return webdriver.Chrome(service=__import__("selenium.webdriver.chrome.service", fromlist=["Service"]).Service("/usr/bin/chromedriver"), options=options)
+
+
+def wait(condition, what, seconds=60):
+    end = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < end, what
+        time.sleep(0.1)
+
+
+def check_live(page, picture):
+    from selenium.webdriver.common.by import By
+    from selenium.webdriver.common.keys import Keys
+    with browser() as driver:
+        driver.get(page.as_uri())
+        find = lambda css: driver.find_elements(By.CSS_SELECTOR, css)
+        shown = lambda: [int(e.get_attribute("data-sample")) for e in find("#explorer [data-sample]") if e.is_displayed()]
+        driver.execute_script("document.getElementById('explorer').scrollIntoView()")
+        wait(lambda: len(shown()) == 2, "one map of each target")
+        before = shown()
+        assert not any(e.is_displayed() for e in find("#maps .still img")), "the pictures give way to the maps"
+        # The map of the page has its strongest cell at 0 dB and is as large as its axes.
+        heat = driver.execute_script("const t = document.querySelector('#explorer [data-sample]').data[0]; return [Math.max(...t.z.flat()), t.z.length === t.y.length && t.z[0].length === t.x.length];")
+        assert heat == [0, True], heat
+        slider = find("#aspect")[0]  # by the keyboard
+        slider.send_keys(Keys.ARROW_RIGHT if slider.get_attribute("value") == "0" else Keys.ARROW_LEFT)
+        wait(lambda: shown() and shown() != before, "another aspect shows other maps")
+        find("#explorer input[type=checkbox]")[0].click()
+        wait(lambda: len(shown()) == 1, "a target that is switched off has no map")
+        driver.execute_script("document.getElementById('scatter').scrollIntoView()")
+        points = lambda: int((find("#scatter [data-points]") or [driver.find_element(By.TAG_NAME, "body")])[0].get_attribute("data-points") or -1)
+        wait(lambda: points() == 40, "every sample is a point")
+        find("#scatter input[type=checkbox]")[1].click()
+        wait(lambda: points() == 20, "a target that is switched off has no points")
+        find("#scatter input[type=checkbox]")[1].click()
+        wait(lambda: points() == 40, "and has them again")
+        # A click on a point, as plotly reports it, opens its map; so does the number of a sample.
+        driver.execute_script("document.querySelector('#scatter [data-points]').emit('plotly_click', {points: [{customdata: 5}]})")
+        chosen = lambda: [e.get_attribute("data-sample") for e in find(".chosen [data-sample]")]
+        wait(lambda: chosen() and find("#sample")[0].get_attribute("value") == chosen()[0] == "5", "a click opens a map")
+        find("#sample")[0].send_keys(Keys.BACKSPACE, "99", Keys.TAB)
+        wait(lambda: "no sample 99" in find(".chosen p")[0].text, "an unknown sample is named")
+        driver.execute_script("document.getElementById('accuracy').scrollIntoView()")
+        wait(lambda: find("#accuracy figure.drawn .live .trace, #accuracy figure.drawn .live .scatterlayer"), "accuracy curves")
+        assert driver.execute_script("return document.documentElement.scrollWidth <= document.documentElement.clientWidth"), "nothing is wider than the window"
+        errors = [entry for entry in driver.get_log("browser") if entry["level"] == "SEVERE"]
+        assert not errors, errors
+        seconds = driver.execute_script("const t = performance.getEntriesByType('navigation')[0]; return t.domContentLoadedEventEnd / 1000")
+        print(f"{page.stat().st_size / 1e6:.2f} MB, document ready after {seconds:.2f} s")
+        if picture:
+            driver.execute_script("window.scrollTo(0, 0)")
+            driver.save_screenshot(picture)
+
+
+def check_still(page):
+    from selenium.webdriver.common.by import By
+    with browser(("prefs", {"profile.managed_default_content_settings.javascript": 2})) as driver:
+        driver.get(page.as_uri())
+        assert all(e.is_displayed() for e in driver.find_elements(By.CSS_SELECTOR, "figure img")), "pictures without scripts"
+        assert not driver.find_elements(By.CSS_SELECTOR, ".drawn")
+
+
+def main(seaglint, source, picture=None):
+    try:
+        import selenium  # noqa: F401
+    except ImportError as error:
+        print(f"skipped: {error} (package python3-selenium)")
+        return 77
+    if not pathlib.Path("/usr/bin/chromedriver").exists():
+        print("skipped: package chromium-driver")
+        return 77
+    with tempfile.TemporaryDirectory() as folder:
+        run = pathlib.Path(folder) / "run"
+        subprocess.run([seaglint, "run", f"{source}/scenarios/points.yaml", "-o", run, *SMALL], check=True, stdout=subprocess.DEVNULL)
+        page = run / "report.html"
+        assert page.stat().st_size < 5e6
+        check_live(page, picture)
+        check_still(page)
+    return 0
+
+
+SMALL = ["--set", "learning.epochs=3"]
+sys.exit(main(*sys.argv[1:]))

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Samples and maps of a report's page.
+#include "tools/report/explorer.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tools/page/live_plot.h"
+
+namespace seaglint {
+namespace {
+
+std::vector<double> cells(std::size_t count, double first, double step) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < count; ++i) values.push_back(first + step * static_cast<double>(i));
+  return values;
+}
+
+TEST(Explorer, ReducedAxesCoverTheSameInterval) {
+  const ReducedAxis axis = reduced_axis(cells(256, -96, 0.75), 128);
+  EXPECT_EQ(axis.cells, 2u);
+  EXPECT_EQ(axis.count, 128u);
+  EXPECT_DOUBLE_EQ(axis.first - axis.step / 2, -96 - 0.375);
+  EXPECT_DOUBLE_EQ(axis.first + axis.step * 127.5, -96 + 0.75 * 255.5);
+  EXPECT_EQ(reduced_axis(cells(5, 0, 1), 128).cells, 1u);
+}
+
+TEST(Explorer, ACellHasTheStrongestOfItsGroupInWholeDecibels) {
+  const StoredAxes axes{cells(256, 0, 1), {0}};
+  Sample sample;
+  sample.magnitude.assign(256, 0);
+  sample.magnitude[7] = 2;      // the peak, in cell 3
+  sample.magnitude[10] = 0.2F;  // -20 dB in cell 5
+  sample.magnitude[11] = 0.1F;
+  sample.centre_list = {{7, 0, 2}, {10, 0, 0.2F}};
+  std::vector<std::uint8_t> expected(128, 0);
+  expected[3] = 45;
+  expected[5] = 25;
+  const ExplorerMap map = explorer_map(sample, axes);
+  EXPECT_EQ(map.packed, packed(expected));
+  EXPECT_NEAR(map.centres[1][2], -20, 1e-5);
+}
+
+SampleRecord record(std::int64_t sample, std::int64_t target, const char* name) {
+  SampleRecord record;
+  record.sample = sample;
+  record.target = target;
+  record.target_name = name;
+  record.mwr = 0.5 * static_cast<double>(sample);
+  record.seed = 1LL << 40;
+  return record;
+}
+
+TEST(Explorer, KeepsTheFirstMapOfEveryStateFirst) {
+  const std::vector<SampleRecord> records{record(0, 0, "a"), record(1, 0, "a"), record(2, 1, "b"), record(3, 1, "b")};
+  EXPECT_EQ(explorer_order(records), (std::vector<std::size_t>{0, 2, 1, 3}));
+}
+
+TEST(Explorer, TakesTargetsAndColumnsFromTheRecordsAndOmitsKeysBeyondSinglePrecision) {
+  const std::vector<SampleRecord> records{record(0, 0, "</script>"), record(1, 3, "tanker")};
+  const StoredAxes axes{cells(4, 0, 1), cells(4, 0, 1)};
+  Sample large;
+  large.record = records[1];
+  large.magnitude.assign(16, 1);
+  ExplorerMap too_large = explorer_map(large, axes);
+  too_large.sample = 0;
+  too_large.packed.assign(kExplorerBytes + 1, 'A');
+  const std::string text = explorer_json(records, {explorer_map(large, axes)}, axes, 80, 1);
+  EXPECT_EQ(text.find('<'), std::string::npos);
+  const auto json = nlohmann::json::parse(text);
+  EXPECT_EQ(json.at("targets"), nlohmann::json::parse(R"({"0": "</script>", "3": "tanker"})"));
+  EXPECT_EQ(json.at("maps").at(0).at("row"), 1);
+  bool mwr = false;
+  for (const auto& column : json.at("columns")) {
+    EXPECT_NE(column.at("name"), "seed");
+    if (column.at("name") == "mwr") mwr = column.at("varies");
+  }
+  EXPECT_TRUE(mwr);
+  EXPECT_TRUE(nlohmann::json::parse(explorer_json(records, {too_large}, axes, 80, 1)).at("maps").empty());
+}
+
+}  // namespace
+}  // namespace seaglint

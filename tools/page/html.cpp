@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/page/html.h"
+
+#include <fmt/format.h>
+
+#include "sim/core/process/file.h"
+#include "tools/page/page_files.h"
+
+namespace seaglint {
+
+std::string escape_html(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&': out += "&amp;"; break;
+      case '<': out += "&lt;"; break;
+      case '>': out += "&gt;"; break;
+      case '"': out += "&quot;"; break;
+      default: out += c;
+    }
+  }
+  return out;
+}
+
+std::string base64(std::string_view bytes) {
+  constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  out.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const auto byte = [&](std::size_t k) { return k < bytes.size() ? static_cast<unsigned char>(bytes[k]) : 0u; };
+    const unsigned group = byte(i) << 16 | byte(i + 1) << 8 | byte(i + 2);
+    out += kDigits[group >> 18];
+    out += kDigits[group >> 12 & 63];
+    out += i + 1 < bytes.size() ? kDigits[group >> 6 & 63] : '=';
+    out += i + 2 < bytes.size() ? kDigits[group & 63] : '=';
+  }
+  return out;
+}
+
+std::string html_table(const std::vector<std::vector<std::string>>& rows, bool numbers) {
+  std::string out = fmt::format("<div class=\"scroll\"><table{}>\n", numbers ? " class=\"numbers\"" : "");
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    out += i == 0 ? "<thead><tr>" : "<tr>";
+    for (const std::string& cell : rows[i])
+      out += (i == 0 ? "<th scope=\"col\">" + cell + "</th>" : "<td>" + cell + "</td>");
+    out += i == 0 ? "</tr></thead>\n<tbody>\n" : "</tr>\n";
+  }
+  return out + "</tbody></table></div>\n";
+}
+
+std::string html_figure(const std::filesystem::path& file, std::string_view caption, std::string_view alternative,
+                        std::string_view plot) {
+  const char* kind = file.extension() == ".svg" ? "image/svg+xml" : "image/png";
+  return fmt::format("<figure{}><img src=\"data:{};base64,{}\" alt=\"{}\">{}<figcaption>{}</figcaption></figure>\n",
+                     plot.empty() ? "" : " class=\"plot\"", kind, base64(read_file(file)), escape_html(alternative),
+                     plot.empty() ? "" : fmt::format("<script type=\"application/json\">{}</script>", plot), caption);
+}
+
+std::string script_json(std::string text) {
+  for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at))
+    text.replace(at, 1, "\\u003c");
+  return text;
+}
+
+std::string html_page(std::string_view title, std::string_view body, std::string_view script) {
+  std::string scripts;
+  if (body.find("<script type=\"application/json\"") != std::string_view::npos) {
+    scripts = fmt::format(
+        "<script type=\"text/plain\" id=\"plotly\">{}</script>\n<script>\n{}</script>\n<script>\n{}</script>\n",
+        plotly_gzip(), page_script(), script);
+  }
+  return fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<link rel=\"icon\" "
+      "href=\"data:,\">\n<title>{}</title>\n<style>{}</style>\n</head>\n<body>\n<main>\n{}</main>\n{}</body>\n</"
+      "html>\n",
+      escape_html(title), page_style(), body, scripts);
+}
+
+}  // namespace seaglint

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/report/explorer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <tuple>
+#include <unordered_map>
+
+#include "tools/page/html.h"
+#include "tools/page/live_plot.h"
+
+namespace seaglint {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr int kColumnDigits = 12;           // binary digits of a real column: 1.2e-4 relative
+constexpr double kLargestExact = 16777216;  // integers up to here are exact in single precision
+
+// A column's numbers; empty for texts, and for keys beyond single precision.
+std::vector<double> numbers_of(const SampleColumn& column, std::span<const SampleRecord> records) {
+  std::vector<double> values;
+  values.reserve(records.size());
+  const auto* integer = std::get_if<std::int64_t SampleRecord::*>(&column.member);
+  const auto* real = std::get_if<double SampleRecord::*>(&column.member);
+  if (integer == nullptr && real == nullptr) return {};
+  for (const SampleRecord& record : records) {
+    values.push_back(real != nullptr ? record.*(*real) : static_cast<double>(record.*(*integer)));
+    if (integer != nullptr && std::abs(values.back()) > kLargestExact) return {};
+  }
+  return values;
+}
+
+bool is_feature(std::string_view name) {
+  constexpr std::string_view kFeatures[] = {"mwr", "ccf", "sigma_r_m", "sigma_v_mps", "centres"};
+  return std::ranges::find(kFeatures, name) != std::end(kFeatures);
+}
+
+// Values that identify a state (label, wave height, angles) are kept to single precision.
+int digits_of(const SampleColumn& column) {
+  return is_feature(column.name) || std::string_view(column.name).starts_with("scr") ||
+                 std::string_view(column.name).starts_with("snr")
+             ? kColumnDigits
+             : 24;
+}
+
+ordered_json columns_of(std::span<const SampleRecord> records) {
+  ordered_json list = ordered_json::array();
+  for (const SampleColumn& column : sample_columns()) {
+    const std::vector<double> values = numbers_of(column, records);
+    if (values.empty()) continue;
+    const auto [low, high] = std::ranges::minmax(values);
+    list.push_back({{"name", column.name},
+                    {"unit", column.unit},
+                    {"feature", is_feature(column.name)},
+                    {"varies", low < high},
+                    {"packed", packed_floats(values, digits_of(column))}});
+  }
+  return list;
+}
+
+}  // namespace
+
+ReducedAxis reduced_axis(std::span<const double> cells, std::size_t at_most) {
+  const std::size_t together = std::max<std::size_t>(1, (cells.size() + at_most - 1) / at_most);
+  const double step = cells.size() > 1 ? cells[1] - cells[0] : 1;
+  return {cells.front() + step * static_cast<double>(together - 1) / 2, step * static_cast<double>(together),
+          (cells.size() + together - 1) / together, together};
+}
+
+ExplorerMap explorer_map(const Sample& sample, const StoredAxes& axes) {
+  const ReducedAxis velocity = reduced_axis(axes.velocity_mps, kExplorerCells[0]),
+                    range = reduced_axis(axes.range_m, kExplorerCells[1]);
+  const double peak = sample.magnitude.empty() ? 0.0 : *std::ranges::max_element(sample.magnitude);
+  const auto decibels = [&](double value) {
+    return value > 0 && peak > 0 ? std::max(kExplorerFloorDb, 20 * std::log10(value / peak)) : kExplorerFloorDb;
+  };
+  std::vector<std::uint8_t> levels(velocity.count * range.count, 0);
+  for (std::size_t i = 0; i < sample.magnitude.size(); ++i) {
+    const std::size_t v = i / axes.range_m.size() / velocity.cells, r = i % axes.range_m.size() / range.cells;
+    const auto level = static_cast<std::uint8_t>(std::lround(decibels(sample.magnitude[i]) - kExplorerFloorDb));
+    std::uint8_t& cell = levels[v * range.count + r];
+    cell = std::max(cell, level);
+  }
+  ExplorerMap map{sample.record.sample, packed(levels), sample.centre_list};
+  for (StoredCentre& centre : map.centres) centre[2] = static_cast<float>(decibels(centre[2]));
+  return map;
+}
+
+std::vector<std::size_t> explorer_order(std::span<const SampleRecord> records) {
+  using State = std::tuple<std::int64_t, std::int64_t, std::int64_t>;
+  std::map<State, int> seen;
+  std::vector<std::pair<int, std::size_t>> order;
+  for (std::size_t i = 0; i < records.size(); ++i)
+    order.emplace_back(seen[{records[i].target, records[i].view, records[i].sea_state}]++, i);
+  std::ranges::sort(order);
+  std::vector<std::size_t> rows;
+  for (const auto& [turn, row] : order) rows.push_back(row);
+  return rows;
+}
+
+std::string explorer_json(std::span<const SampleRecord> records, const std::vector<ExplorerMap>& maps,
+                          const StoredAxes& axes, double azimuth_deg, double wave_height_m) {
+  ordered_json json;
+  std::map<std::int64_t, std::string> names;
+  for (const SampleRecord& record : records) names[record.target] = record.target_name;
+  json["targets"] = ordered_json::object();
+  for (const auto& [target, name] : names) json["targets"][std::to_string(target)] = name;
+  for (const auto& [name, axis] : {std::pair{"range", reduced_axis(axes.range_m, kExplorerCells[1])},
+                                   {"velocity", reduced_axis(axes.velocity_mps, kExplorerCells[0])}})
+    json[name] = {{"first", axis.first}, {"step", axis.step}, {"count", axis.count}, {"cells", axis.cells}};
+  json["floor_db"] = kExplorerFloorDb;
+  json["step_db"] = 1;
+  json["azimuth_deg"] = azimuth_deg;
+  json["wave_height_m"] = wave_height_m;
+  json["others"] = "the shards in data/ have it: seaglint regenerate data --sample K";
+  json["columns"] = columns_of(records);
+  json["maps"] = ordered_json::array();
+  std::unordered_map<std::int64_t, const ExplorerMap*> of_sample;
+  for (const ExplorerMap& map : maps) of_sample[map.sample] = &map;
+  std::size_t bytes = 0;
+  for (const std::size_t row : explorer_order(records)) {
+    const auto found = of_sample.find(records[row].sample);
+    if (found == of_sample.end()) continue;
+    bytes += found->second->packed.size();
+    if (bytes > kExplorerBytes) break;
+    ordered_json centres = ordered_json::array();
+    for (const StoredCentre& c : found->second->centres)
+      centres.push_back({std::round(100 * c[0]) / 100, std::round(1000 * c[1]) / 1000, std::round(10 * c[2]) / 10});
+    json["maps"].push_back({{"row", row}, {"packed", found->second->packed}, {"centres", centres}});
+  }
+  return script_json(json.dump());
+}
+
+}  // namespace seaglint
