@@ -20,6 +20,7 @@
 #include "tools/compare/range_profiles.h"
 #include "tools/figure/figure.h"
 #include "tools/options/rcs_arguments.h"
+#include "tools/page/live_plot.h"
 #include "tools/pipeline/output_files.h"
 #include "tools/pipeline/warnings.h"
 #include "tools/rcs/sweep_files.h"
@@ -79,6 +80,20 @@ Counterpart counterpart_of(const CompareArguments& arguments, const std::vector<
   return counterpart;
 }
 
+// Writes NAME.png and NAME.svg; `live` receives the same for the page's script where it does not make the page large.
+std::filesystem::path draw_panels(const PlotPanels& panels, const std::string& title,
+                                  const std::filesystem::path& directory, const std::string& name, std::string& live) {
+  constexpr std::size_t kMostLivePoints = 50'000;  // about 1 MB
+  if (panels.plots.empty()) return {};
+  for (const char* kind : {".png", ".svg"}) write_figure(title, panels, directory / (name + kind));
+  std::size_t points = 0;
+  for (const LinePlot& plot : panels.plots) {
+    for (const Series& series : plot.series) points += series.x.size();
+  }
+  if (points <= kMostLivePoints) live = live_plot(panels.plots, panels.columns);
+  return directory / (name + ".png");
+}
+
 // Curves and range profiles, as far as the cuts have them.
 ComparisonFigures draw(const std::vector<ExportComparison>& comparisons, const ComparisonSettings& settings,
                        const std::filesystem::path& directory) {
@@ -88,14 +103,9 @@ ComparisonFigures draw(const std::vector<ExportComparison>& comparisons, const C
   const std::string title =
       fmt::format("{} against {}, seaglint {}", comparisons.front().name, comparisons.front().compared, kVersion);
   ComparisonFigures figures;
-  if (draw_comparison(cuts, settings.floor_db, title, directory / "compare.png")) {
-    draw_comparison(cuts, settings.floor_db, title, directory / "compare.svg");
-    figures.curves = directory / "compare.png";
-  }
-  if (draw_range_profiles(cuts, title, directory / "range_profiles.png")) {
-    draw_range_profiles(cuts, title, directory / "range_profiles.svg");
-    figures.profiles = directory / "range_profiles.png";
-  }
+  figures.curves =
+      draw_panels(comparison_plots(cuts, settings.floor_db), title, directory, "compare", figures.live_curves);
+  figures.profiles = draw_panels(range_profile_plots(cuts), title, directory, "range_profiles", figures.live_profiles);
   return figures;
 }
 

@@ -14,6 +14,7 @@ namespace seaglint {
 // The figures that exist are embedded: curves with their differences, range profiles.
 struct ComparisonFigures {
   std::filesystem::path curves, profiles;  // empty: none
+  std::string live_curves, live_profiles;  // the same for a browser (live_plot.h); empty: the pictures alone
 };
 
 std::string comparison_page(const std::vector<ExportComparison>& comparisons, const ComparisonSettings& settings,

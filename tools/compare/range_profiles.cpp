@@ -38,7 +38,7 @@ RangeProfile range_profile(std::span<const PairedCut::Place> places, std::span<c
   return profile;
 }
 
-bool draw_range_profiles(std::span<const PairedCut> cuts, const std::string& title, const std::filesystem::path& file) {
+PlotPanels range_profile_plots(std::span<const PairedCut> cuts) {
   constexpr std::size_t kMostPlots = 4;
   constexpr double kDynamic_db = 60;
   std::vector<LinePlot> plots;
@@ -60,10 +60,9 @@ bool draw_range_profiles(std::span<const PairedCut> cuts, const std::string& tit
                    {cut.models[0].name, compared.range_m, compared.level_dbsm, {}, SeriesStyle::kLines}};
     plots.push_back(std::move(plot));
   }
-  if (plots.empty()) return false;
+  if (plots.empty()) return {};
   const int columns = plots.size() == 1 ? 1 : 2, rows = (static_cast<int>(plots.size()) + columns - 1) / columns;
-  write_figure(title, plots, columns, file, {columns == 1 ? 900 : 1500, 450 * rows});
-  return true;
+  return {std::move(plots), columns, {columns == 1 ? 900 : 1500, 450 * rows}};
 }
 
 }  // namespace seaglint

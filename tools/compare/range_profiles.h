@@ -3,11 +3,10 @@
 
 // Range profiles of amplitudes over frequency, side by side.
 
-#include <filesystem>
 #include <span>
-#include <string>
 #include <vector>
 
+#include "tools/figure/figure.h"
 #include "tools/rcs/paired_cut.h"
 
 namespace seaglint {
@@ -22,8 +21,7 @@ struct RangeProfile {
 // resolution cell. At least 8 uniform steps of frequency (within a hundredth of a step), else empty.
 RangeProfile range_profile(std::span<const PairedCut::Place> places, std::span<const Complex> amplitude_m);
 
-// Draws those of export and compared values for the first four cuts over frequency that have phases; false if none
-// does.
-bool draw_range_profiles(std::span<const PairedCut> cuts, const std::string& title, const std::filesystem::path& file);
+// Those of export and compared values for the first four cuts over frequency that have phases; empty if none does.
+PlotPanels range_profile_plots(std::span<const PairedCut> cuts);
 
 }  // namespace seaglint

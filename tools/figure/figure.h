@@ -57,6 +57,13 @@ struct FigureSize {
   int height = 560;
 };
 
+// Several plots of one figure, in rows of `columns`; none: there is nothing to draw.
+struct PlotPanels {
+  std::vector<LinePlot> plots;
+  int columns = 1;
+  FigureSize size;
+};
+
 // Throws WorkError where gnuplot is missing, as write_figure() would, so that it is reported before any work.
 void require_gnuplot();
 
@@ -74,5 +81,8 @@ void write_figure(const LinePlot& figure, const std::filesystem::path& file, Fig
 // Several plots in one figure, in rows of `columns` with aligned frames, below a common `title`.
 void write_figure(const std::string& title, std::span<const LinePlot> plots, int columns,
                   const std::filesystem::path& file, FigureSize size = {});
+inline void write_figure(const std::string& title, const PlotPanels& panels, const std::filesystem::path& file) {
+  write_figure(title, panels.plots, panels.columns, file, panels.size);
+}
 
 }  // namespace seaglint

@@ -30,10 +30,14 @@ const seaglint = (() => {
     return settings;
   }
 
-  function traces(panel, suffix, index) {
-    return panel.series.flatMap((series, i) => {
+  // `names`: of the series so far; a name has one colour, and one entry in the legend, in all panels.
+  function traces(panel, suffix, names) {
+    return panel.series.flatMap((series) => {
+      const first = !names.includes(series.name);
+      if (first) names.push(series.name);
+      const i = names.indexOf(series.name);
       const colour = COLOURS[i % COLOURS.length];
-      const trace = { x: series.x, y: series.y, name: series.name, legendgroup: series.name, showlegend: index === 0 && series.name !== "", type: series.x.length > 2000 ? "scattergl" : "scatter",
+      const trace = { x: series.x, y: series.y, name: series.name, legendgroup: series.name, showlegend: first && series.name !== "", type: series.x.length > 2000 ? "scattergl" : "scatter",
         xaxis: "x" + suffix, yaxis: "y" + suffix, mode: { lines: "lines", points: "markers", linespoints: "lines+markers", band: "lines" }[series.style],
         line: { color: colour, width: 1.6, dash: ["solid", "dash", "dot"][i % 3] }, marker: { color: colour, symbol: SYMBOLS[i % SYMBOLS.length], size: 6, opacity: 0.75 } };
       if (!series.low) return [trace];
@@ -49,16 +53,16 @@ const seaglint = (() => {
   // The figure of a live_plot(): panels in rows of `columns`.
   function figure(plot) {
     const rows = Math.ceil(plot.panels.length / plot.columns);
-    const layout = { template: "none", font: { size: 12 }, margin: { l: 64, r: 16, t: 34, b: 52 }, hovermode: "closest", legend: { orientation: "h", y: -0.16 / rows }, annotations: [], height: 400 * rows };
-    const data = [];
+    const layout = { template: "none", font: { size: 12 }, margin: { l: 64, r: 16, t: 34, b: 52 }, hovermode: "closest", legend: { orientation: "h", yanchor: "top", y: -50 / (400 * rows - 86) }, annotations: [], height: 400 * rows };
+    const data = [], names = [];
     plot.panels.forEach((panel, i) => {
       const suffix = i === 0 ? "" : String(i + 1), column = i % plot.columns, row = Math.floor(i / plot.columns);
-      const across = [(column + (column ? 0.08 : 0)) / plot.columns, (column + 1) / plot.columns];
+      const across = [(column + (column ? 0.2 : 0)) / plot.columns, (column + 1) / plot.columns];
       const upward = [(rows - row - 1 + (rows > 1 ? 0.14 : 0)) / rows, (rows - row - (rows > 1 ? 0.08 : 0)) / rows];
       layout["xaxis" + suffix] = axis(panel.x, { domain: across, anchor: "y" + suffix });
       layout["yaxis" + suffix] = axis(panel.y, { domain: upward, anchor: "x" + suffix, ...(panel.equal ? { scaleanchor: "x" + suffix } : {}) });
       layout.annotations.push({ text: panel.title, showarrow: false, xref: "paper", yref: "paper", x: across[0], y: upward[1], xanchor: "left", yanchor: "bottom", font: { size: 13 } });
-      data.push(...traces(panel, suffix, i));
+      data.push(...traces(panel, suffix, names));
     });
     return { data, layout };
   }

@@ -120,9 +120,8 @@ std::string error_table(const std::vector<PairedCut>& cuts, double floor_db) {
   return text;
 }
 
-bool draw_comparison(const std::vector<PairedCut>& cuts, double floor_db, const std::string& title,
-                     const std::filesystem::path& file) {
-  if (cuts.empty() || cuts.front().axis == CutAxis::kSeveral || cuts.front().x.size() < 2) return false;
+PlotPanels comparison_plots(const std::vector<PairedCut>& cuts, double floor_db) {
+  if (cuts.empty() || cuts.front().axis == CutAxis::kSeveral || cuts.front().x.size() < 2) return {};
   // Cuts of one frequency and polarisation share a column.
   constexpr std::size_t kMaxColumns = 4;
   std::vector<std::vector<const PairedCut*>> columns;
@@ -208,8 +207,16 @@ bool draw_comparison(const std::vector<PairedCut>& cuts, double floor_db, const 
     }
   }
   const int blocks = static_cast<int>((count + abreast - 1) / abreast);
-  write_figure(title, plots, static_cast<int>(abreast), file,
-               {abreast == 1 ? 900 : static_cast<int>(750 * abreast), 860 * blocks});
+  return {std::move(plots),
+          static_cast<int>(abreast),
+          {abreast == 1 ? 900 : static_cast<int>(750 * abreast), 860 * blocks}};
+}
+
+bool draw_comparison(const std::vector<PairedCut>& cuts, double floor_db, const std::string& title,
+                     const std::filesystem::path& file) {
+  const PlotPanels panels = comparison_plots(cuts, floor_db);
+  if (panels.plots.empty()) return false;
+  write_figure(title, panels, file);
   return true;
 }
 

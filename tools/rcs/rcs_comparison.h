@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/figure/figure.h"
 #include "tools/rcs/paired_cut.h"
 
 namespace seaglint {
@@ -43,8 +44,11 @@ Difference error_statistics(const PairedCut& cut, const PairedCut::Model& model,
 // Text table with one line per cut and model.
 std::string error_table(const std::vector<PairedCut>& cuts, double floor_db);
 
-// Draws levels above and differences below, one column per frequency and polarisation, at most four; the area between
-// the last model and flat facets is filled. False if no cut has an axis to draw along.
+// Levels above and differences below, one column per frequency and polarisation, at most four; the area between the
+// last model and flat facets is filled. Empty if no cut has an axis to draw along.
+PlotPanels comparison_plots(const std::vector<PairedCut>& cuts, double floor_db);
+
+// Draws them; false if there are none.
 bool draw_comparison(const std::vector<PairedCut>& cuts, double floor_db, const std::string& title,
                      const std::filesystem::path& file);
 

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""report_page_test.py SEAGLINT SOURCE: the report of a small run in headless Chromium, from a file and without a network,
-by what it shows after clicks and keys. Exit code 77: a package of Debian is missing."""
+"""pages_test.py SEAGLINT SOURCE: the report of a small run and a comparison in headless Chromium, from files and without a
+network, by what they show after clicks and keys. Exit code 77: a package of Debian is missing."""
 import pathlib
 import subprocess
 import sys
@@ -79,6 +79,21 @@ def check_still(page):
         assert not driver.find_elements(By.CSS_SELECTOR, ".drawn")
 
 
+def check_comparison(seaglint, source, folder):
+    from selenium.webdriver.common.by import By
+    run = lambda *arguments: subprocess.run([seaglint, *arguments], check=True, stdout=subprocess.DEVNULL)
+    target = ("--target", f"{source}/assets/icosahedral_reflector.glb")
+    run("rcs", *target, "--frequency-ghz", "9:9.2:0.02", "--azimuth-deg", "10", "--elevation-deg", "2", "--export-as", "feko", "-o", folder / "a.csv")
+    run("compare", folder / "a_h.ffe", *target, "--incidence", "monostatic", "-o", folder / "compared")
+    with browser() as driver:
+        driver.get((folder / "compared/compare.html").as_uri())
+        drawn = lambda: driver.find_elements(By.CSS_SELECTOR, "figure.drawn .live .scatterlayer")
+        wait(lambda: len(drawn()) >= 1, "curves of both")
+        series = driver.execute_script("return document.querySelector('figure.drawn .live').data.map((t) => [t.name, t.x.length])")
+        assert ["a_h.ffe", 11] in series, series
+        assert not [entry for entry in driver.get_log("browser") if entry["level"] == "SEVERE"]
+
+
 def main(seaglint, source, picture=None):
     try:
         import selenium  # noqa: F401
@@ -95,6 +110,7 @@ def main(seaglint, source, picture=None):
         assert page.stat().st_size < 5e6
         check_live(page, picture)
         check_still(page)
+        check_comparison(seaglint, source, pathlib.Path(folder))
     return 0
 
 
