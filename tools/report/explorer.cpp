@@ -38,12 +38,11 @@ bool is_feature(std::string_view name) {
   return std::ranges::find(kFeatures, name) != std::end(kFeatures);
 }
 
-// Values that identify a state (label, wave height, angles) are kept to single precision.
+// Integers, and the values by which states are chosen, have the digits of single precision.
 int digits_of(const SampleColumn& column) {
-  return is_feature(column.name) || std::string_view(column.name).starts_with("scr") ||
-                 std::string_view(column.name).starts_with("snr")
-             ? kColumnDigits
-             : 24;
+  constexpr std::string_view kChosen[] = {"significant_wave_height_m", "azimuth_deg", "elevation_deg"};
+  const bool integer = std::holds_alternative<std::int64_t SampleRecord::*>(column.member);
+  return integer || std::ranges::find(kChosen, column.name) != std::end(kChosen) ? 24 : kColumnDigits;
 }
 
 ordered_json columns_of(std::span<const SampleRecord> records) {

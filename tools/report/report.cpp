@@ -80,13 +80,16 @@ std::string missing_input(const Scenario& scenario) {
   }
 }
 
+// Bytes of an SVG that the page contains; a scatter of thousands of points is larger, its PNG is not.
+constexpr std::uintmax_t kLargestSvg = 100'000;
+
 // The figures of a section, two per row. `still`: report.js draws something else in their place.
 std::string figures(const std::vector<ReportFigure>& all, const std::string& section, bool still = false) {
   std::string html;
   for (const ReportFigure& figure : all) {
-    if (figure.section == section)
-      html +=
-          html_figure(figure.svg.empty() ? figure.png : figure.svg, figure.caption, figure.alternative, figure.plot);
+    if (figure.section != section) continue;
+    const bool vector = !figure.svg.empty() && fs::file_size(figure.svg) <= kLargestSvg;
+    html += html_figure(vector ? figure.svg : figure.png, figure.caption, figure.alternative, figure.plot);
   }
   return html.empty() ? html : fmt::format("<div class=\"{}\">\n{}</div>\n", still ? "pair still" : "pair", html);
 }

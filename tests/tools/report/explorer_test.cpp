@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <random>
 
 #include "tools/page/live_plot.h"
 
@@ -78,6 +80,37 @@ TEST(Explorer, TakesTargetsAndColumnsFromTheRecordsAndOmitsKeysBeyondSinglePreci
   }
   EXPECT_TRUE(mwr);
   EXPECT_TRUE(nlohmann::json::parse(explorer_json(records, {too_large}, axes, 80, 1)).at("maps").empty());
+}
+
+// 10,200 samples whose columns are all different, and maps of noise, which no packing makes smaller.
+TEST(Explorer, OfTenThousandSamplesTakesLessThanHalfOfAPage) {
+  const StoredAxes axes{cells(256, -96, 0.75), cells(64, -4, 0.125)};
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> uniform;
+  std::vector<SampleRecord> records;
+  std::vector<ExplorerMap> maps;
+  for (std::int64_t i = 0; i < 10'200; ++i) {
+    SampleRecord r = record(i, i % 2, "target");
+    r.view = i / 2 % 17;
+    r.sea_state = i / 34 % 6;
+    r.realisation = i / 204;
+    for (double SampleRecord::*member :
+         {&SampleRecord::scr_per_pulse_db, &SampleRecord::scr_peak_cell_db, &SampleRecord::scr_extent_db,
+          &SampleRecord::snr_per_pulse_db, &SampleRecord::peak_m, &SampleRecord::energy_m2, &SampleRecord::mwr,
+          &SampleRecord::ccf, &SampleRecord::sigma_r_m, &SampleRecord::sigma_v_mps, &SampleRecord::start_s})
+      r.*member = uniform(random);
+    records.push_back(r);
+    if (i >= 400) continue;
+    Sample sample;
+    sample.record = r;
+    for (std::size_t n = 0; n < axes.cells(); ++n)
+      sample.magnitude.push_back(static_cast<float>(std::exp(-5 * uniform(random))));
+    sample.centre_list.assign(40, {1, 2, 0.5F});
+    maps.push_back(explorer_map(sample, axes));
+  }
+  const std::string text = explorer_json(records, maps, axes, 80, 1);
+  EXPECT_LT(text.size(), 1'500'000u);
+  EXPECT_GT(nlohmann::json::parse(text).at("maps").size(), 100u);
 }
 
 }  // namespace
