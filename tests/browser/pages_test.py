@@ -8,16 +8,19 @@ import sys
 import tempfile
 import time
 
+SMALL = ("--set", "learning.epochs=3")
+
 
 def browser(*preferences):
     from selenium import webdriver
+    from selenium.webdriver.chrome.service import Service
     options = webdriver.ChromeOptions()
     for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--window-size=1280,1600", "--host-resolver-rules=MAP * ~NOTFOUND"):
         options.add_argument(argument)
     for key, value in preferences:
         options.add_experimental_option(key, value)
     options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-    return webdriver.Chrome(service=__import__("selenium.webdriver.chrome.service", fromlist=["Service"]).Service("/usr/bin/chromedriver"), options=options)
+    return webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=options)
 
 
 def wait(condition, what, seconds=60):
@@ -27,7 +30,8 @@ def wait(condition, what, seconds=60):
         time.sleep(0.1)
 
 
-def check_live(page, picture):
+def check_report(page, picture):
+    from selenium.webdriver.common.action_chains import ActionChains
     from selenium.webdriver.common.by import By
     from selenium.webdriver.common.keys import Keys
     with browser() as driver:
@@ -37,7 +41,7 @@ def check_live(page, picture):
         driver.execute_script("document.getElementById('explorer').scrollIntoView()")
         wait(lambda: len(shown()) == 2, "one map of each target")
         before = shown()
-        assert not any(e.is_displayed() for e in find("#maps .still img")), "the pictures give way to the maps"
+        assert not any(e.is_displayed() for e in find("#maps .static img")), "the pictures give way to the maps"
         # The map of the page has its strongest cell at 0 dB and is as large as its axes.
         heat = driver.execute_script("const t = document.querySelector('#explorer [data-sample]').data[0]; return [Math.max(...t.z.flat()), t.z.length === t.y.length && t.z[0].length === t.x.length];")
         assert heat == [0, True], heat
@@ -53,25 +57,33 @@ def check_live(page, picture):
         wait(lambda: points() == 20, "a target that is switched off has no points")
         find("#scatter input[type=checkbox]")[1].click()
         wait(lambda: points() == 40, "and has them again")
-        # A click on a point, as plotly reports it, opens its map; so does the number of a sample.
-        driver.execute_script("document.querySelector('#scatter [data-points]').emit('plotly_click', {points: [{customdata: 5}]})")
+        # A click of the mouse on a point opens its map, or that of one within plotly's 20 pixels.
+        x, y, near = driver.execute_script("""const plot = document.querySelector('#scatter [data-points]'), { xaxis, yaxis } = plot._fullLayout, [a, b] = [plot.data[0].x[0], plot.data[0].y[0]];
+          const box = plot.getBoundingClientRect(), at = [xaxis._offset + xaxis.d2p(a), yaxis._offset + yaxis.d2p(b)];
+          return [at[0] - box.width / 2, at[1] - box.height / 2, plot.data.flatMap((t) => t.x.map((x, i) => [x, t.y[i], t.customdata[i]])).filter(([x, y]) => Math.hypot(xaxis.d2p(x) - xaxis.d2p(a), yaxis.d2p(y) - yaxis.d2p(b)) < 21).map((p) => String(p[2]))];""")
+        ActionChains(driver).move_to_element_with_offset(find("#scatter [data-points]")[0], x, y).pause(0.5).click().perform()
         chosen = lambda: [e.get_attribute("data-sample") for e in find(".chosen [data-sample]")]
-        wait(lambda: chosen() and find("#sample")[0].get_attribute("value") == chosen()[0] == "5", "a click opens a map")
-        find("#sample")[0].send_keys(Keys.BACKSPACE, "99", Keys.TAB)
+        wait(lambda: chosen() and find("#sample")[0].get_attribute("value") == chosen()[0], "a click opens a map")
+        assert chosen()[0] in near, (chosen(), near)
+        find("#sample")[0].clear()
+        find("#sample")[0].send_keys("99", Keys.TAB)
         wait(lambda: "no sample 99" in find(".chosen p")[0].text, "an unknown sample is named")
         driver.execute_script("document.getElementById('accuracy').scrollIntoView()")
-        wait(lambda: find("#accuracy figure.drawn .live .trace, #accuracy figure.drawn .live .scatterlayer"), "accuracy curves")
+        wait(lambda: find("#accuracy figure.drawn .interactive .trace, #accuracy figure.drawn .interactive .scatterlayer"), "accuracy curves")
         assert driver.execute_script("return document.documentElement.scrollWidth <= document.documentElement.clientWidth"), "nothing is wider than the window"
         errors = [entry for entry in driver.get_log("browser") if entry["level"] == "SEVERE"]
         assert not errors, errors
         seconds = driver.execute_script("const t = performance.getEntriesByType('navigation')[0]; return t.domContentLoadedEventEnd / 1000")
         print(f"{page.stat().st_size / 1e6:.2f} MB, document ready after {seconds:.2f} s")
+        driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
+        assert all(e.is_displayed() for e in find("figure img")) and not any(e.is_displayed() for e in find(".interactive")), "paper has the pictures"
+        driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
         if picture:
             driver.execute_script("window.scrollTo(0, 0)")
             driver.save_screenshot(picture)
 
 
-def check_still(page):
+def check_without_scripts(page):
     from selenium.webdriver.common.by import By
     with browser(("prefs", {"profile.managed_default_content_settings.javascript": 2})) as driver:
         driver.get(page.as_uri())
@@ -87,9 +99,9 @@ def check_comparison(seaglint, source, folder):
     run("compare", folder / "a_h.ffe", *target, "--incidence", "monostatic", "-o", folder / "compared")
     with browser() as driver:
         driver.get((folder / "compared/compare.html").as_uri())
-        drawn = lambda: driver.find_elements(By.CSS_SELECTOR, "figure.drawn .live .scatterlayer")
+        drawn = lambda: driver.find_elements(By.CSS_SELECTOR, "figure.drawn .interactive .scatterlayer")
         wait(lambda: len(drawn()) >= 1, "curves of both")
-        series = driver.execute_script("return document.querySelector('figure.drawn .live').data.map((t) => [t.name, t.x.length])")
+        series = driver.execute_script("return document.querySelector('figure.drawn .interactive').data.map((t) => [t.name, t.x.length])")
         assert ["a_h.ffe", 11] in series, series
         assert not [entry for entry in driver.get_log("browser") if entry["level"] == "SEVERE"]
 
@@ -108,11 +120,10 @@ def main(seaglint, source, picture=None):
         subprocess.run([seaglint, "run", f"{source}/scenarios/points.yaml", "-o", run, *SMALL], check=True, stdout=subprocess.DEVNULL)
         page = run / "report.html"
         assert page.stat().st_size < 5e6
-        check_live(page, picture)
-        check_still(page)
+        check_report(page, picture)
+        check_without_scripts(page)
         check_comparison(seaglint, source, pathlib.Path(folder))
     return 0
 
 
-SMALL = ["--set", "learning.epochs=3"]
 sys.exit(main(*sys.argv[1:]))

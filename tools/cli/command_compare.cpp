@@ -20,7 +20,7 @@
 #include "tools/compare/range_profiles.h"
 #include "tools/figure/figure.h"
 #include "tools/options/rcs_arguments.h"
-#include "tools/page/live_plot.h"
+#include "tools/page/plot_json.h"
 #include "tools/pipeline/output_files.h"
 #include "tools/pipeline/warnings.h"
 #include "tools/rcs/sweep_files.h"
@@ -80,18 +80,17 @@ Counterpart counterpart_of(const CompareArguments& arguments, const std::vector<
   return counterpart;
 }
 
-// Writes NAME.png and NAME.svg; `live` receives the same for the page's script where it does not make the page large.
-std::filesystem::path draw_panels(const PlotPanels& panels, const std::string& title,
-                                  const std::filesystem::path& directory, const std::string& name, std::string& live) {
-  constexpr std::size_t kMostLivePoints = 50'000;  // about 1 MB
+// Writes NAME.png and NAME.svg; has the same for the page's script where it does not make the page large.
+ComparisonFigure draw_panels(const PlotPanels& panels, const std::string& title, const std::filesystem::path& directory,
+                             const std::string& name) {
+  constexpr std::size_t kMostPoints = 50'000;  // about 1 MB
   if (panels.plots.empty()) return {};
   for (const char* kind : {".png", ".svg"}) write_figure(title, panels, directory / (name + kind));
   std::size_t points = 0;
   for (const LinePlot& plot : panels.plots) {
     for (const Series& series : plot.series) points += series.x.size();
   }
-  if (points <= kMostLivePoints) live = live_plot(panels.plots, panels.columns);
-  return directory / (name + ".png");
+  return {directory / (name + ".png"), points <= kMostPoints ? plot_json(panels.plots, panels.columns) : std::string()};
 }
 
 // Curves and range profiles, as far as the cuts have them.
@@ -102,11 +101,8 @@ ComparisonFigures draw(const std::vector<ExportComparison>& comparisons, const C
     cuts.insert(cuts.end(), comparison.cuts.begin(), comparison.cuts.end());
   const std::string title =
       fmt::format("{} against {}, seaglint {}", comparisons.front().name, comparisons.front().compared, kVersion);
-  ComparisonFigures figures;
-  figures.curves =
-      draw_panels(comparison_plots(cuts, settings.floor_db), title, directory, "compare", figures.live_curves);
-  figures.profiles = draw_panels(range_profile_plots(cuts), title, directory, "range_profiles", figures.live_profiles);
-  return figures;
+  return {draw_panels(comparison_plots(cuts, settings.floor_db), title, directory, "compare"),
+          draw_panels(range_profile_plots(cuts), title, directory, "range_profiles")};
 }
 
 // Why a comparison is not good enough, a sentence each.

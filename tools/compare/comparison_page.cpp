@@ -121,16 +121,16 @@ std::string comparison_page(const std::vector<ExportComparison>& comparisons, co
       escape_html(title), settings.floor_db,
       settings.interpolation_radius_m ? "The compared values are interpolated." : "Nothing is interpolated.");
   body += "<h2>Differences</h2>\n" + differences(comparisons) + warnings(comparisons);
-  if (!figures.curves.empty())
-    body += html_figure(figures.curves, "Levels above, differences below; at most four cuts.", "curves of both",
-                        figures.live_curves);
+  if (!figures.curves.file.empty())
+    body += html_figure(figures.curves.file, "Levels above, differences below; at most four cuts.", "curves of both",
+                        figures.curves.plot);
   body += lobes_and_nulls(comparisons);
   body += "<h2>Phase</h2>\n" + fits(comparisons);
-  if (!figures.profiles.empty())
-    body +=
-        "<h2>Range profiles</h2>\n" +
-        html_figure(figures.profiles, "Hann's window over all frequencies of a direction; a point has its own level.",
-                    "range profiles of both", figures.live_profiles);
+  if (!figures.profiles.file.empty())
+    body += "<h2>Range profiles</h2>\n" +
+            html_figure(figures.profiles.file,
+                        "Hann's window over all frequencies of a direction; a point has its own level.",
+                        "range profiles of both", figures.profiles.plot);
   body += "<h2>Largest differences</h2>\n" + worst(comparisons);
   body += "<h2>How the files were read</h2>\n" + readings(comparisons);
   body += fmt::format(

@@ -11,10 +11,14 @@
 
 namespace seaglint {
 
+struct ComparisonFigure {
+  std::filesystem::path file;  // empty: none
+  std::string plot;            // the same for the page's script (plot_json.h); empty: the picture alone
+};
+
 // The figures that exist are embedded: curves with their differences, range profiles.
 struct ComparisonFigures {
-  std::filesystem::path curves, profiles;  // empty: none
-  std::string live_curves, live_profiles;  // the same for a browser (live_plot.h); empty: the pictures alone
+  ComparisonFigure curves, profiles;
 };
 
 std::string comparison_page(const std::vector<ExportComparison>& comparisons, const ComparisonSettings& settings,

@@ -17,7 +17,7 @@ std::string base64(std::string_view bytes);  // RFC 4648, section 4
 std::string html_table(const std::vector<std::vector<std::string>>& rows, bool numbers = true);
 
 // A .png or .svg file as an embedded picture with its caption (HTML) below; `alternative` is the text for screen
-// readers. `plot` (live_plot.h), unless empty, is drawn in its place where scripts run, except in print.
+// readers. `plot` (plot_json.h), unless empty, is drawn in its place where scripts run, except in print.
 std::string html_figure(const std::filesystem::path& file, std::string_view caption, std::string_view alternative,
                         std::string_view plot = {});
 

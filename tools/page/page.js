@@ -50,7 +50,7 @@ const seaglint = (() => {
     });
   }
 
-  // The figure of a live_plot(): panels in rows of `columns`.
+  // The figure of a plot_json(): panels in rows of `columns`.
   function figure(plot) {
     const rows = Math.ceil(plot.panels.length / plot.columns);
     const layout = { template: "none", font: { size: 12 }, margin: { l: 64, r: 16, t: 34, b: 52 }, hovermode: "closest", legend: { orientation: "h", yanchor: "top", y: -50 / (400 * rows - 86) }, annotations: [], height: 400 * rows };
@@ -72,7 +72,7 @@ const seaglint = (() => {
   async function draw(element) {
     const { data, layout } = figure(JSON.parse(element.querySelector("script").textContent));
     const place = document.createElement("div");
-    place.className = "live";
+    place.className = "interactive";
     place.setAttribute("role", "img");
     place.setAttribute("aria-label", element.querySelector("img").alt);
     const library = await plotly();

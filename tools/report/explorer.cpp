@@ -3,13 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <tuple>
 #include <unordered_map>
 
 #include "tools/page/html.h"
-#include "tools/page/live_plot.h"
+#include "tools/page/plot_json.h"
 
 namespace seaglint {
 namespace {
@@ -50,7 +51,12 @@ ordered_json columns_of(std::span<const SampleRecord> records) {
   for (const SampleColumn& column : sample_columns()) {
     const std::vector<double> values = numbers_of(column, records);
     if (values.empty()) continue;
-    const auto [low, high] = std::ranges::minmax(values);
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const double value : values) {
+      if (std::isnan(value)) continue;
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
     list.push_back({{"name", column.name},
                     {"unit", column.unit},
                     {"feature", is_feature(column.name)},
@@ -74,12 +80,12 @@ ExplorerMap explorer_map(const Sample& sample, const StoredAxes& axes) {
                     range = reduced_axis(axes.range_m, kExplorerCells[1]);
   const double peak = sample.magnitude.empty() ? 0.0 : *std::ranges::max_element(sample.magnitude);
   const auto decibels = [&](double value) {
-    return value > 0 && peak > 0 ? std::max(kExplorerFloorDb, 20 * std::log10(value / peak)) : kExplorerFloorDb;
+    return value > 0 && peak > 0 ? std::max(kMapFloorDb, 20 * std::log10(value / peak)) : kMapFloorDb;
   };
   std::vector<std::uint8_t> levels(velocity.count * range.count, 0);
   for (std::size_t i = 0; i < sample.magnitude.size(); ++i) {
     const std::size_t v = i / axes.range_m.size() / velocity.cells, r = i % axes.range_m.size() / range.cells;
-    const auto level = static_cast<std::uint8_t>(std::lround(decibels(sample.magnitude[i]) - kExplorerFloorDb));
+    const auto level = static_cast<std::uint8_t>(std::lround(decibels(sample.magnitude[i]) - kMapFloorDb));
     std::uint8_t& cell = levels[v * range.count + r];
     cell = std::max(cell, level);
   }
@@ -110,11 +116,10 @@ std::string explorer_json(std::span<const SampleRecord> records, const std::vect
   for (const auto& [name, axis] : {std::pair{"range", reduced_axis(axes.range_m, kExplorerCells[1])},
                                    {"velocity", reduced_axis(axes.velocity_mps, kExplorerCells[0])}})
     json[name] = {{"first", axis.first}, {"step", axis.step}, {"count", axis.count}, {"cells", axis.cells}};
-  json["floor_db"] = kExplorerFloorDb;
+  json["floor_db"] = kMapFloorDb;
   json["step_db"] = 1;
   json["azimuth_deg"] = azimuth_deg;
   json["wave_height_m"] = wave_height_m;
-  json["others"] = "the shards in data/ have it: seaglint regenerate data --sample K";
   json["columns"] = columns_of(records);
   json["maps"] = ordered_json::array();
   std::unordered_map<std::int64_t, const ExplorerMap*> of_sample;
@@ -123,11 +128,11 @@ std::string explorer_json(std::span<const SampleRecord> records, const std::vect
   for (const std::size_t row : explorer_order(records)) {
     const auto found = of_sample.find(records[row].sample);
     if (found == of_sample.end()) continue;
-    bytes += found->second->packed.size();
-    if (bytes > kExplorerBytes) break;
     ordered_json centres = ordered_json::array();
     for (const StoredCentre& c : found->second->centres)
       centres.push_back({std::round(100 * c[0]) / 100, std::round(1000 * c[1]) / 1000, std::round(10 * c[2]) / 10});
+    bytes += found->second->packed.size() + centres.dump().size();
+    if (bytes > kExplorerBytes) break;
     json["maps"].push_back({{"row", row}, {"packed", found->second->packed}, {"centres", centres}});
   }
   return script_json(json.dump());

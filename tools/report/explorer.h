@@ -12,14 +12,14 @@
 
 namespace seaglint {
 
-inline constexpr double kExplorerFloorDb = -45;              // of a map, relative to its strongest cell
-inline constexpr std::size_t kExplorerBytes = 850'000;       // of all packed maps
+inline constexpr double kMapFloorDb = -45;                   // of a map, relative to its strongest cell
+inline constexpr std::size_t kExplorerBytes = 820'000;       // of all packed maps with their centres
 inline constexpr std::size_t kExplorerCells[2] = {64, 128};  // velocity, range; larger maps are reduced to these
 
 // A map reduced to whole decibels.
 struct ExplorerMap {
   std::int64_t sample = 0;
-  std::string packed;                 // one byte a cell, 0 = kExplorerFloorDb or below, [velocity][range] (live_plot.h)
+  std::string packed;                 // one byte a cell, 0 = kMapFloorDb or below, [velocity][range] (plot_json.h)
   std::vector<StoredCentre> centres;  // third member in dB relative to the strongest cell
 };
 

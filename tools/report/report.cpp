@@ -80,18 +80,20 @@ std::string missing_input(const Scenario& scenario) {
   }
 }
 
-// Bytes of an SVG that the page contains; a scatter of thousands of points is larger, its PNG is not.
-constexpr std::uintmax_t kLargestSvg = 100'000;
+// The smaller of a figure's files: the SVG, except for a scatter of many points.
+const fs::path& smaller_file(const ReportFigure& figure) {
+  const bool svg = !figure.svg.empty() && fs::file_size(figure.svg) <= fs::file_size(figure.png);
+  return svg ? figure.svg : figure.png;
+}
 
-// The figures of a section, two per row. `still`: report.js draws something else in their place.
-std::string figures(const std::vector<ReportFigure>& all, const std::string& section, bool still = false) {
+// The figures of a section, two per row. `replaced`: report.js draws something else in their place.
+std::string figures(const std::vector<ReportFigure>& all, const std::string& section, bool replaced = false) {
   std::string html;
   for (const ReportFigure& figure : all) {
     if (figure.section != section) continue;
-    const bool vector = !figure.svg.empty() && fs::file_size(figure.svg) <= kLargestSvg;
-    html += html_figure(vector ? figure.svg : figure.png, figure.caption, figure.alternative, figure.plot);
+    html += html_figure(smaller_file(figure), figure.caption, figure.alternative, figure.plot);
   }
-  return html.empty() ? html : fmt::format("<div class=\"{}\">\n{}</div>\n", still ? "pair still" : "pair", html);
+  return html.empty() ? html : fmt::format("<div class=\"{}\">\n{}</div>\n", replaced ? "pair static" : "pair", html);
 }
 
 std::string section(const char* id, const char* title, const std::string& content) {

@@ -38,8 +38,10 @@
 
   // A map with its scattering centres; the readout is in the units of the axes.
   async function drawMap(place, row) {
+    place.dataset.wanted = row;  // by the last of several choices, which may arrive while an earlier one is unpacked
     const { range, velocity } = set;
     const levels = new Uint8Array(await seaglint.inflate(mapOf.get(row).packed));
+    if (place.dataset.wanted !== String(row)) return;
     const at = (axis, i) => axis.first + axis.step * i;
     const z = [];
     for (let v = 0; v < velocity.count; ++v) z.push(Array.from(levels.subarray(v * range.count, (v + 1) * range.count), (level) => set.floor_db + level * set.step_db));
@@ -47,7 +49,7 @@
     const heat = { type: "heatmap", z, x: Array.from({ length: range.count }, (_, i) => at(range, i)), y: Array.from({ length: velocity.count }, (_, i) => at(velocity, i)), zmin: set.floor_db, zmax: 0,
       colorscale: "Cividis", colorbar: { title: { text: "dB", side: "right" }, thickness: 12 }, hovertemplate: "range %{x:.2f} m<br>velocity %{y:.3f} m/s<br>%{z:.0f} dB<extra></extra>" };
     const points = { type: "scatter", mode: "markers", name: "scattering centres", x: centres.map((c) => c[0]), y: centres.map((c) => c[1]), text: centres.map((c) => short(c[2])),
-      marker: { symbol: "circle-open", size: 9, color: "#fff", line: { width: 1.5 } }, hovertemplate: "centre: range %{x:.2f} m<br>velocity %{y:.3f} m/s<br>%{text} dB below the strongest cell<extra></extra>" };
+      marker: { symbol: "circle-open", size: 9, color: "#fff", line: { width: 1.5 } }, hovertemplate: "centre: range %{x:.2f} m<br>velocity %{y:.3f} m/s<br>%{text} dB relative to the strongest cell<extra></extra>" };
     const layout = { template: "none", title: { text: title(row), font: { size: 13 }, x: 0.02 }, margin: { l: 58, r: 8, t: 32, b: 44 }, height: 370, showlegend: false,
       xaxis: seaglint.axis({ label: "range relative to the reference (m)" }), yaxis: seaglint.axis({ label: "velocity, positive = receding (m/s)" }) };
     await (await seaglint.plotly()).react(place, [heat, points], layout, seaglint.CONFIG);
@@ -55,18 +57,19 @@
     place.dataset.sample = columns.sample[row];
   }
   const title = (row) => `${name(row)}, azimuth ${short(columns.azimuth_deg[row])} deg, Hs ${short(columns.significant_wave_height_m[row])} m, sample ${columns.sample[row]}`;
+  const elsewhere = (row) => `The page does not contain this map: seaglint map scenario.yaml --sample ${columns.sample[row]} -o map.png`;
   const features = (row) => set.columns.filter((column) => column.feature).map((column) => `${column.name} ${short(columns[column.name][row])}${column.unit === "1" ? "" : " " + column.unit}`).join(", ");
 
   // Maps of all chosen targets at one aspect and wave height.
-  const live = element("div", { className: "live" });
-  explorer.prepend(live);
+  const view = element("div", { className: "interactive" });
+  explorer.prepend(view);
   explorer.classList.add("drawn");
   const ofTargets = boxes("Targets", targets, (t) => set.targets[t]), ofHeight = select("Hs (m)", heights, short);
   ofHeight.input.id = "height";
   const slider = element("input", { type: "range", min: 0, max: azimuths.length - 1, step: 1, value: 0, id: "aspect" });
   const output = element("output", { htmlFor: "aspect" });
   const maps = element("div", { className: "maps" });
-  live.append(element("div", { className: "controls" }, ofTargets.set, ofHeight.set, element("label", {}, "Azimuth ", slider, " ", output)), maps,
+  view.append(element("div", { className: "controls" }, ofTargets.set, ofHeight.set, element("label", {}, "Azimuth ", slider, " ", output)), maps,
     element("p", { textContent: `Maps of this page: whole decibels; each cell has the strongest of ${set.velocity.cells} by ${set.range.cells} cells (velocity, range) of the data set.`, style: "font-size:13.5px" }));
   async function showMaps() {
     const azimuth = azimuths[slider.value], height = Number(ofHeight.input.value);
@@ -75,26 +78,26 @@
     const shown = ofTargets.chosen(), wanted = [];
     for (const target of shown) {
       const of = (row) => columns.target[row] === target && columns.azimuth_deg[row] === azimuth && columns.significant_wave_height_m[row] === height;
-      const map = set.maps.find((map) => of(map.row));
-      wanted.push(map ? map.row : -1);
+      const row = set.maps.map((map) => map.row).find(of) ?? columns.target.findIndex((_, row) => of(row));
+      wanted.push(row);
     }
     while (maps.children.length > wanted.length) maps.lastChild.remove();
     while (maps.children.length < wanted.length) maps.append(element("div", {}, element("div", { role: "img" }), element("p")));
     for (const [i, row] of wanted.entries()) {
       const [place, text] = maps.children[i].children;
-      place.hidden = row < 0;
-      text.textContent = row < 0 ? "No map of this aspect and wave height is in the page; " + set.others : features(row);
-      if (row >= 0) await drawMap(place, row);
+      place.hidden = !mapOf.has(row);
+      text.textContent = row < 0 ? "The data set has no map of this aspect and wave height." : mapOf.has(row) ? features(row) : elsewhere(row);
+      if (mapOf.has(row)) await drawMap(place, row);
     }
   }
   for (const input of [slider, ofHeight.input, ofTargets.set]) input.addEventListener("input", showMaps);
   const near = (values, value) => values.reduce((best, x, i) => (Math.abs(x - value) < Math.abs(values[best] - value) ? i : best), 0);
   slider.value = near(azimuths, set.azimuth_deg);
   ofHeight.input.value = heights[near(heights, set.wave_height_m)];
-  seaglint.whenSeen(live, showMaps);
+  seaglint.whenSeen(view, showMaps);
 
   // Scatter of two columns; a click or the numbered field opens the map of a sample.
-  const scatter = document.getElementById("scatter"), plain = element("div", { className: "live" });
+  const scatter = document.getElementById("scatter"), plain = element("div", { className: "interactive" });
   scatter.prepend(plain);
   scatter.classList.add("drawn");
   const names = set.columns.filter((column) => column.varies).map((column) => column.name);
@@ -111,7 +114,7 @@
   const unit = (of) => { const column = set.columns.find((c) => c.name === of); return column.unit === "1" ? of : `${of} (${column.unit})`; };
   const FLOOR = 1e-6;  // where zeros of a logarithmic axis stand
   async function showPoints() {
-    const x = columns[ofX.input.value], y = columns[ofY.input.value], shown = byTarget.chosen(), heightsShown = new Set([...byHeight.chosen()]);
+    const x = columns[ofX.input.value], y = columns[ofY.input.value], shown = byTarget.chosen(), heightsShown = byHeight.chosen();
     const data = targets.filter((t) => shown.has(t)).map((t) => {
       const style = targets.indexOf(t) % 7;
       const picked = [];
@@ -130,13 +133,17 @@
     const [text, place] = chosen.children;
     number.value = columns.sample[row];
     place.hidden = !mapOf.has(row);
-    text.textContent = title(row) + ": " + features(row) + (place.hidden ? ". This map is not in the page; " + set.others.replace("K", columns.sample[row]) : "");
+    text.textContent = title(row) + ": " + features(row) + (place.hidden ? ". " + elsewhere(row) : "");
     if (!place.hidden) await drawMap(place, row);
   }
   number.addEventListener("change", () => {
+    if (number.value === "") return;
     const row = columns.sample.indexOf(Number(number.value));
     if (row >= 0) open(row);
-    else chosen.firstChild.textContent = `The data set has no sample ${number.value}.`;
+    else {
+      chosen.firstChild.textContent = `The data set has no sample ${number.value}.`;
+      chosen.lastChild.hidden = true;  // the map of the sample before
+    }
   });
   for (const input of [ofX.input, ofY.input, log, byTarget.set, byHeight.set]) input.addEventListener("input", showPoints);
   seaglint.whenSeen(plain, showPoints);

@@ -16,9 +16,10 @@
 #include "tools/figure/figure.h"
 #include "tools/figure/mesh_picture.h"
 #include "tools/page/html.h"
-#include "tools/page/live_plot.h"
+#include "tools/page/plot_json.h"
 #include "tools/pipeline/metrics.h"
 #include "tools/pipeline/scene.h"
+#include "tools/report/explorer.h"
 #include "tools/report/summary.h"
 
 namespace seaglint {
@@ -27,7 +28,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kMapFloorDb = -45;          // lower end of the colour scale, relative to the map's strongest cell
 constexpr std::size_t kMaxNeighbours = 700;  // rows of a t-SNE plane
 constexpr const char* kClassNames[2] = {"array", "ship"};
 
@@ -49,7 +49,7 @@ class FigureList {
                         std::move(caption),
                         std::move(alternative),
                         ""};
-    if constexpr (std::is_same_v<Plot, LinePlot>) figure.plot = live_plot(plot);
+    if constexpr (std::is_same_v<Plot, LinePlot>) figure.plot = plot_json(plot);
     drawings_.push_back(
         {std::move(figure), [plot = std::move(plot), size](const fs::path& file) { write_figure(plot, file, size); }});
   }

@@ -22,7 +22,7 @@ struct ReportFigure {
   std::filesystem::path svg;
   std::string caption;      // HTML
   std::string alternative;  // plain text
-  std::string plot;         // live_plot.h; empty: the picture alone
+  std::string plot;         // plot_json.h; empty: the picture alone
 };
 
 // Draws all figures into the run's directory, on `threads` threads; the list has the order of the page. `targets` are

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Figures as JSON for the script of a page.
-#include "tools/page/live_plot.h"
+#include "tools/page/plot_json.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,12 +17,12 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-TEST(LivePlot, HasTheNumbersOfTheFigureAndNullWhereItHasNone) {
+TEST(PlotJson, HasTheNumbersOfTheFigureAndNullWhereItHasNone) {
   LinePlot plot;
   plot.title = "</script><b>";
   plot.x = {"range (m)", AxisRange{1, 2}, true};
   plot.series = {{"a", {1, 2}, {0.123456789, std::numeric_limits<double>::quiet_NaN()}, {{0, 1}, {2, 3}}}};
-  const std::string text = live_plot(plot);
+  const std::string text = plot_json(plot);
   EXPECT_THAT(text, Not(HasSubstr("<")));
   const auto json = nlohmann::json::parse(text);
   const auto& panel = json.at("panels").at(0);
@@ -34,7 +34,7 @@ TEST(LivePlot, HasTheNumbersOfTheFigureAndNullWhereItHasNone) {
   EXPECT_EQ(panel.at("series").at(0).at("high"), nlohmann::json::parse("[1, 3]"));
 }
 
-TEST(LivePlot, ThePageHasScriptsOnlyWhereItHasSomethingToDraw) {
+TEST(PlotJson, ThePageHasScriptsOnlyWhereItHasSomethingToDraw) {
   EXPECT_THAT(html_page("t", "<p>text</p>"), Not(HasSubstr("<script")));
   const std::string page = html_page("t", "<figure><script type=\"application/json\">{}</script></figure>");
   EXPECT_THAT(page, HasSubstr("id=\"plotly\""));
@@ -42,9 +42,9 @@ TEST(LivePlot, ThePageHasScriptsOnlyWhereItHasSomethingToDraw) {
 }
 
 // zlib's stream of "aaa...": its head (RFC 1950: CMF 0x78, best compression 0xda), then Base64.
-TEST(LivePlot, PacksByZlib) { EXPECT_EQ(packed(std::vector<std::uint8_t>(3, 'a')).substr(0, 3), "eNp"); }
+TEST(PlotJson, PacksByZlib) { EXPECT_EQ(packed(std::vector<std::uint8_t>(3, 'a')).substr(0, 3), "eNp"); }
 
-TEST(LivePlot, KeepsAsManyBinaryDigitsAsAsked) {
+TEST(PlotJson, KeepsAsManyBinaryDigitsAsAsked) {
   // 1 + 2^-13 has 14 significant binary digits: with 12 it is 1.
   EXPECT_EQ(packed_floats(std::vector{1 + std::ldexp(1.0, -13)}, 12), packed_floats(std::vector{1.0}));
   EXPECT_NE(packed_floats(std::vector{1 + std::ldexp(1.0, -13)}, 14), packed_floats(std::vector{1.0}));

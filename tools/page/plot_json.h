@@ -15,8 +15,8 @@ namespace seaglint {
 
 // {"columns", "panels": [{"title", "x": {"label", "range", "log"}, "y", "equal", "series": [{"name", "style", "x", "y",
 // "low", "high"}]}]}: numbers to six digits, null where a value is not finite, no `<`.
-std::string live_plot(std::span<const LinePlot> plots, int columns);
-std::string live_plot(const LinePlot& plot);
+std::string plot_json(std::span<const LinePlot> plots, int columns);
+std::string plot_json(const LinePlot& plot);
 
 // Bytes compressed by zlib (RFC 1950), in Base64: unpacked by `inflate` of page.js.
 std::string packed(std::span<const std::uint8_t> bytes);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/page/live_plot.h"
+#include "tools/page/plot_json.h"
 
 #include <fmt/format.h>
 #include <zlib.h>
@@ -51,7 +51,7 @@ ordered_json series_of(const Series& series) {
 
 }  // namespace
 
-std::string live_plot(std::span<const LinePlot> plots, int columns) {
+std::string plot_json(std::span<const LinePlot> plots, int columns) {
   ordered_json json{{"columns", columns}, {"panels", ordered_json::array()}};
   for (const LinePlot& plot : plots) {
     ordered_json panel{{"title", plot.title}, {"x", axis_of(plot.x)}, {"y", axis_of(plot.y)}};
@@ -63,7 +63,7 @@ std::string live_plot(std::span<const LinePlot> plots, int columns) {
   return script_json(json.dump());
 }
 
-std::string live_plot(const LinePlot& plot) { return live_plot(std::span(&plot, 1), 1); }
+std::string plot_json(const LinePlot& plot) { return plot_json(std::span(&plot, 1), 1); }
 
 std::string packed(std::span<const std::uint8_t> bytes) {
   uLongf size = compressBound(bytes.size());
@@ -79,9 +79,10 @@ std::string packed_floats(std::span<const double> values, int digits) {
   bytes.reserve(4 * values.size());
   const std::uint32_t dropped = 24 - static_cast<std::uint32_t>(digits);
   for (const double value : values) {
-    auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(value));
+    const auto single = static_cast<float>(value);
+    auto bits = std::bit_cast<std::uint32_t>(single);
     // Rounds half up in magnitude; infinities and NaN have no digits to drop.
-    if (dropped > 0 && std::isfinite(value)) bits = (bits + (1u << (dropped - 1))) >> dropped << dropped;
+    if (dropped > 0 && std::isfinite(single)) bits = (bits + (1u << (dropped - 1))) >> dropped << dropped;
     for (int i = 0; i < 4; ++i) bytes.push_back(static_cast<std::uint8_t>(bits >> 8 * i));
   }
   return packed(bytes);
