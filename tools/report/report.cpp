@@ -136,7 +136,7 @@ std::string page(const ordered_json& metrics, const ReportData& data, const Scen
   body += summary_tiles(metrics);
   body += section("maps", "Range-velocity maps",
                   "<p>Levels in dB below each map’s strongest cell. Circles are the scattering centres that CLEAN "
-                  "finds, the frame contains them all. Range grows away from the "
+                  "finds; in pictures a frame contains them all. Range grows away from the "
                   "radar, velocity is positive when receding.</p>\n" +
                       explorer(data) + figures(all, "maps", true));
   body += section("accuracy", "Accuracy",

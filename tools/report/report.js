@@ -52,7 +52,9 @@
       marker: { symbol: "circle-open", size: 9, color: "#fff", line: { width: 1.5 } }, hovertemplate: "centre: range %{x:.2f} m<br>velocity %{y:.3f} m/s<br>%{text} dB relative to the strongest cell<extra></extra>" };
     const layout = { template: "none", title: { text: title(row), font: { size: 13 }, x: 0.02 }, margin: { l: 58, r: 8, t: 32, b: 44 }, height: 370, showlegend: false,
       xaxis: seaglint.axis({ label: "range relative to the reference (m)" }), yaxis: seaglint.axis({ label: "velocity, positive = receding (m/s)" }) };
-    await (await seaglint.plotly()).react(place, [heat, points], layout, seaglint.CONFIG);
+    const plotly = await seaglint.plotly();
+    await plotly.react(place, [heat, points], layout, seaglint.CONFIG);
+    plotly.Plots.resize(place);  // maps beside it may have come or gone
     place.setAttribute("aria-label", "Range-velocity map of " + title(row) + ", " + centres.length + " scattering centres");
     place.dataset.sample = columns.sample[row];
   }
