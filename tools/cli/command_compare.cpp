@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <set>
 
 #include "seaglint_version.h"
 #include "sim/core/process/error.h"
@@ -38,17 +37,6 @@ struct CompareArguments {
 
 void say(const std::string& line) { print_error(on_one_line(line) + "\n"); }
 
-// Ascending, each once.
-std::vector<double> frequencies_of(const std::vector<FieldTable>& tables) {
-  std::set<double> frequencies;
-  for (const FieldTable& table : tables) {
-    for (const RcsCut& cut : table.cuts) {
-      for (const FieldValue& value : cut.values) frequencies.insert(value.frequency_hz);
-    }
-  }
-  return {frequencies.begin(), frequencies.end()};
-}
-
 std::vector<FieldTable> read_and_report(const ReferenceArguments& files) {
   std::vector<FieldTable> tables = files.read();
   for (const FieldTable& table : tables) say(reading_of(table));
@@ -70,13 +58,9 @@ Counterpart counterpart_of(const CompareArguments& arguments, const std::vector<
     counterpart.table = read_and_report(other).front();
     return counterpart;
   }
-  RcsRequest& request = counterpart.request;
-  request = arguments.rcs.make_mesh_request();
-  request.frequency_hz = frequencies_of(tables);
-  request.azimuth_deg = {0};  // any, as the mesh is prepared for frequencies alone
-  PreparedTarget prepared = prepare_mesh(request);
-  warn(prepared.warnings);
-  counterpart.target = select_echoes(request, std::move(prepared));
+  counterpart.request = at_frequencies_of(tables, arguments.rcs.make_mesh_request());
+  counterpart.target = prepare_rcs_target(counterpart.request);
+  warn(counterpart.target->prepared.warnings);
   return counterpart;
 }
 

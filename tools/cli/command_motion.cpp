@@ -12,18 +12,15 @@
 #include "sim/core/process/file.h"
 #include "sim/core/process/printable.h"
 #include "sim/core/process/standard_output.h"
-#include "sim/geometry/files/mesh_io.h"
 #include "sim/motion/ship/ship_particulars.h"
-#include "sim/motion/target_motion.h"
-#include "sim/scenario/sample_plan.h"
 #include "sim/sea/realisation.h"
 #include "tools/cli/arguments.h"
 #include "tools/cli/command.h"
 #include "tools/figure/figure.h"
 #include "tools/figure/motion_figures.h"
 #include "tools/options/series_times.h"
+#include "tools/pipeline/moving_bodies.h"
 #include "tools/pipeline/output_files.h"
-#include "tools/pipeline/scene.h"
 #include "tools/pipeline/warnings.h"
 
 namespace seaglint {
@@ -38,74 +35,23 @@ struct MotionArguments {
   double step_s = 0.1;
 };
 
-// Moving bodies of the first sea state: those of every mesh target in the order of the file, `ship`, `array_1`,
-// `array_2`, ..., and the motion model of each target.
-struct MovingScene {
-  SeaState state;
-  WaveField sea;
-  std::vector<Body> targets;
-  std::vector<NamedTrajectory> bodies;
-};
-
-// Mean velocity of a body along x, without its motion in the waves, m/s.
-double mean_speed(const Body& body) {
-  if (const auto* ship = std::get_if<ShipParticulars>(&body.model)) return ship->speed;
-  if (const auto* table = std::get_if<RaoTable>(&body.model)) return table->speed();
-  return 0;
-}
-
-MovingScene simulate_all(const Scenario& scenario, const SeaState& state, double duration_s, int threads,
-                         const StopFlag& stop) {
-  MovingScene scene;
-  scene.state = state;
-  const std::uint64_t index = sea_key(0, 0);
-  scene.sea = realise_sea(scene.state, scenario.seed, index);
-  for (const TargetSpec& target : scenario.targets) {
-    if (target.mesh.empty()) continue;
-    if (stop) throw Interrupted();
-    const TriangleMesh mesh = read_mesh(find_mesh(scenario, target), target.unit);
-    scene.targets.push_back(load_body(scenario, target, mesh));
-    report_motion_file(target, scene.targets.back());
-    const std::vector<Trajectory> all = simulate_target(target, scene.targets.back(), scene.state, scene.sea,
-                                                        duration_s, scenario.seed, index, scene.bodies.size(), threads);
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      scene.bodies.push_back({target.line ? fmt::format("{}_{}", target.name, i + 1) : target.name, all[i], mesh,
-                              mean_speed(scene.targets.back())});
-    }
-  }
-  if (scene.bodies.empty()) throw InputError("targets: none of them is a mesh, so nothing moves in the waves");
-  return scene;
-}
-
-// Part of this sea's spectrum outside the table of response amplitude operators, as text.
-std::string coverage(const MovingScene& scene) {
-  std::string text;
-  for (const Body& body : scene.targets) {
-    if (const auto* table = std::get_if<RaoTable>(&body.model)) {
-      text += fmt::format("# {}: {:.3g} % of the waves' variance lies outside of its frequencies\n",
-                          on_one_line(table->source()), 100 * table->uncovered_variance_fraction(scene.sea));
-    }
-  }
-  return text;
-}
-
-void write_pictures(const MotionArguments& arguments, const Scenario& scenario, const MovingScene& scene) {
+void write_pictures(const MotionArguments& arguments, const Scenario& scenario, const MovingBodies& scene) {
   const std::string title = fmt::format("{}: Hs {:.3g} m, Tp {:.3g} s towards {:.4g} deg", scenario.name,
-                                        scene.state.significant_wave_height_m, scene.state.peak_period_s,
-                                        degrees(scene.state.propagation_rad));
+                                        scene.sea.state.significant_wave_height_m, scene.sea.state.peak_period_s,
+                                        degrees(scene.sea.state.propagation_rad));
   if (!arguments.figure.empty()) write_motion_figure(scene.bodies, arguments.duration_s, title, arguments.figure);
   if (!arguments.frames.empty()) {
-    const double period = std::min(scene.state.peak_period_s, arguments.duration_s);
-    write_motion_frames(scene.bodies, scene.sea, period, title, arguments.frames);
+    const double period = std::min(scene.sea.state.peak_period_s, arguments.duration_s);
+    write_motion_frames(scene.bodies, scene.sea.field, period, title, arguments.frames);
   }
   if (arguments.rao.empty()) return;
   for (const Body& body : scene.targets) {
     if (const auto* ship = std::get_if<ShipParticulars>(&body.model)) {
       write_rao_figure(
-          *ship, scene.state.propagation_rad, scene.state.depth_m,
+          *ship, scene.sea.state.propagation_rad, scene.sea.state.depth_m,
           {arguments.rao_reference, {body.spec.wamit_ulen_m, body.spec.wamit_heading, body.spec.wamit_time_factor}},
           fmt::format("{}: waves towards {:.4g} deg, speed {:.3g} m/s", scenario.name,
-                      degrees(scene.state.propagation_rad), ship->speed),
+                      degrees(scene.sea.state.propagation_rad), ship->speed),
           arguments.rao);
       return;
     }
@@ -120,12 +66,12 @@ void write_motion(const MotionArguments& arguments, const CommandContext& contex
   require_outputs(outputs, {arguments.scenario.file, arguments.rao_reference});
   const Scenario scenario = arguments.scenario.read();
   require_outputs(outputs, files_of(scenario));
-  const std::vector<SeaState> states = sea_states(scenario.sea);
-  warn(sea_warnings(scenario, states));
+  warn(sea_warnings(scenario, sea_states(scenario.sea)));
   const std::size_t count = uniform_time_count(arguments.duration_s, arguments.step_s);
-  const MovingScene scene = simulate_all(scenario, states.front(), arguments.duration_s, context.threads, context.stop);
+  const MovingBodies scene =
+      simulate_bodies(scenario, {}, arguments.duration_s, context.threads, context.stop, report_motion_file);
   const std::vector<NamedTrajectory>& bodies = scene.bodies;
-  const SeaState& state = scene.state;
+  const SeaState& state = scene.sea.state;
   std::string text;
   auto out = std::back_inserter(text);
   fmt::format_to(out, "# seaglint {} motion, scenario {}, seed {}, sea state 0, realisation 0\n", kVersion,
@@ -133,14 +79,13 @@ void write_motion(const MotionArguments& arguments, const CommandContext& contex
   fmt::format_to(out, "# significant_wave_height_m {}, peak_period_s {}, gamma {}, propagation_deg {:.10g}, order {}\n",
                  state.significant_wave_height_m, state.peak_period_s, state.gamma, degrees(state.propagation_rad),
                  state.order);
-  text += coverage(scene);
+  for (const std::string& sentence : uncovered_waves(scene)) fmt::format_to(out, "# {}\n", on_one_line(sentence));
   text += "time_s,body,roll_deg,pitch_deg,yaw_deg,surge_m,sway_m,heave_m\n";
   for (std::size_t n = 0; n < count; ++n) {
     if (context.stop) throw Interrupted();
     const double t = arguments.step_s * static_cast<double>(n);
     for (const NamedTrajectory& body : bodies) {
-      // A body at rest has no samples of its own; the last time may pass the last sample by its rounding.
-      const MotionSample motion = body.trajectory.sample(std::min(t, body.trajectory.end_s()));
+      const MotionSample motion = motion_at(body, t);
       fmt::format_to(out, "{:.9g},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n", t, body.body,
                      degrees(motion.angles.x()), degrees(motion.angles.y()), degrees(motion.angles.z()),
                      motion.translation.x(), motion.translation.y(), motion.translation.z());

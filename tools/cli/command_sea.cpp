@@ -11,7 +11,6 @@
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/core/process/standard_output.h"
-#include "sim/scenario/sample_plan.h"
 #include "sim/sea/realisation.h"
 #include "sim/sea/statistics.h"
 #include "sim/sea/wave_field.h"
@@ -20,6 +19,7 @@
 #include "tools/figure/figure.h"
 #include "tools/figure/sea_figures.h"
 #include "tools/options/series_times.h"
+#include "tools/pipeline/moving_bodies.h"
 #include "tools/pipeline/output_files.h"
 #include "tools/pipeline/warnings.h"
 
@@ -125,10 +125,8 @@ void write_sea(const SeaArguments& arguments, const CommandContext& context) {
   require_outputs(outputs, {arguments.scenario.file});
   const Scenario scenario = arguments.scenario.read();
   require_outputs(outputs, files_of(scenario));
-  const std::vector<SeaState> states = sea_states(scenario.sea);
-  warn(sea_warnings(scenario, states));
-  const SeaState& state = states.front();
-  const WaveField field = realise_sea(state, scenario.seed, sea_key(0, 0));
+  warn(sea_warnings(scenario, sea_states(scenario.sea)));
+  const auto [state, field] = choose_sea(scenario, {});
   const SeaSummary summary = summarise(state, field);
   const std::string lines = description(scenario, state, field, summary);
   const std::string series = as_comment(lines) + series_csv(field, arguments, context.stop);

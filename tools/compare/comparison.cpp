@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <tuple>
 
 #include "sim/core/process/error.h"
@@ -192,6 +193,18 @@ std::vector<RcsSweep> counterpart(const RcsCut& cut, const RcsCut& other, const 
 }
 
 }  // namespace
+
+RcsRequest at_frequencies_of(const std::vector<FieldTable>& tables, RcsRequest request) {
+  std::set<double> frequencies;  // ascending, each once
+  for (const FieldTable& table : tables) {
+    for (const RcsCut& cut : table.cuts) {
+      for (const FieldValue& value : cut.values) frequencies.insert(value.frequency_hz);
+    }
+  }
+  request.frequency_hz = {frequencies.begin(), frequencies.end()};
+  request.azimuth_deg = {0};
+  return request;
+}
 
 ExportComparison compare_with_target(const FieldTable& table, const RcsRequest& request, const RcsTarget& target,
                                      const ComparisonSettings& settings, int threads, const StopFlag& stop,

@@ -57,6 +57,10 @@ struct ComparisonSettings {
   std::optional<double> interpolation_radius_m;
 };
 
+// The request with all frequencies of the exports, for prepare_rcs_target() before compare_with_target(). Its azimuth
+// is any, as a mesh is prepared for frequencies alone.
+RcsRequest at_frequencies_of(const std::vector<FieldTable>& tables, RcsRequest request);
+
 // Solves the target at exactly the angles and frequencies of the export, monostatic or bistatic as it states. `request`
 // says what the target is made of and how it is solved. Throws InputError for an export without a stated incident wave,
 // and what compute_rcs() throws; say() gets a line before each solution.

@@ -82,7 +82,6 @@ void require_own_directory(const fs::path& directory) {
 TrainedModel train_model(const DatasetReader& data, const Scenario& scenario, const fs::path& model_directory,
                          int threads, const StopFlag* stop, const std::function<void(const Shard&)>& use) {
   require_own_directory(model_directory);
-  warn(data_set_warnings(data));
   const LearningTable table = load_learning_table(data, scenario.learning, stop, use);
   make_directory(model_directory);
   TrainedModel model;
@@ -105,6 +104,7 @@ TrainedModel train_model(const DatasetReader& data, const Scenario& scenario, co
 TrainedModel train_model(const fs::path& data_set, const fs::path& model_directory,
                          const std::vector<Override>& overrides, int threads, const StopFlag* stop) {
   const DatasetReader data(data_set);
+  warn(data_set_warnings(data));
   return train_model(data, read_scenario(data_set / kScenarioFile, overrides), model_directory, threads, stop);
 }
 

@@ -33,7 +33,7 @@ TrainedModel train_model(const DatasetReader& data, const Scenario& scenario,
                          const std::filesystem::path& model_directory, int threads, const StopFlag* stop = nullptr,
                          const std::function<void(const Shard&)>& use = {});
 
-// The same with the scenario stored in the data set, changed by `overrides`.
+// The same with the scenario stored in the data set, changed by `overrides`; prints data_set_warnings().
 TrainedModel train_model(const std::filesystem::path& data_set, const std::filesystem::path& model_directory,
                          const std::vector<Override>& overrides, int threads, const StopFlag* stop = nullptr);
 

@@ -55,10 +55,14 @@ std::vector<std::string> motion_warnings(const Pipeline& pipeline) {
   return lines;
 }
 
-void report_motion_file(const TargetSpec& target, const Body& body) {
+std::string motion_file_note(const TargetSpec& target, const Body& body) {
   const std::string reading = motion_file_reading(body);
-  if (!reading.empty())
-    print_error(on_one_line(fmt::format("targets.{}.motion.file: {}", target.name, reading)) + "\n");
+  return reading.empty() ? reading : fmt::format("targets.{}.motion.file: {}", target.name, reading);
+}
+
+void report_motion_file(const TargetSpec& target, const Body& body) {
+  const std::string note = motion_file_note(target, body);
+  if (!note.empty()) print_error(on_one_line(note) + "\n");
 }
 
 void report_motion_files(const Pipeline& pipeline) {

@@ -22,7 +22,10 @@ std::vector<std::string> mesh_warnings(const Pipeline& pipeline);
 // One line per motion file whose times are not uniform.
 std::vector<std::string> motion_warnings(const Pipeline& pipeline);
 
-// Prints one line if the target has a motion file: columns, units and conventions by which it was read.
+// Columns, units and conventions by which the target's motion file was read, as a sentence; empty without such a file.
+std::string motion_file_note(const TargetSpec& target, const Body& body);
+
+// Prints motion_file_note() as a line unless it is empty.
 void report_motion_file(const TargetSpec& target, const Body& body);
 
 // The same for every target.

@@ -18,6 +18,7 @@
 #include "tools/figure/figure.h"
 #include "tools/pipeline/generate.h"
 #include "tools/pipeline/train.h"
+#include "tools/pipeline/warnings.h"
 #include "tools/report/report.h"
 
 namespace seaglint {
@@ -96,7 +97,9 @@ std::string run_scenario(const Scenario& scenario, const fs::path& directory, co
   });
   ReportCollector collector(scenario, plan);
   TrainedModel model = clock.time("learning", [&] {
-    return train_model(DatasetReader(directory / "data"), scenario, directory / "model", options.threads, stop,
+    const DatasetReader data(directory / "data");
+    warn(data_set_warnings(data));
+    return train_model(data, scenario, directory / "model", options.threads, stop,
                        [&](const Shard& shard) { collector.add(shard); });
   });
 

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/pipeline/moving_bodies.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <variant>
+
+#include "sim/core/process/error.h"
+#include "sim/geometry/files/mesh_io.h"
+#include "sim/motion/ship/rao_table.h"
+#include "sim/motion/target_motion.h"
+#include "sim/scenario/sample_plan.h"
+#include "sim/sea/realisation.h"
+#include "tools/pipeline/scene.h"
+
+namespace seaglint {
+
+namespace {
+
+constexpr std::size_t kMaxRealisations = 1000000;  // of sea_key()
+
+// Mean velocity of a body along x, without its motion in the waves, m/s.
+double mean_speed(const Body& body) {
+  if (const auto* ship = std::get_if<ShipParticulars>(&body.model)) return ship->speed;
+  if (const auto* table = std::get_if<RaoTable>(&body.model)) return table->speed();
+  return 0;
+}
+
+}  // namespace
+
+ChosenSea choose_sea(const Scenario& scenario, const SeaChoice& choice) {
+  const std::vector<SeaState> states = sea_states(scenario.sea);
+  if (choice.sea_state >= states.size())
+    throw InputError(
+        fmt::format("sea_state {}: must be within 0 and {}, the scenario's last", choice.sea_state, states.size() - 1));
+  if (choice.realisation >= kMaxRealisations)
+    throw InputError(fmt::format("realisation {}: must be within 0 and {}", choice.realisation, kMaxRealisations - 1));
+  const SeaState& state = states[choice.sea_state];
+  return {state, realise_sea(state, scenario.seed, sea_key(choice.sea_state, choice.realisation))};
+}
+
+MovingBodies simulate_bodies(const Scenario& scenario, const SeaChoice& choice, double duration_s, int threads,
+                             const StopFlag& stop, const std::function<void(const TargetSpec&, const Body&)>& loaded) {
+  MovingBodies scene{choose_sea(scenario, choice), {}, {}};
+  const std::uint64_t key = sea_key(choice.sea_state, choice.realisation);
+  for (const TargetSpec& target : scenario.targets) {
+    if (target.mesh.empty()) continue;
+    if (stop) throw Interrupted();
+    const TriangleMesh mesh = read_mesh(find_mesh(scenario, target), target.unit);
+    const Body& body = scene.targets.emplace_back(load_body(scenario, target, mesh));
+    loaded(target, body);
+    const std::vector<Trajectory> all = simulate_target(target, body, scene.sea.state, scene.sea.field, duration_s,
+                                                        scenario.seed, key, scene.bodies.size(), threads);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      scene.bodies.push_back(
+          {target.line ? fmt::format("{}_{}", target.name, i + 1) : target.name, all[i], mesh, mean_speed(body)});
+    }
+  }
+  if (scene.bodies.empty()) throw InputError("targets: none of them is a mesh, so nothing moves in the waves");
+  return scene;
+}
+
+std::vector<std::string> uncovered_waves(const MovingBodies& scene) {
+  std::vector<std::string> sentences;
+  for (const Body& body : scene.targets) {
+    if (const auto* table = std::get_if<RaoTable>(&body.model)) {
+      sentences.push_back(fmt::format("{}: {:.3g} % of the waves' variance lies outside of its frequencies",
+                                      table->source(), 100 * table->uncovered_variance_fraction(scene.sea.field)));
+    }
+  }
+  return sentences;
+}
+
+MotionSample motion_at(const NamedTrajectory& body, double t) {
+  return body.trajectory.sample(std::min(t, body.trajectory.end_s()));
+}
+
+}  // namespace seaglint
