@@ -1,11 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The Python package against the program: the same values, the same errors; Ctrl-C, threads, workers."""
-import csv
-import json
 import multiprocessing
-import os
 import pickle
-import signal
 import subprocess
 import sys
 import threading
@@ -15,21 +11,7 @@ import numpy as np
 import pytest
 
 import seaglint
-
-PROGRAM = os.environ["SEAGLINT"]
-REFLECTOR = "assets/icosahedral_reflector.glb"
-
-
-def program(*arguments):
-    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True)
-
-
-@pytest.fixture(scope="session")
-def data_set(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("points") / "set"
-    made = program("generate", "points.yaml", "-o", folder, "--set", "dataset.maps_per_shard=7")
-    assert made.returncode == 0, made.stderr
-    return folder
+from program import REFLECTOR, interrupt, program, rows_of
 
 
 def test_import_loads_no_torch():
@@ -42,7 +24,7 @@ def test_rcs_is_that_of_the_program(tmp_path):
     values = seaglint.rcs(REFLECTOR, np.multiply(ghz, 1e9), azimuth, elevation)
     assert values.shape == (2, 2, 4, 2, 2) and values.dtype == complex
     assert program("rcs", "--target", REFLECTOR, "--frequency-ghz", "9.5:10:0.5", "--azimuth-deg", "0:22.5:7.5", "--elevation-deg", "2:5:3", "-o", tmp_path / "r.csv").returncode == 0
-    rows = list(csv.DictReader(line for line in open(tmp_path / "r.csv") if line[0] != "#"))
+    rows = rows_of(tmp_path / "r.csv")
     assert len(rows) == 16
     for row in rows:
         at = (ghz.index(float(row["frequency_hz"]) / 1e9), elevation.index(float(row["elevation_deg"])), int(float(row["azimuth_deg"]) / 7.5))
@@ -185,23 +167,8 @@ def test_other_threads_go_on():
 
 def test_ctrl_c_stops_long_work():
     code = "import seaglint, numpy as np\nprint('begun', flush=True)\nseaglint.rcs('assets/combatant_144m.glb', 16e9, np.arange(0, 360, 0.01))"
-    with subprocess.Popen([sys.executable, "-W", "ignore", "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
-        process.stdout.readline()
-        time.sleep(1.5)
-        process.send_signal(signal.SIGINT)
-        _, errors = process.communicate(timeout=60)
-    assert process.returncode != 0 and errors.rstrip().endswith("KeyboardInterrupt"), errors
-
-
-def test_compare(tmp_path):
-    for name, step in (("fine", "0.5"), ("same", "0.5"), ("other", "0.35")):
-        assert program("rcs", "--target", REFLECTOR, "--frequency-ghz", "10", "--azimuth-deg", f"0:14:{step}", "-o", tmp_path / f"{name}.csv").returncode == 0
-    same = seaglint.compare(tmp_path / "same.csv", tmp_path / "fine.csv")
-    assert {entry["polarisation"] for entry in same["exports"]} == {"hh", "hv", "vh", "vv"}
-    assert all(entry["rms_db"] == 0 for entry in same["exports"])
-    other = seaglint.compare(tmp_path / "other.csv", tmp_path / "fine.csv", interpolate_m=0.6)
-    assert all(entry["interpolation"]["omitted"] == 0 for entry in other["exports"])
-    assert json.dumps(other)
+    returned, errors, _ = interrupt(code)
+    assert returned != 0 and errors.endswith("KeyboardInterrupt"), errors
 
 
 def test_names_of_the_package_are_documented():

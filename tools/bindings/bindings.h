@@ -12,6 +12,8 @@ void bind_scenario(pybind11::module_& module);  // Scenario
 void bind_mesh(pybind11::module_& module);      // Mesh
 void bind_rcs(pybind11::module_& module);       // rcs
 void bind_sample(pybind11::module_& module);    // Pipeline
-void bind_compare(pybind11::module_& module);   // compare
+void bind_series(pybind11::module_& module);    // sea, motion
+void bind_compare(pybind11::module_& module);   // Exports, compare
+void bind_train(pybind11::module_& module);     // train
 
 }  // namespace seaglint

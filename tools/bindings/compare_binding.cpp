@@ -2,8 +2,12 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <memory>
+
+#include "sim/core/process/error.h"
 #include "tools/bindings/bindings.h"
 #include "tools/bindings/interruptible.h"
+#include "tools/bindings/mesh_request.h"
 #include "tools/compare/comparison_text.h"
 #include "tools/options/reference_arguments.h"
 
@@ -12,26 +16,63 @@ namespace py = pybind11;
 namespace seaglint {
 namespace {
 
-// Two tables; the text of compare.json.
-std::string compare_tables(const std::string& file, const std::string& against, const std::string& polarisation,
-                           const std::string& incidence, double floor_db, bool as_is,
+ComparisonSettings settings_of(const ReferenceArguments& exports, bool as_is, std::optional<double> radius_m) {
+  return {exports.floor_db, as_is, radius_m};
+}
+
+// Exports with another table; the text of compare.json.
+std::string compare_tables(const ReferenceArguments& exports, const std::string& against, bool as_is,
                            std::optional<double> interpolation_radius_m, int threads) {
-  const auto read = [&](const std::string& name) {
-    ReferenceArguments arguments;
-    arguments.files = {name};
-    if (!polarisation.empty()) arguments.polarisation = {polarisation};
-    if (!incidence.empty()) arguments.incidence = {incidence};
-    return arguments.read().front();
-  };
-  const ComparisonSettings settings{floor_db, as_is, interpolation_radius_m};
-  const auto comparisons = interruptible<std::vector<ExportComparison>>([&](const StopFlag&) {
-    return std::vector<ExportComparison>{compare_with_table(read(file), read(against), settings, threads)};
+  const ComparisonSettings settings = settings_of(exports, as_is, interpolation_radius_m);
+  const auto comparisons = interruptible<std::vector<ExportComparison>>([&](const StopFlag& stop) {
+    const std::vector<FieldTable> tables = exports.read();
+    ReferenceArguments other;
+    other.files = {against};
+    const FieldTable table = other.read().front();
+    std::vector<ExportComparison> compared;
+    for (const FieldTable& one : tables) {
+      if (stop) throw Interrupted();
+      compared.push_back(compare_with_table(one, table, settings, threads));
+    }
+    return compared;
   });
   return comparison_json(comparisons, settings).dump();
 }
 
+// Exports with a mesh solved at their angles and frequencies; the text of compare.json and the mesh's warnings.
+py::tuple compare_target(const ReferenceArguments& exports, RcsRequest request, const MeshOrFile& target, bool as_is,
+                         int threads) {
+  set_target(request, target);
+  const ComparisonSettings settings = settings_of(exports, as_is, std::nullopt);
+  std::vector<std::string> warnings;
+  const auto comparisons = interruptible<std::vector<ExportComparison>>([&](const StopFlag& stop) {
+    const std::vector<FieldTable> tables = exports.read();
+    const RcsRequest solved = at_frequencies_of(tables, std::move(request));
+    const RcsTarget prepared = prepare_rcs_target(solved);
+    warnings = prepared.prepared.warnings;
+    std::vector<ExportComparison> compared;
+    for (const FieldTable& table : tables)
+      compared.push_back(
+          compare_with_target(table, solved, prepared, settings, threads, stop, [](const std::string&) {}));
+    return compared;
+  });
+  return py::make_tuple(comparison_json(comparisons, settings).dump(), warnings);
+}
+
 }  // namespace
 
-void bind_compare(py::module_& module) { module.def("compare_tables", &compare_tables); }
+void bind_compare(py::module_& module) {
+  py::class_<ReferenceArguments>(module, "Exports")  // each property: none, one for all files, or one for each
+      .def(py::init<>())
+      .def_readwrite("files", &ReferenceArguments::files)
+      .def_readwrite("polarisation", &ReferenceArguments::polarisation)
+      .def_readwrite("phi", &ReferenceArguments::phi)
+      .def_readwrite("frequency_ghz", &ReferenceArguments::frequency_ghz)
+      .def_readwrite("incidence", &ReferenceArguments::incidence)
+      .def_readwrite("origin_m", &ReferenceArguments::origin_m)
+      .def_readwrite("floor_db", &ReferenceArguments::floor_db);
+  module.def("compare_tables", &compare_tables);
+  module.def("compare_target", &compare_target);
+}
 
 }  // namespace seaglint

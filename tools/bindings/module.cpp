@@ -19,5 +19,7 @@ PYBIND11_MODULE(_core, module) {
   seaglint::bind_mesh(module);
   seaglint::bind_rcs(module);
   seaglint::bind_sample(module);
+  seaglint::bind_series(module);
   seaglint::bind_compare(module);
+  seaglint::bind_train(module);
 }

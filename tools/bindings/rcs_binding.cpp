@@ -5,10 +5,10 @@
 
 #include <memory>
 
-#include "sim/core/process/data_folder.h"
 #include "tools/bindings/arrays.h"
 #include "tools/bindings/bindings.h"
 #include "tools/bindings/interruptible.h"
+#include "tools/bindings/mesh_request.h"
 #include "tools/rcs/rcs_uncertainty.h"
 #include "tools/rcs/rcs_views.h"
 
@@ -33,13 +33,8 @@ py::array_t<Complex> matrices_of(const RcsSweep& sweep) {
 }
 
 // Solves `request` for a mesh or file; its other members are set. Returns the matrices and the warnings.
-py::tuple rcs(RcsRequest request, const std::variant<std::shared_ptr<TriangleMesh>, std::string>& target, int threads) {
-  if (const auto* file = std::get_if<std::string>(&target)) {
-    request.target = find_input(*file);
-  } else {
-    request.mesh = std::get<0>(target);
-    request.target = "the mesh";
-  }
+py::tuple rcs(RcsRequest request, const MeshOrFile& target, int threads) {
+  set_target(request, target);
   std::vector<std::string> warnings = request_warnings(request);
   const RcsSweep sweep = interruptible<RcsSweep>([&](const StopFlag& stop) {
     PreparedTarget prepared = prepare_mesh(request);
@@ -84,6 +79,7 @@ void bind_rcs(py::module_& module) {
            [](RcsRequest& request, const std::vector<std::string>& only, const std::vector<std::string>& without) {
              request.selection = {only, without};
            });
+  module.attr("max_bounces") = kMaxBounces;
   module.def("rcs", &rcs);
 }
 

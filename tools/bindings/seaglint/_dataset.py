@@ -14,6 +14,13 @@ from numpy.typing import ArrayLike, NDArray
 from ._core import InputError
 
 
+def folder_of(path: str | os.PathLike) -> pathlib.Path:
+    """Folder of the data set: the given one, or its `data`, where `run` writes it."""
+    folder = pathlib.Path(path)
+    below = not (folder / "manifest.json").is_file() and (folder / "data/manifest.json").is_file()
+    return folder / "data" if below else folder
+
+
 class _Shard:
     """A file with some of the maps. Its maps are mapped into memory where they lie, one chunk each, with their checksum
     behind them."""
@@ -53,9 +60,7 @@ class Dataset:
     """
 
     def __init__(self, path: str | os.PathLike, check: bool = False):
-        folder = pathlib.Path(path)
-        if not (folder / "manifest.json").is_file() and (folder / "data/manifest.json").is_file():
-            folder = folder / "data"
+        folder = folder_of(path)
         try:
             manifest = json.loads((folder / "manifest.json").read_text(encoding="utf-8"))
         except FileNotFoundError:
