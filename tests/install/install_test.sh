@@ -45,6 +45,7 @@ complete_words() {
 has "$(PYTHONPATH=$prefix/lib/python3/dist-packages PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 -c 'import seaglint; print(seaglint.data_folder(), seaglint.Scenario("quick.yaml"))')" \
   "$prefix/share/seaglint <seaglint.Scenario quick: 300 samples>"
 has "$(PYTHONPATH=$prefix/lib/python3/dist-packages PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 -c 'import seaglint; print(seaglint.train("x", "trained", epochs=1)["scenario"])')" points
+for example in rcs_sweep train_on_maps; do [[ -s $prefix/share/seaglint/examples/$example.py ]] || fail "no example $example.py"; done
 
 # A program of a user; the launcher is taken from the environment as for the project itself.
 cmake -S "$source/tests/install/consumer" -B "$work/consumer" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" >"$work/log" 2>&1 &&

@@ -11,7 +11,7 @@ def main(build, source):
     except ImportError as error:
         print(f"skipped: {error} (packages python3-h5py, python3-numpy, python3-pytest)")
         return 77
-    os.environ.update(PYTHONPATH=str(build / "python"), SEAGLINT=str(build / "seaglint"), PYTHONDONTWRITEBYTECODE="1")
+    os.environ.update(PYTHONPATH=str(build / "python"), SEAGLINT=str(build / "seaglint"), EXAMPLES=str(source / "tools/bindings/examples"), PYTHONDONTWRITEBYTECODE="1")
     sys.path.insert(0, str(build / "python"))
     return pytest.main(["-q", "-p", "no:cacheprovider", "-W", "error::seaglint.SeaglintWarning", str(source / "tests/python")])
 
