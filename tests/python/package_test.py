@@ -125,6 +125,63 @@ def test_damaged_and_closed_data_sets(data_set, tmp_path):
         seaglint.Dataset(data_set).where(lable=1)
 
 
+def columns_by_hdf5(data):
+    import h5py
+
+    parts = []
+    for shard in data.manifest["shards"]:
+        with h5py.File(data.folder / shard["file"]) as file:
+            parts.append({name: array[...] for name, array in file["samples"].items()})
+    columns = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+    return {name: np.char.decode(values, "utf-8") if values.dtype.kind == "S" else values for name, values in columns.items()}
+
+
+def assert_equal_columns(first, second):
+    assert first.keys() == second.keys() and "label" in first and "target_name" in first
+    for name in first:
+        assert first[name].dtype == second[name].dtype and np.array_equal(first[name], second[name]), name
+
+
+def test_columns_are_those_that_hdf5_reads(data_set, tmp_path):
+    """Six shards, the last with fewer samples; then the third stored by h5py, without chunks."""
+    import h5py
+    import shutil
+
+    assert_equal_columns(seaglint.Dataset(data_set).columns, columns_by_hdf5(seaglint.Dataset(data_set)))
+    copy = tmp_path / "copy"
+    shutil.copytree(data_set, copy)
+    shard = copy / "shard_00002.h5"
+    with h5py.File(shard) as file:
+        values = {name: array[...] for name, array in file["samples"].items()}
+    with h5py.File(shard, "w") as file:
+        for name, array in values.items():
+            file[f"samples/{name}"] = array[::-1]
+    columns = seaglint.Dataset(copy).columns
+    assert_equal_columns(columns, columns_by_hdf5(seaglint.Dataset(copy)))
+    assert np.array_equal(columns["sample"][14:21], np.arange(20, 13, -1))
+
+
+@pytest.mark.parametrize("number", [0, 1, 5])
+def test_a_changed_byte_of_a_column_is_found(data_set, tmp_path, number):
+    """In the first shard, one of equal structure, and the last, which is shorter."""
+    import h5py
+    import shutil
+
+    copy = tmp_path / "copy"
+    shutil.copytree(data_set, copy)
+    shard = copy / f"shard_{number:05d}.h5"
+    with h5py.File(shard) as file:
+        place = file["samples/label"].id.get_chunk_info(0).byte_offset
+    content = bytearray(shard.read_bytes())
+    content[place] ^= 1
+    shard.write_bytes(content)
+    with pytest.raises(seaglint.InputError, match=shard.name):
+        seaglint.Dataset(copy).columns
+    shard.write_bytes(b"")
+    with pytest.raises(seaglint.InputError, match=f"{shard.name}: not a shard"):
+        seaglint.Dataset(copy).columns
+
+
 def total(data, indices):
     return float(sum(data[i].sum(dtype=float) for i in indices))
 

@@ -11,6 +11,7 @@ import pathlib
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ._columns import read_columns
 from ._core import InputError
 
 
@@ -93,32 +94,26 @@ class Dataset:
         """(velocity cells, range cells)."""
         return self._shape
 
-    def _read(self, names):
-        import h5py
-
+    def _require_open(self):
         if self._closed:
             raise InputError(f"{self.folder}: the data set is closed")
-        parts = []
-        for file in self._files:
-            with h5py.File(file) as data:
-                parts.append({name: data[name][...] for name in names(data)})
-        return parts
 
     @property
     def columns(self) -> dict[str, NDArray]:
         """{name: array over the samples}: label, target_name, azimuth_deg, features, ...; units in manifest["columns"]."""
         if self._columns is None:
-            parts = self._read(lambda data: [f"samples/{name}" for name in data["samples"]])
-            self._columns = {name.removeprefix("samples/"): np.concatenate([part[name] for part in parts]) for name in parts[0]} if parts else {}
-            for name, values in self._columns.items():
-                if values.dtype.kind == "S":
-                    self._columns[name] = np.char.decode(values, "utf-8")
+            self._require_open()
+            self._columns = read_columns(self._files)
         return self._columns
 
     def _axis(self, name):
         if self._axes is None:
-            self._axes = self._read(lambda data: ["axes/range_m", "axes/velocity_mps"])[0]
-        return self._axes[f"axes/{name}"]
+            import h5py
+
+            self._require_open()
+            with h5py.File(self._files[0]) as data:
+                self._axes = {axis: data[f"axes/{axis}"][...] for axis in ("range_m", "velocity_mps")}
+        return self._axes[name]
 
     @property
     def range_m(self) -> NDArray[np.float64]:
@@ -140,8 +135,7 @@ class Dataset:
         return np.flatnonzero(chosen)
 
     def __getitem__(self, index: int) -> NDArray[np.float32]:
-        if self._closed:
-            raise InputError(f"{self.folder}: the data set is closed")
+        self._require_open()
         i = int(index)
         if not -len(self) <= i < len(self):
             raise IndexError(f"sample {i}: the data set has samples 0 to {len(self) - 1}")
