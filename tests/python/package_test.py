@@ -228,6 +228,18 @@ def test_ctrl_c_stops_long_work():
     assert returned != 0 and errors.endswith("KeyboardInterrupt"), errors
 
 
+def test_ctrl_c_stops_within_a_sample():
+    """Of a ship in waves of 5 m with a trace for every 0.001 deg of its motion, which takes a minute."""
+    code = """import seaglint
+solver = {"min_patch_m": 5e-5, "max_aspect_change_deg": 0.001}
+simulator = seaglint.Simulator(seaglint.Scenario("quick.yaml", set={"targets.ship.solver": solver, "sea.significant_wave_height_m": 5}))
+print("begun", flush=True)
+simulator[0]"""
+    returned, errors, seconds = interrupt(code)
+    assert returned != 0 and errors.endswith("KeyboardInterrupt"), errors
+    assert seconds < 5
+
+
 def test_names_of_the_package_are_documented():
     for name in seaglint.__all__:
         assert getattr(seaglint, name).__doc__, name

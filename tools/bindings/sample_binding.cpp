@@ -33,7 +33,7 @@ py::array_t<double> centres_of(const std::vector<ScatteringCentre>& centres) {
 
 py::dict sample(const Pipeline& pipeline, std::size_t number) {
   GeneratedSample made =
-      interruptible<GeneratedSample>([&](const StopFlag&) { return pipeline.generate_sample(number); });
+      interruptible<GeneratedSample>([&](const StopFlag& stop) { return pipeline.generate_sample(number, &stop); });
   const auto size = [](const auto& axis) { return static_cast<py::ssize_t>(axis.size()); };
   RvMap& map = made.received.map;
   py::dict result;

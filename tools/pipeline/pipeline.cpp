@@ -80,10 +80,10 @@ std::shared_ptr<const Scene> Pipeline::scene(int sea_state, int realisation) con
 }
 
 BodyResponse Pipeline::scene_response(std::size_t target, const Scene& scene, const View& view, const SeaState& state,
-                                      const IntervalSampling& sampling) const {
-  BodyResponse sum = target_response(target, scene, view, state, sampling);
+                                      const IntervalSampling& sampling, const StopFlag* stop) const {
+  BodyResponse sum = target_response(target, scene, view, state, sampling, stop);
   for (const std::size_t companion : targets_[target].companions) {
-    const BodyResponse term = target_response(companion, scene, view, state, sampling);
+    const BodyResponse term = target_response(companion, scene, view, state, sampling, stop);
     sum.response += term.response;
     sum.traces += term.traces;
   }
@@ -91,7 +91,7 @@ BodyResponse Pipeline::scene_response(std::size_t target, const Scene& scene, co
 }
 
 BodyResponse Pipeline::target_response(std::size_t target, const Scene& scene, const View& view, const SeaState& state,
-                                       const IntervalSampling& sampling) const {
+                                       const IntervalSampling& sampling, const StopFlag* stop) const {
   const Vec3 r_hat = direction_to_radar(view.azimuth_rad, view.elevation_rad);
   const SeaReflection mirror(scenario_.sea_reflection, total_wave_height(state));
   const SeaReflection* sea = scenario_.sea_reflection.enabled ? &mirror : nullptr;
@@ -108,7 +108,7 @@ BodyResponse Pipeline::target_response(std::size_t target, const Scene& scene, c
     const Trajectory carried =
         relative_velocity_mps.isZero(0) ? body : body.with_drift(relative_velocity_mps, sampling.pulse_time_s.front());
     const BodyResponse term = body_response(*targets_[target].scatterer, carried, r_hat, scenario_.radar.polarisation,
-                                            sampling, spec.solver, 1, sea);
+                                            sampling, spec.solver, 1, sea, stop);
     sum.traces += term.traces;
     if (sum.response.values.empty()) {
       sum.response = term.response;
@@ -140,9 +140,9 @@ ClutterScene Pipeline::clutter_scene(const SampleAddress& at, const Scene& scene
           sea_and_view * scenario_.targets.size() + static_cast<std::uint64_t>(at.target)};
 }
 
-BodyResponse Pipeline::response(const SampleAddress& at, const PulseTrain& train) const {
+BodyResponse Pipeline::response(const SampleAddress& at, const PulseTrain& train, const StopFlag* stop) const {
   return scene_response(static_cast<std::size_t>(at.target), *scene(at.sea_state, at.realisation), plan_.view(at),
-                        plan_.sea_state(at), sampling(train, plan_.start_s(at)));
+                        plan_.sea_state(at), sampling(train, plan_.start_s(at)), stop);
 }
 
 Echo Pipeline::echo_of(std::size_t sample, const GeneratedSample& made, const BodyResponse& response,
@@ -160,7 +160,7 @@ Echo Pipeline::echo_of(std::size_t sample, const GeneratedSample& made, const Bo
   }
 }
 
-GeneratedSample Pipeline::generate_sample(std::size_t sample) const {
+GeneratedSample Pipeline::generate_sample(std::size_t sample, const StopFlag* stop) const {
   GeneratedSample made;
   made.address = plan_.address(sample);
   const SampleAddress& at = made.address;
@@ -168,7 +168,7 @@ GeneratedSample Pipeline::generate_sample(std::size_t sample) const {
   // Sea and motion are common to both classes and all views; hop code, clutter and noise are specific to the sample.
   const std::shared_ptr<const Scene> moving = scene(at.sea_state, at.realisation);
   made.train = make_pulse_train(scenario_.radar, range_window_m_, scenario_.seed, sample);
-  const BodyResponse response = this->response(at, made.train);
+  const BodyResponse response = this->response(at, made.train, stop);
   const Echo echo = echo_of(sample, made, response, *moving);
   made.received =
       form_received_interval(echo, made.train, scenario_.clutter, scenario_.map, scenario_.radar.intra_pulse_motion);

@@ -16,6 +16,7 @@
 #include "radar/echo/echo.h"
 #include "radar/rvmap/scr.h"
 #include "radar/waveform/pulse_train.h"
+#include "sim/core/process/parallel.h"
 #include "sim/scattering/response/body_response.h"
 #include "sim/scenario/sample_plan.h"
 #include "tools/pipeline/scene.h"
@@ -42,13 +43,14 @@ class Pipeline {
   const SamplePlan& plan() const { return plan_; }
   const std::vector<Target>& targets() const { return targets_; }
 
-  GeneratedSample generate_sample(
-      std::size_t sample) const;  // sample < plan().size(); throws InputError when the target has no power
+  // sample < plan().size(). Throws InputError when the target has no power, Interrupted when *stop becomes true while
+  // its response is computed.
+  GeneratedSample generate_sample(std::size_t sample, const StopFlag* stop = nullptr) const;
 
   double window_m() const { return range_window_m_; }  // full width of the range window of all its maps, m
 
   // Frequency response H of a sample's target with its companions, at the times and frequencies of `train`.
-  BodyResponse response(const SampleAddress& at, const PulseTrain& train) const;
+  BodyResponse response(const SampleAddress& at, const PulseTrain& train, const StopFlag* stop = nullptr) const;
 
   // Sea and motion that the clutter of a sample depends on; refers to the scene.
   ClutterScene clutter_scene(const SampleAddress& at, const Scene& scene) const;
@@ -59,12 +61,12 @@ class Pipeline {
  private:
   // H of a target with its companions.
   BodyResponse scene_response(std::size_t target, const Scene& scene, const View& view, const SeaState& state,
-                              const IntervalSampling& sampling) const;
+                              const IntervalSampling& sampling, const StopFlag* stop) const;
   // Times and directions at which the interval from start_s samples the response, with the radar's own motion.
   IntervalSampling sampling(const PulseTrain& train, double start_s) const;
   // H of a target seen from `view` over an interval: the sum over its bodies, or its ideal points.
   BodyResponse target_response(std::size_t target, const Scene& scene, const View& view, const SeaState& state,
-                               const IntervalSampling& sampling) const;
+                               const IntervalSampling& sampling, const StopFlag* stop) const;
 
   // The echo of a sample. Throws InputError, naming target and sample, when it has no power.
   Echo echo_of(std::size_t sample, const GeneratedSample& made, const BodyResponse& response, const Scene& scene) const;

@@ -122,7 +122,7 @@ class PathPoints {
 // Response of the body over the propagation paths of one trace.
 std::vector<ResponseGrid> trace_to_grid(const Scatterer& scatterer, std::span<const PlannedPath> paths,
                                         const WavenumberGrid& wavenumbers, int channel, const SolverSpec& solver,
-                                        int threads) {
+                                        int threads, const StopFlag* stop) {
   const double kc = wavenumbers.at(wavenumbers.centre_index());
   // Materials are evaluated at the centre of the band and at equal distances on either side, the lower end among them.
   const double half_band = kc - wavenumbers.first;
@@ -152,7 +152,7 @@ std::vector<ResponseGrid> trace_to_grid(const Scatterer& scatterer, std::span<co
     const std::size_t exchanged = *shared[path];
     points[exchanged].add({trace.chunk_count(exchanged) + chunk, pairs[path], true, weight}, contributions);
   };
-  trace.run({add, add});
+  trace.run({add, add}, stop);
   std::vector<ResponseGrid> grids;
   for (const PathPoints& of_path : points)
     grids.push_back(of_path.grid(wavenumbers, cross_track_limit(scatterer), threads));
@@ -194,7 +194,7 @@ double default_aspect_change(const Scatterer& scatterer, double wavelength) {
 
 BodyResponse body_response(const Scatterer& scatterer, const Trajectory& trajectory, const Vec3& r_hat,
                            Polarisation polarisation, const IntervalSampling& sampling, const SolverSpec& solver,
-                           int threads, const SeaReflection* sea) {
+                           int threads, const SeaReflection* sea, const StopFlag* stop) {
   const int pulses = static_cast<int>(sampling.pulse_time_s.size());
   SEAGLINT_CHECK(pulses > 0 && sampling.pulse_first.size() == sampling.pulse_time_s.size(),
                  fmt::format("{} pulse times, {} bands", pulses, sampling.pulse_first.size()));
@@ -217,10 +217,13 @@ BodyResponse body_response(const Scatterer& scatterer, const Trajectory& traject
   const auto traces = plan.traces();
   const int side_by_side = std::min(threads, static_cast<int>(traces.size()));
   std::vector<std::vector<ResponseGrid>> returns(traces.size());  // [trace][propagation path]
-  parallel_for(traces.size(), side_by_side, [&](std::size_t i) {
-    returns[i] =
-        trace_to_grid(scatterer, traces[i].paths, wavenumbers, channel, solver, std::max(1, threads / side_by_side));
-  });
+  parallel_for(
+      traces.size(), side_by_side,
+      [&](std::size_t i) {
+        returns[i] = trace_to_grid(scatterer, traces[i].paths, wavenumbers, channel, solver,
+                                   std::max(1, threads / side_by_side), stop);
+      },
+      stop);
 
   BodyResponse result;
   result.response.pulses = pulses;

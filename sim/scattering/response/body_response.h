@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "sim/core/process/parallel.h"
 #include "sim/motion/kinematics/trajectory.h"
 #include "sim/scattering/response/frequency_response.h"
 #include "sim/scattering/response/sea_reflection.h"
@@ -30,9 +31,10 @@ double default_aspect_change(const Scatterer& scatterer, double wavelength);
 // frequency is in README.md. The polarisation basis is that of the world frame, rotated into the body at each trace.
 // With solver.wavefront_range_m > 0 the radar is at that distance from the origin of the target frame, and the body is
 // observed from its own position. The trajectory must cover the interval. `sea`: adds the specular sea reflection at z
-// = 0 of the target frame (sea_reflection.h) with one trace per propagation path; requires r_hat.z() > 0.
+// = 0 of the target frame (sea_reflection.h) with one trace per propagation path; requires r_hat.z() > 0. Throws
+// Interrupted when *stop becomes true.
 BodyResponse body_response(const Scatterer& scatterer, const Trajectory& trajectory, const Vec3& r_hat,
                            Polarisation polarisation, const IntervalSampling& sampling, const SolverSpec& solver,
-                           int threads = 1, const SeaReflection* sea = nullptr);
+                           int threads = 1, const SeaReflection* sea = nullptr, const StopFlag* stop = nullptr);
 
 }  // namespace seaglint
