@@ -73,6 +73,37 @@ ConfidenceInterval bootstrap_accuracy(std::span<const Prediction> predictions, i
 
 }  // namespace
 
+std::vector<RocPoint> roc_curve(std::span<const Prediction> predictions, std::size_t most) {
+  std::vector<std::pair<double, int>> sorted;
+  for (const Prediction& p : predictions) sorted.emplace_back(p.probability, p.label);
+  std::sort(sorted.rbegin(), sorted.rend());
+  std::array<std::int64_t, 2> total{}, above{};
+  for (const auto& [probability, label] : sorted) ++total[label == 1 ? 1 : 0];
+  if (total[0] == 0 || total[1] == 0) return {};
+  std::vector<std::array<std::int64_t, 2>> corners{{0, 0}};  // declared label 1, of label 0 and 1
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    ++above[sorted[i].second == 1 ? 1 : 0];
+    if (i + 1 < sorted.size() && sorted[i + 1].first == sorted[i].first) continue;
+    if (corners.size() > 1) {
+      const auto &a = corners[corners.size() - 2], &b = corners.back();
+      if ((b[0] - a[0]) * (above[1] - b[1]) == (b[1] - a[1]) * (above[0] - b[0])) corners.pop_back();
+    }
+    corners.push_back(above);
+  }
+  std::vector<RocPoint> curve;
+  for (const auto& c : corners)
+    curve.push_back({static_cast<double>(c[0]) / static_cast<double>(total[0]),
+                     static_cast<double>(c[1]) / static_cast<double>(total[1])});
+  if (curve.size() <= most) return curve;
+  const auto along = [](const RocPoint& p) { return p.false_alarms + p.detections; };
+  const double step = 2 / static_cast<double>(most - 1);
+  std::vector<RocPoint> kept{curve.front()};
+  for (std::size_t i = 1; i + 1 < curve.size(); ++i)
+    if (along(curve[i + 1]) > along(kept.back()) + step) kept.push_back(curve[i]);
+  kept.push_back(curve.back());
+  return kept;
+}
+
 Scores score(std::span<const Prediction> predictions, int bootstrap_samples, std::uint64_t seed,
              std::uint64_t bootstrap_index) {
   Scores scores;

@@ -36,6 +36,18 @@ struct Scores {
   std::array<std::array<std::size_t, 2>, 2> confusion{};  // [truth][decision]
 };
 
+// A threshold of the receiver operating characteristic.
+struct RocPoint {
+  double false_alarms = 0;  // fraction of label 0 that is declared label 1
+  double detections = 0;    // fraction of label 1 that is declared label 1
+};
+
+// The receiver operating characteristic from (0, 0) to (1, 1), thresholds descending; rows of equal probability are
+// one step, points on a straight line between their neighbours are left out. Of more than `most` points (at least 2)
+// every one that is kept is followed by the last whose false_alarms + detections is at most 2 / (most - 1) larger, or
+// by the next. Empty when a class is missing.
+std::vector<RocPoint> roc_curve(std::span<const Prediction> predictions, std::size_t most = 200);
+
 struct WaveHeightScores {
   double wave_height_m = 0;
   Scores scores;

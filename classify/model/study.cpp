@@ -229,8 +229,10 @@ Study run_study(const LearningTable& table, const LearningSpec& spec, double tra
       const bool swap = group == 0 && spec.fusion == Fusion::kSplit;
       for (std::size_t place = 0; place < 2; ++place) {
         const std::size_t fusion = swap ? 1 - place : place;
+        const std::vector<Prediction> predictions = pooled(protocol, fusion, group);
         (place == 0 ? outcome.primary : outcome.alternative) =
-            evaluate(pooled(protocol, fusion, group), done[(protocol * 2 + fusion) * repeats].train_rows[group]);
+            evaluate(predictions, done[(protocol * 2 + fusion) * repeats].train_rows[group]);
+        if (place == 0) outcome.roc = roc_curve(predictions);
         if (place == 0 && kProtocols[protocol] == Protocol::kGroup) {
           const JobResult& first = done[(protocol * 2 + fusion) * repeats];
           const FeatureMatrix& embeddings = first.embeddings;

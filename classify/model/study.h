@@ -25,8 +25,9 @@ struct Evaluation {
 // Results of one group of features under one protocol.
 struct Outcome {
   Protocol protocol = Protocol::kGroup;
-  Evaluation primary;      // hand-made: trees on all training rows; others: the scenario's fusion
-  Evaluation alternative;  // hand-made: trees on their rows of fusion `split`; others: the other fusion
+  Evaluation primary;         // hand-made: trees on all training rows; others: the scenario's fusion
+  Evaluation alternative;     // hand-made: trees on their rows of fusion `split`; others: the other fusion
+  std::vector<RocPoint> roc;  // of the primary
 };
 
 struct FeatureGroupResult {

@@ -43,6 +43,15 @@ ordered_json to_object(const Evaluation& evaluation) {
   return json;
 }
 
+ordered_json to_object(const std::vector<RocPoint>& curve) {
+  ordered_json json{{"false_alarms", ordered_json::array()}, {"detections", ordered_json::array()}};
+  for (const RocPoint& point : curve) {
+    json["false_alarms"].push_back(point.false_alarms);
+    json["detections"].push_back(point.detections);
+  }
+  return json;
+}
+
 const char* fusion_name(Fusion fusion) { return fusion == Fusion::kSplit ? "split" : "in_sample"; }
 
 std::string percent(const Scores& scores) {
@@ -66,6 +75,7 @@ ordered_json to_json(const Study& study, const LearningSpec& spec) {
     ordered_json others;
     for (const Outcome& outcome : group.outcomes) {
       entry[name(outcome.protocol)] = to_object(outcome.primary);
+      entry[name(outcome.protocol)]["roc"] = to_object(outcome.roc);
       others[name(outcome.protocol)] = to_object(outcome.alternative);
     }
     entry[handmade ? "fewer_rows" : fusion_name(other)] = others;

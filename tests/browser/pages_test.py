@@ -70,6 +70,8 @@ def check_report(page, picture):
         wait(lambda: "no sample 99" in find(".chosen p")[0].text, "an unknown sample is named")
         driver.execute_script("document.getElementById('accuracy').scrollIntoView()")
         wait(lambda: find("#accuracy figure.drawn .interactive .trace, #accuracy figure.drawn .interactive .scatterlayer"), "accuracy curves")
+        curves = lambda: driver.execute_script("return [...document.querySelectorAll('#accuracy figure.drawn .interactive')].map((p) => p.data.map((t) => t.name))")
+        wait(lambda: sum(any("AUC" in name for name in names) for names in curves()) == 2, "a ROC for each protocol")
         assert driver.execute_script("return document.documentElement.scrollWidth <= document.documentElement.clientWidth"), "nothing is wider than the window"
         errors = [entry for entry in driver.get_log("browser") if entry["level"] == "SEVERE"]
         assert not errors, errors
@@ -81,6 +83,38 @@ def check_report(page, picture):
         if picture:
             driver.execute_script("window.scrollTo(0, 0)")
             driver.save_screenshot(picture)
+
+
+def check_hot_spots(seaglint, source, folder):
+    """A report with meshes: the reflector array of quick.yaml beside the same reflector at another spacing."""
+    from selenium.webdriver.common.by import By
+    from selenium.webdriver.common.keys import Keys
+    scenario = folder / "corners.yaml"
+    mesh = f"mesh: {source}/assets/icosahedral_reflector.glb, motion: {{model: float}}"
+    scenario.write_text(f"""seaglint: 1
+name: corners
+view: {{azimuth_deg: [10, 60], elevation_deg: 2}}
+targets: {{near: {{label: 1, {mesh}}}, apart: {{label: 0, {mesh}, layout: {{line: {{count: 2, spacing_m: 40}}}}}}}}
+dataset: {{maps_per_case: 4, realisations_per_case: 4}}
+learning: {{epochs: 1}}
+""", encoding="utf-8")
+    subprocess.run([seaglint, "run", scenario, "-o", folder / "corners"], check=True, stdout=subprocess.DEVNULL)
+    with browser() as driver:
+        driver.get((folder / "corners/report.html").as_uri())
+        find = lambda css: driver.find_elements(By.CSS_SELECTOR, css)
+        driver.execute_script("document.getElementById('hot-spots').scrollIntoView()")
+        shown = lambda: (find("#hot-spots [data-shown]") or [driver.find_element(By.TAG_NAME, "body")])[0].get_attribute("data-shown")
+        wait(lambda: shown() == "0,0", "the first target at the first view")
+        surface = lambda: driver.execute_script("const t = document.querySelector('#hot-spots [data-shown]').data[0]; return [t.i.length, t.intensity.length, Math.max(...t.i, ...t.j, ...t.k) + 1 === t.x.length, Math.max(...t.x) - Math.min(...t.x), t.intensity]")
+        facets, levels, indexed, extent, first = surface()
+        assert facets == levels == 60 and indexed and abs(extent - 0.795061) < 1e-4, (facets, levels, indexed, extent)
+        find("#hot-spot-view")[0].send_keys(Keys.ARROW_RIGHT)
+        wait(lambda: shown() == "0,1", "another view")
+        assert surface()[4] != first, "another view has other levels"
+        find("#hot-spot-target")[0].send_keys(Keys.ARROW_DOWN)
+        wait(lambda: shown() == "1,1", "the other target")
+        errors = [entry for entry in driver.get_log("browser") if entry["level"] == "SEVERE"]
+        assert not errors, errors
 
 
 def check_without_scripts(page):
@@ -123,6 +157,7 @@ def main(seaglint, source, picture=None):
         check_report(page, picture)
         check_without_scripts(page)
         check_comparison(seaglint, source, pathlib.Path(folder))
+        check_hot_spots(seaglint, source, pathlib.Path(folder))
     return 0
 
 

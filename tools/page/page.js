@@ -81,6 +81,12 @@ const seaglint = (() => {
     await library.newPlot(place, data, layout, CONFIG);
   }
 
+  function element(tag, properties = {}, ...children) {
+    const made = Object.assign(document.createElement(tag), properties);
+    made.append(...children);
+    return made;
+  }
+
   // Calls `action` once, when the element comes near the window.
   function whenSeen(element, action) {
     const observer = new IntersectionObserver((entries) => {
@@ -93,5 +99,5 @@ const seaglint = (() => {
 
   const able = "DecompressionStream" in window;
   if (able) document.querySelectorAll("figure.plot").forEach((element) => whenSeen(element, draw));
-  return { able, inflate, plotly, whenSeen, axis, COLOURS, SYMBOLS, CONFIG };
+  return { able, inflate, plotly, whenSeen, element, axis, COLOURS, SYMBOLS, CONFIG };
 })();

@@ -7,9 +7,10 @@
 
 namespace seaglint {
 
-std::string_view page_style();     // style.css
-std::string_view page_script();    // page.js: unpacks plotly, draws the plots of a page
-std::string_view report_script();  // report.js: maps, features and targets of a report
-std::string_view plotly_gzip();    // plotly.js (MIT licence) of Debian's python3-plotly, gzip in Base64
+std::string_view page_style();        // style.css
+std::string_view page_script();       // page.js: unpacks plotly, draws the plots of a page
+std::string_view report_script();     // report.js: maps and features of a report
+std::string_view hot_spots_script();  // hot_spots.js: targets of a report
+std::string_view plotly_gzip();       // plotly.js (MIT licence) of Debian's python3-plotly, minified, gzip in Base64
 
 }  // namespace seaglint

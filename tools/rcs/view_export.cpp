@@ -14,6 +14,7 @@
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/scattering/response/scattering_centres_3d.h"
 #include "tools/rcs/echo_selection.h"
+#include "tools/rcs/facet_levels.h"
 
 namespace seaglint {
 namespace {
@@ -73,28 +74,12 @@ std::string write_centres(const ViewExport& arguments, const TriangleMesh& mesh,
 // Writes the mesh with one material per 2 dB of strength; facets without contribution or below the dynamic range have
 // the lowest colour.
 std::string write_hot_spots(const ViewExport& arguments, const TriangleMesh& mesh, const Scatterer& scatterer,
-                            const std::vector<std::array<Complex, 4>>& echoes) {
+                            const FacetLevels& levels) {
   constexpr double kStep_db = 2;
-  const std::size_t facets = scatterer.facets().size();
-  // The contributions of a panel are summed over its facets.
-  std::vector<std::array<Complex, 4>> panel(facets);
-  for (std::size_t f = 0; f < facets; ++f) {
-    for (std::size_t i = 0; i < 4; ++i)
-      panel[static_cast<std::size_t>(scatterer.panels().representative(static_cast<int>(f)))][i] += echoes[f][i];
-  }
-  std::vector<double> level(facets, dbsm_of_area(0));
-  double highest = dbsm_of_area(0);
-  for (std::size_t f = 0; f < facets; ++f) {
-    double most = 0;
-    for (const Complex& s : panel[static_cast<std::size_t>(scatterer.panels().representative(static_cast<int>(f)))])
-      most = std::max(most, std::norm(s));
-    level[f] = dbsm_of_area(4 * kPi * most);
-    highest = std::max(highest, level[f]);
-  }
-  const bool silent = highest <= dbsm_of_area(0);
-  const double top = silent ? 0 : std::ceil(highest / kStep_db) * kStep_db;
+  const bool silent = levels.highest_dbsm <= dbsm_of_area(0);
+  const double top = silent ? 0 : std::ceil(levels.highest_dbsm / kStep_db) * kStep_db;
   const int steps = static_cast<int>(std::ceil(arguments.range_db / kStep_db));
-  TriangleMesh coloured;
+  TriangleMesh coloured = mesh_of_facets(scatterer);
   coloured.part_names = mesh.part_names;
   std::vector<std::array<double, 3>> colours;
   for (int i = 0; i <= steps; ++i) {  // 0: below the dynamic range
@@ -103,17 +88,13 @@ std::string write_hot_spots(const ViewExport& arguments, const TriangleMesh& mes
                                          : fmt::format("{:g} to {:g} dBsm", from, from + kStep_db)});
     colours.push_back(i == 0 ? std::array<double, 3>{0.02, 0.02, 0.025} : viridis((i - 0.5) / steps));
   }
-  for (std::size_t f = 0; f < facets; ++f) {
-    const auto first = static_cast<std::uint32_t>(coloured.vertices.size());
-    for (const Vec3& corner : scatterer.facets()[f].corner) coloured.vertices.push_back(scatterer.centre() + corner);
-    coloured.triangles.push_back({first, first + 1, first + 2});
-    coloured.triangle_part.push_back(scatterer.facets()[f].part);
-    const int step = steps + 1 - static_cast<int>(std::floor((top - level[f]) / kStep_db)) - 1;
+  for (const double level : levels.dbsm) {
+    const int step = steps + 1 - static_cast<int>(std::floor((top - level) / kStep_db)) - 1;
     coloured.triangle_material.push_back(static_cast<std::uint16_t>(std::clamp(step, 0, steps)));
   }
   write_coloured_mesh(arguments.hot_spots, welded(coloured), colours);
   return fmt::format("{}: facets coloured by their RCS contribution, {}\n", arguments.hot_spots,
-                     silent ? "no echo at this aspect" : fmt::format("up to {:.1f} dBsm", highest));
+                     silent ? "no echo at this aspect" : fmt::format("up to {:.1f} dBsm", levels.highest_dbsm));
 }
 
 // The head of a table of scattering centres.
@@ -138,8 +119,8 @@ std::string export_view(const RcsRequest& request, const RcsTarget& target,
     lines += write_centres(request.exports, target.prepared.mesh,
                            cluster_centres(contributions, k, request.exports.cell_m), heading(request));
   if (!request.exports.hot_spots.empty())
-    lines += write_hot_spots(request.exports, target.prepared.mesh, scatterer,
-                             facet_contributions(contributions, k, scatterer.facets().size()));
+    lines +=
+        write_hot_spots(request.exports, target.prepared.mesh, scatterer, facet_levels(scatterer, contributions, k));
   return lines;
 }
 

@@ -18,6 +18,7 @@
 #include "tools/pipeline/scene.h"
 #include "tools/pipeline/train.h"
 #include "tools/pipeline/warnings.h"
+#include "tools/report/hot_spots.h"
 #include "tools/report/probe_text.h"
 #include "tools/report/report_figures.h"
 #include "tools/report/report_text.h"
@@ -100,14 +101,19 @@ std::string section(const char* id, const char* title, const std::string& conten
   return fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n{}</section>\n", id, title, content);
 }
 
-std::string targets_section(const std::vector<ReportFigure>& all, const std::string& missing) {
+std::string targets_section(const std::vector<ReportFigure>& all, const HotSpots& spots, const std::string& missing) {
   if (!missing.empty()) {
     return fmt::format(
         "<p>Neither the targets nor their motion are drawn: {}. Report the run again where its files are found.</p>\n",
         escape_html(missing));
   }
   const std::string pictures = figures(all, "targets");
-  return pictures.empty() ? "<p>Ideal point scatterers; there is nothing to draw.</p>\n" : pictures;
+  if (pictures.empty()) return "<p>Ideal point scatterers; there is nothing to draw.</p>\n";
+  std::string html;
+  if (!spots.json.empty())
+    html += fmt::format("<div id=\"hot-spots\"><script type=\"application/json\">{}</script></div>\n", spots.json);
+  if (!spots.about.empty()) html += fmt::format("<p class=\"caption\">{}</p>\n", spots.about);
+  return html + pictures;
 }
 
 // Where report.js draws maps, with what it reads.
@@ -120,8 +126,9 @@ std::string explorer(const ReportData& data) {
 }
 
 std::string page(const ordered_json& metrics, const ReportData& data, const Scenario& scenario,
-                 const std::vector<ReportFigure>& all, const std::string& missing) {
+                 const std::vector<ReportFigure>& all, const HotSpots& spots, const std::string& missing) {
   const std::string name = escape_html(scenario.name);
+  const ClassNames classes = class_names(scenario);
   std::string body = fmt::format(
       "<header>\n<h1>Ship or corner-reflector array?</h1>\n<p class=\"lead\">Simulated frequency-agile radar maps, "
       "their features and how well they tell the two "
@@ -143,15 +150,15 @@ std::string page(const ordered_json& metrics, const ReportData& data, const Scen
                   "<p>XGBoost (200 trees, depth 6 unless the scenario says otherwise) on three groups of features. In "
                   "brackets the 95 % interval of a bootstrap over sea "
                   "realisations.</p>\n" +
-                      figures(all, "accuracy") + accuracy_tables(metrics));
+                      figures(all, "accuracy") + accuracy_tables(metrics, classes));
   body += section("paper", "The paper’s claims beside ours",
-                  claims_table(metrics) +
+                  claims_table(metrics, classes) +
                       "<p>Whatever comes out is printed; nothing was tuned towards the paper. It used CST for the "
                       "echoes and DualSPHysics for the motion, "
                       "gives neither peak period nor wave direction, and tests on random rows.</p>\n");
   body += section("features", "Hand-made and learned features",
                   "<div id=\"scatter\"></div>\n" + figures(all, "scatter", true) + figures(all, "features") +
-                      feature_table(metrics));
+                      feature_table(metrics, classes));
   body += section("aspects", "Dependence on aspect", figures(all, "aspects"));
   body += section("probes", "Probes: what else could tell the class",
                   "<p>Each quantity is given to the same trees by itself. Quantities that know nothing of the target "
@@ -159,7 +166,7 @@ std::string page(const ordered_json& metrics, const ReportData& data, const Scen
                       probes_table(metrics, scenario));
   body += section("notes", "What an expert should notice", expert_notes(metrics, scenario));
   body += section("sea", "Sea and motion", figures(all, "sea"));
-  body += section("targets", "Targets", targets_section(all, missing));
+  body += section("targets", "Targets", targets_section(all, spots, missing));
   body += section("run", "Run time, versions, seeds", provenance_table(metrics));
   body += section("scenario", "Effective scenario",
                   "<details><summary>Every key with its value</summary>\n<pre>" +
@@ -167,7 +174,7 @@ std::string page(const ordered_json& metrics, const ReportData& data, const Scen
   body +=
       "<footer>Made by seaglint. Every number of this page is in metrics.json, every figure a PNG (plots also SVG) "
       "beside it. Simulated data; nothing here was measured.</footer>\n";
-  return html_page("seaglint: " + scenario.name, body, report_script());
+  return html_page("seaglint: " + scenario.name, body, std::string(report_script()) + std::string(hot_spots_script()));
 }
 
 using Clock = std::chrono::steady_clock;
@@ -180,11 +187,12 @@ double draw_and_write(const fs::path& directory, const Scenario& scenario, const
   metrics["report"] = report_numbers(results.data);
   const std::vector<ReportFigure> all =
       draw_report_figures(directory, scenario, plan, targets, results.data, metrics, thread_count(threads), stop);
+  const HotSpots spots = hot_spots(scenario, plan, targets, thread_count(threads), stop);
   const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   metrics["run"]["seconds"]["report"] = seconds;
   std::string html;
   try {
-    html = page(metrics, results.data, scenario, all, missing);
+    html = page(metrics, results.data, scenario, all, spots, missing);
   } catch (const nlohmann::json::exception& error) {
     throw InputError(fmt::format("{}: {}", (directory / kMetricsFile).string(), json_problem(error)));
   }

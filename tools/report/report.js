@@ -17,11 +17,7 @@
   const targets = unique(columns.target).sort((a, b) => label(a) - label(b) || a - b),  // colours as in the other plots
      heights = unique(columns.significant_wave_height_m), azimuths = unique(columns.azimuth_deg);
 
-  function element(tag, properties = {}, ...children) {
-    const made = Object.assign(document.createElement(tag), properties);
-    made.append(...children);
-    return made;
-  }
+  const { element } = seaglint;
   function boxes(title, values, text) {
     const set = element("fieldset", {}, element("legend", { textContent: title, style: "float:left;margin-right:8px;font-weight:600" }));
     const inputs = values.map((value) => {

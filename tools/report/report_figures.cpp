@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "classify/model/tsne.h"
 #include "sim/core/numbers/constants.h"
@@ -17,9 +18,10 @@
 #include "tools/figure/mesh_picture.h"
 #include "tools/page/html.h"
 #include "tools/page/plot_json.h"
-#include "tools/pipeline/metrics.h"
 #include "tools/pipeline/scene.h"
+#include "tools/report/class_names.h"
 #include "tools/report/explorer.h"
+#include "tools/report/score_plots.h"
 #include "tools/report/summary.h"
 
 namespace seaglint {
@@ -29,7 +31,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t kMaxNeighbours = 700;  // rows of a t-SNE plane
-constexpr const char* kClassNames[2] = {"array", "ship"};
 
 struct Drawing {
   ReportFigure figure;
@@ -137,49 +138,35 @@ void add_maps(FigureList& list, const ReportData& data) {
   }
 }
 
-void add_accuracy(FigureList& list, const nlohmann::ordered_json& metrics) {
+void add_scores(FigureList& list, const nlohmann::ordered_json& metrics) {
   for (const char* protocol : {"random", "group"}) {
-    LinePlot plot;
-    plot.title = protocol == std::string("random") ? "Random split of the maps" : "Split by sea realisation";
-    plot.x.label = "significant wave height (m)";
-    double span = 0, lowest = 50;
-    for (const auto& row : metrics.at("handmade").at(protocol).at("by_wave_height")) {
-      span = std::max(span, row.at("significant_wave_height_m").get<double>());
-    }
-    double shift = -0.012 * span;  // offset, so that the error bars do not overlap
-    for (const auto& [group, label] : {std::pair{"handmade", "hand-made"}, {"cnn", "CNN"}, {"fused", "fused"}}) {
-      Series series;
-      series.name = label;
-      series.style = SeriesStyle::kLinesPoints;
-      for (const auto& row : metrics.at(group).at(protocol).at("by_wave_height")) {
-        const double accuracy = 100 * value_or_nan(row.at("accuracy"));
-        const double low = 100 * value_or_nan(row.at("accuracy_95")[0]),
-                     high = 100 * value_or_nan(row.at("accuracy_95")[1]);
-        series.x.push_back(row.at("significant_wave_height_m").get<double>() + shift);
-        series.y.push_back(accuracy);
-        series.interval.push_back({std::isfinite(low) ? low : accuracy, std::isfinite(high) ? high : accuracy});
-        lowest = std::min(lowest, series.interval.back()[0]);
-      }
-      plot.series.push_back(std::move(series));
-      shift += 0.012 * span;
-    }
-    plot.y = {"accuracy on test maps (%)", AxisRange{std::floor(lowest / 10) * 10, 102}, false};
-    list.add("accuracy", fmt::format("accuracy_{}", protocol), std::move(plot), {640, 400},
+    list.add("accuracy", fmt::format("accuracy_{}", protocol), accuracy_plot(metrics, protocol), {640, 400},
              protocol == std::string("random") ? "Random split: the paper's protocol. Maps of the same sea lie on both "
                                                  "sides. Bars: 95 % bootstrap over seas."
                                                : "Split by sea: no test map shares its sea with a training map. No bar "
                                                  "where a height has one test sea only.",
              fmt::format("Accuracy against wave height, {} split", protocol));
   }
+  for (const char* protocol : {"random", "group"}) {
+    std::optional<LinePlot> plot = roc_plot(metrics, protocol);
+    if (!plot) continue;
+    list.add("accuracy", fmt::format("roc_{}", protocol), std::move(*plot), {640, 400},
+             protocol == std::string("random")
+                 ? "Receiver operating characteristic over the threshold of the trees' probability, all test "
+                   "predictions of the random split."
+                 : "The same for unseen seas. Maps of one sea are not independent.",
+             fmt::format("ROC, {} split", protocol));
+  }
 }
 
 // One scatter with a series per class.
-LinePlot class_scatter(const ReportData& data, const std::function<std::array<double, 2>(std::size_t)>& point,
+LinePlot class_scatter(const ReportData& data, const ClassNames& classes,
+                       const std::function<std::array<double, 2>(std::size_t)>& point,
                        const std::vector<std::size_t>& rows) {
   LinePlot plot;
   for (const int label : {0, 1}) {
     Series series;
-    series.name = kClassNames[label];
+    series.name = classes[static_cast<std::size_t>(label)];
     series.style = SeriesStyle::kPoints;
     for (const std::size_t row : rows) {
       if (data.rows[row].record.label != label) continue;
@@ -200,10 +187,10 @@ std::vector<std::size_t> thinned(std::size_t rows, std::size_t most) {
   return chosen;
 }
 
-void add_features(FigureList& list, const ReportData& data, std::uint64_t seed) {
+void add_features(FigureList& list, const ReportData& data, const ClassNames& classes, std::uint64_t seed) {
   const std::vector<std::size_t> all = thinned(data.rows.size(), 4000);
   LinePlot residual = class_scatter(
-      data,
+      data, classes,
       [&](std::size_t i) {
         return std::array{std::max(data.rows[i].record.mwr, 1e-6), data.rows[i].record.ccf};
       },
@@ -215,7 +202,7 @@ void add_features(FigureList& list, const ReportData& data, std::uint64_t seed) 
            "The paper's two new features, every map a point; a residual of zero stands at 1e-6.",
            "Scatter of MWR and CCF by class");
   LinePlot spreads = class_scatter(
-      data,
+      data, classes,
       [&](std::size_t i) {
         return std::array{data.rows[i].record.sigma_r_m, data.rows[i].record.sigma_v_mps};
       },
@@ -235,7 +222,7 @@ void add_features(FigureList& list, const ReportData& data, std::uint64_t seed) 
     std::vector<std::array<double, 2>> place(data.rows.size());
     for (std::size_t i = 0; i < few.size(); ++i) place[few[i]] = points[i];
     LinePlot plot = class_scatter(
-        data, [&](std::size_t i) { return place[i]; }, few);
+        data, classes, [&](std::size_t i) { return place[i]; }, few);
     plot.title = title;
     plot.x.label = "t-SNE 1";
     plot.y.label = "t-SNE 2";
@@ -247,7 +234,7 @@ void add_features(FigureList& list, const ReportData& data, std::uint64_t seed) 
   }
 }
 
-void add_aspects(FigureList& list, const ReportData& data) {
+void add_aspects(FigureList& list, const ReportData& data, const ClassNames& classes) {
   const std::vector<double> azimuths = azimuths_deg(data);
   struct Quantity {
     const char* file;
@@ -275,7 +262,7 @@ void add_aspects(FigureList& list, const ReportData& data) {
     plot.y = quantity.axis;
     for (const int label : {0, 1}) {
       Series series;
-      series.name = kClassNames[label];
+      series.name = classes[static_cast<std::size_t>(label)];
       series.style = SeriesStyle::kLinesPoints;
       for (const double azimuth : azimuths) {
         const Quartiles q = quartiles_of(data, {label, data.shown_wave_height_m, azimuth}, quantity.value);
@@ -366,10 +353,11 @@ std::vector<ReportFigure> draw_report_figures(const fs::path& directory, const S
                                               const ReportData& data, const nlohmann::ordered_json& metrics,
                                               int threads, const StopFlag* stop) {
   FigureList list(directory);
+  const ClassNames classes = class_names(scenario);
   add_maps(list, data);
-  add_accuracy(list, metrics);
-  add_features(list, data, scenario.seed);
-  add_aspects(list, data);
+  add_scores(list, metrics);
+  add_features(list, data, classes, scenario.seed);
+  add_aspects(list, data, classes);
   add_sea(list, scenario, plan, targets, data.shown_wave_height_m);
   add_targets(list, targets);
   return list.draw(threads, stop);

@@ -102,7 +102,7 @@ std::string summary_tiles(const ordered_json& metrics) {
   return html + "</div>\n";
 }
 
-std::string accuracy_tables(const ordered_json& metrics) {
+std::string accuracy_tables(const ordered_json& metrics, const ClassNames& classes) {
   std::string html;
   for (const char* protocol : kProtocols) {
     const bool random = protocol == kProtocols[0];
@@ -127,7 +127,9 @@ std::string accuracy_tables(const ordered_json& metrics) {
   }
 
   html += "<h3>Further figures of merit, all wave heights</h3>\n";
-  Rows rows{{"features, split", "fusion", "accuracy", "AUC", "log loss", "predictions: array as ship", "ship as array",
+  Rows rows{{"features, split", "fusion", "accuracy", "AUC", "log loss",
+             fmt::format("predictions: {} as {}", escape_html(classes[0]), escape_html(classes[1])),
+             fmt::format("{} as {}", escape_html(classes[1]), escape_html(classes[0])),
              "maps the trees learned from, each split"}};
   const auto add = [&rows](const std::string& name, const std::string& fusion, const ordered_json& e) {
     const auto number = [](double x, const char* format) {
@@ -167,7 +169,7 @@ std::string accuracy_tables(const ordered_json& metrics) {
   return html;
 }
 
-std::string claims_table(const ordered_json& metrics) {
+std::string claims_table(const ordered_json& metrics, const ClassNames& classes) {
   const auto verdict = [](bool holds) { return holds ? std::string("yes") : std::string("no"); };
   const double handmade_random = accuracy(metrics, "handmade", "random"),
                handmade_group = accuracy(metrics, "handmade", "group");
@@ -201,12 +203,13 @@ std::string claims_table(const ordered_json& metrics) {
     array_scatters = array_scatters && mwr(0) > 2 * mwr(1);
   }
   rows.push_back(
-      {"A ship’s centres lie on a line, an array’s do not (median MWR of ship / array in (m/s)², all aspects)",
+      {fmt::format("A ship’s centres lie on a line, an array’s do not (median MWR of {} / {} in (m/s)², all aspects)",
+                   escape_html(classes[1]), escape_html(classes[0])),
        residuals, "the same maps", array_scatters ? "yes" : "not at every height"});
   return html_table(rows, false);
 }
 
-std::string feature_table(const ordered_json& metrics) {
+std::string feature_table(const ordered_json& metrics, const ClassNames& classes) {
   Rows rows{{"class, H<sub>s</sub>", "MWR ((m/s)²)", "CCF", "σ<sub>r</sub> (m)", "σ<sub>v</sub> (m/s)", "centres",
              "line explains"}};
   const auto cell = [](const ordered_json& q, const char* format, double scale) {
@@ -216,7 +219,7 @@ std::string feature_table(const ordered_json& metrics) {
     return fmt::format("{} <small>({}–{})</small>", number("median"), number("lower"), number("upper"));
   };
   for (const auto& e : metrics.at("report").at("features_by_wave_height")) {
-    rows.push_back({fmt::format("{}, {:g} m", e.at("label") == 1 ? "ship" : "array",
+    rows.push_back({fmt::format("{}, {:g} m", escape_html(classes.at(e.at("label").get<std::size_t>())),
                                 e.at("significant_wave_height_m").get<double>()),
                     cell(e.at("mwr"), "{:.3g}", 1), cell(e.at("ccf"), "{:.2f}", 1),
                     cell(e.at("sigma_r_m"), "{:.1f}", 1), cell(e.at("sigma_v_mps"), "{:.3f}", 1),
@@ -268,6 +271,7 @@ std::string expert_notes(const ordered_json& metrics, const Scenario& scenario) 
   for (const auto& entry : metrics.at("probes")) {
     if (entry.at("kind") == "blind") clean = clean && as_chance(metrics, entry);
   }
+  const ClassNames classes = class_names(scenario);
   const std::string chance = guessing(group).text();
   html +=
       item(clean ? fmt::format(
@@ -289,8 +293,8 @@ std::string expert_notes(const ordered_json& metrics, const Scenario& scenario) 
   html +=
       item(fmt::format("<b>Scale of the residual.</b> One velocity cell is {:.3f} m/s; a spread over one cell alone "
                        "gives an MWR of {:.2g} (m/s)². At H<sub>s</sub> {:g} m "
-                       "the medians are {:.2g} (ship) and {:.2g} (array) (m/s)².",
-                       cell, cell * cell / 12, shown, ship, array));
+                       "the medians are {:.2g} ({}) and {:.2g} ({}) (m/s)².",
+                       cell, cell * cell / 12, shown, ship, escape_html(classes[1]), array, escape_html(classes[0])));
   std::string aspects;
   for (const auto& e : metrics.at("report").at("features_by_azimuth")) {
     if (e.at("label") != 1) continue;
@@ -305,8 +309,8 @@ std::string expert_notes(const ordered_json& metrics, const Scenario& scenario) 
                   "height breaks it, and it fades near bow and stern. A flat line (nothing moves) explains no variance "
                   "and is a line all the same: there MWR is what is small. Velocity variance explained by the line "
                   "(adjusted for the number of centres, 0 for loose points), "
-                  "medians of ship / array at H<sub>s</sub> {:g} m: {}.",
-                  shown, aspects));
+                  "medians of {} / {} at H<sub>s</sub> {:g} m: {}.",
+                  escape_html(classes[1]), escape_html(classes[0]), shown, aspects));
   if (scenario.radar.hop_code != HopCode::kStepped) {
     html += item(
         "<b>The pedestal is not noise.</b> Random hopping leaves a pedestal at all velocities within ±6 m of every "

@@ -132,6 +132,41 @@ TEST(Scores, AreThoseOfASmallExampleByHand) {
   EXPECT_EQ(scores.confusion[0][1], 1u);
 }
 
+TEST(Roc, IsThatOfASmallExampleByHand) {
+  const auto curve = roc_curve(predictions_of({{1, 0.9}, {1, 0.4}, {0, 0.4}, {0, 0.1}, {0, 0.7}, {1, 0.95}}));
+  // Thresholds 0.95 and 0.9: ships alone, a straight line; 0.7: one array; 0.4: a ship and an array together; 0.1.
+  const double expected[][2] = {{0, 0}, {0, 2.0 / 3}, {1.0 / 3, 2.0 / 3}, {2.0 / 3, 1}, {1, 1}};
+  ASSERT_EQ(curve.size(), std::size(expected));
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    EXPECT_DOUBLE_EQ(curve[i].false_alarms, expected[i][0]) << i;
+    EXPECT_DOUBLE_EQ(curve[i].detections, expected[i][1]) << i;
+  }
+  EXPECT_TRUE(roc_curve(predictions_of({{1, 0.9}, {1, 0.2}})).empty());
+}
+
+// Trapezoids below the curve against Mann and Whitney's statistic; a thinned curve leaves out less than a step of both
+// axes, so that the area changes by at most the sum of its steps' products, 2 / (most - 1).
+TEST(Roc, HasTheAreaOfMannAndWhitney) {
+  std::vector<Prediction> predictions;
+  Random random({42, Stream::kBootstrap, 0});
+  for (std::int64_t i = 0; i < 5000; ++i) {
+    const int label = i % 3 == 0 ? 1 : 0;
+    predictions.push_back({i, i, 1.0, label, std::round(1000 * (0.3 * label + 0.7 * random.uniform())) / 1000});
+  }
+  const double auc = score(predictions, 1, 1, 0).auc;
+  const auto area = [](const std::vector<RocPoint>& curve) {
+    double sum = 0;
+    for (std::size_t i = 1; i < curve.size(); ++i)
+      sum += (curve[i].false_alarms - curve[i - 1].false_alarms) * (curve[i].detections + curve[i - 1].detections) / 2;
+    return sum;
+  };
+  const auto whole = roc_curve(predictions, 10'000), thinned = roc_curve(predictions, 50);
+  EXPECT_GT(whole.size(), 3 * thinned.size());
+  EXPECT_NEAR(area(whole), auc, 1e-12);
+  EXPECT_LE(thinned.size(), 100u);
+  EXPECT_NEAR(area(thinned), auc, 2.0 / 49);
+}
+
 TEST(Scores, HaveNoIntervalFromOneSea) {
   auto predictions = predictions_of({{1, 0.9}, {0, 0.8}});
   for (Prediction& p : predictions) p.group = 3;

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/report/probe_text.h"
+#include "tools/report/score_plots.h"
 
 namespace seaglint {
 namespace {
@@ -132,18 +133,46 @@ TEST(AccuracyTables, LabelPredictionsOfPooledSplits) {
     metrics[group] = both;
     metrics[group].update({{"fusion", "split"}, {"fewer_rows", both}, {"in_sample", both}});
   }
-  const std::string pooled = accuracy_tables(metrics);
+  const std::string pooled = accuracy_tables(metrics, {"reflectors", "line"});
   EXPECT_THAT(pooled, Not(HasSubstr("test maps")));
   EXPECT_THAT(pooled, HasSubstr("test predictions"));
-  EXPECT_THAT(pooled, HasSubstr("predictions: array as ship"));
+  EXPECT_THAT(pooled, HasSubstr("predictions: reflectors as line"));
   EXPECT_THAT(
       pooled,
       HasSubstr("3 splits under each protocol, pooled: a map that several of them test has a prediction of each"));
   EXPECT_THAT(note_of_seas(metrics),
               HasSubstr("3 splits by sea, pooled, test on 8 sea realisations in all, each on a part of them."));
   metrics["split_repeats"] = 1;
-  EXPECT_THAT(accuracy_tables(metrics), HasSubstr("a test prediction is a map"));
+  EXPECT_THAT(accuracy_tables(metrics, {"reflectors", "line"}), HasSubstr("a test prediction is a map"));
   EXPECT_THAT(note_of_seas(metrics), HasSubstr("The split by sea tests on 8 sea realisations."));
+}
+
+TEST(ClassNames, AreThoseOfTheTargets) {
+  Scenario scenario;
+  for (const auto& [name, label] : {std::pair{"frigate", 1}, {"corner", 0}, {"boat", 1}}) {
+    scenario.targets.emplace_back();
+    scenario.targets.back().name = name;
+    scenario.targets.back().label = label;
+  }
+  EXPECT_EQ(class_names(scenario), (ClassNames{"corner", "frigate, boat"}));
+  scenario.targets.resize(5, scenario.targets.back());
+  EXPECT_EQ(class_names(scenario)[1], "label 1");
+}
+
+// An earlier version's metrics.json has no curve.
+TEST(RocPlot, ShowsEveryGroupWithItsAreaBesideChance) {
+  ordered_json scores{{"auc", 0.75}, {"roc", {{"false_alarms", {0, 0.5, 1}}, {"detections", {0, 1, 1}}}}};
+  ordered_json metrics;
+  for (const char* group : {"handmade", "cnn", "fused"}) metrics[group]["group"] = scores;
+  const std::optional<LinePlot> plot = roc_plot(metrics, "group");
+  ASSERT_TRUE(plot);
+  ASSERT_EQ(plot->series.size(), 4u);
+  EXPECT_EQ(plot->series[2].name, "fused, AUC 0.750");
+  EXPECT_EQ(plot->series[2].x, (std::vector<double>{0, 50, 100}));
+  EXPECT_EQ(plot->series[2].y, (std::vector<double>{0, 100, 100}));
+  EXPECT_EQ(plot->series[3].name, "chance");
+  metrics["cnn"]["group"].erase("roc");
+  EXPECT_FALSE(roc_plot(metrics, "group"));
 }
 
 }  // namespace

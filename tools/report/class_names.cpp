@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/report/class_names.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <vector>
+
+namespace seaglint {
+
+ClassNames class_names(const Scenario& scenario) {
+  constexpr std::size_t kMostNames = 3;
+  ClassNames classes;
+  for (const int label : {0, 1}) {
+    std::vector<std::string> names;
+    for (const TargetSpec& target : scenario.targets)
+      if (target.label == label) names.push_back(target.name);
+    classes[static_cast<std::size_t>(label)] = names.empty() || names.size() > kMostNames
+                                                   ? fmt::format("label {}", label)
+                                                   : fmt::format("{}", fmt::join(names, ", "));
+  }
+  return classes;
+}
+
+}  // namespace seaglint
