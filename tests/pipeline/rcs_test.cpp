@@ -3,12 +3,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "sim/core/numbers/constants.h"
+#include "sim/core/process/file.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/shapes/generators.h"
 #include "tests/pipeline/rcs_command.h"
@@ -94,6 +97,25 @@ TEST_F(RcsCommand, EqualsItsOwnTableAndDrawsIt) {
   const std::string figure = folder_.path() / "rcs.png";
   EXPECT_THAT(result.out, HasSubstr("Figure: " + figure));
   EXPECT_TRUE(std::filesystem::exists(figure));
+}
+
+// The curves of the comparison's figure are the levels of the table, and their differences from the reference.
+TEST_F(RcsCommand, CurvesAreThoseOfTheTable) {
+  const std::string curves = folder_.path() / "curves.json";
+  const ProgramResult result = rcs({"--frequency-ghz", "10.24", "--azimuth-deg", "0:2:0.5", "--reference",
+                                    "tests/reference/rcs/austin/ref_rcs.II.B.sx1.f11.V.txt", "--curves", curves});
+  ASSERT_EQ(result.code, 0) << result.err;
+  const auto json = nlohmann::json::parse(read_file(curves));
+  ASSERT_EQ(json.at("panels").size(), 2u);  // levels, differences
+  const CsvTable read = read_table(table());
+  const auto& levels = json.at("panels")[0].at("series");
+  const auto ours = std::ranges::find_if(levels, [](const auto& s) { return s.at("name") == "po+diffraction"; });
+  ASSERT_NE(ours, levels.end());
+  ASSERT_EQ(ours->at("y").size(), read.rows.size());
+  for (std::size_t i = 0; i < read.rows.size(); ++i) {
+    EXPECT_DOUBLE_EQ(ours->at("x")[i].template get<double>(), read.rows[i][1]);
+    EXPECT_NEAR(ours->at("y")[i].template get<double>(), read.rows[i][12], 1e-3);  // six digits of 10 dBsm
+  }
 }
 
 // Plate of problem set IIB: near its normal the echo is that of physical optics. The residual is the edges'

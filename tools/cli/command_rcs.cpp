@@ -17,6 +17,7 @@
 #include "tools/cli/command.h"
 #include "tools/figure/figure.h"
 #include "tools/options/rcs_arguments.h"
+#include "tools/page/plot_json.h"
 #include "tools/pipeline/output_files.h"
 #include "tools/pipeline/warnings.h"
 #include "tools/rcs/rcs_comparison.h"
@@ -38,7 +39,7 @@ void require_files(const RcsArguments& arguments) {
   const ViewExport& exports = arguments.request.exports;
   std::vector<std::filesystem::path> inputs(arguments.reference.files.begin(), arguments.reference.files.end());
   inputs.emplace_back(arguments.target);
-  std::vector<std::string> outputs{arguments.output, exports.centres, exports.hot_spots};
+  std::vector<std::string> outputs{arguments.output, exports.centres, exports.hot_spots, arguments.reference.curves};
   if (!arguments.reference.files.empty() || arguments.request.uncertainty) {
     outputs.push_back(figure_file(arguments));
     require_figure(outputs.back());
@@ -58,6 +59,13 @@ void show_figure(const RcsArguments& arguments, const std::vector<PairedCut>& cu
   } else {
     print_out("No figure: it needs a cut along azimuth, elevation or frequency of two points or more\n");
   }
+}
+
+// Writes the panels of the comparison's figure; without any there are no curves.
+void write_curves(const std::string& file, const std::vector<PairedCut>& cuts, double floor_db) {
+  const PlotPanels panels = comparison_plots(cuts, floor_db);
+  write_file(file, plot_json(panels.plots, panels.columns) + "\n");
+  print_out("Curves: {}\n", file);
 }
 
 // The cuts of all references that the sweep covers; throws before any work if one does not match.
@@ -130,6 +138,7 @@ void run_rcs(const RcsArguments& arguments, const CommandContext& context) {
   for (PairedCut& cut : cuts) set_models(cut, sweep);
   if (!cuts.empty()) print_out("{}", error_table(cuts, arguments.reference.floor_db));
   if (!cuts.empty() || request.uncertainty) show_figure(arguments, cuts, sweep);
+  if (!arguments.reference.curves.empty()) write_curves(arguments.reference.curves, cuts, arguments.reference.floor_db);
 }
 
 }  // namespace

@@ -72,6 +72,11 @@ void ReferenceArguments::add_to(CommandOptions& command) {
       .add_option("--figure", figure,
                   "Figure of the comparison, or of --uncertainty, .png or .svg; default: the output's name with .png")
       .group("Reference");
+  command
+      .add_option("--curves", curves,
+                  "Curves of the comparison's figure as JSON: panels with their axes and series, for other programs")
+      .needs(reference)
+      .group("Reference");
 }
 
 std::vector<CommandOption> ReferenceArguments::add_properties_to(CommandOptions& command) {

@@ -16,7 +16,7 @@ struct ReferenceArguments {
   // Each is empty, given once for all files, or given once per file in the order of the files.
   std::vector<std::string> polarisation, phi, frequency_ghz, incidence, origin_m;
   double floor_db = 80;
-  std::string figure;
+  std::string figure, curves;
 
   void add_to(CommandOptions& command);
   // Only those that say what the files do not.

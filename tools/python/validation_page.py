@@ -1,18 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The page and the JSON of tools/validation."""
 import base64
+import gzip
 import html
 import json
 
-STYLE = """body { font: 16px/1.5 system-ui, sans-serif; color: #1d2733; max-width: 1180px; margin: 2em auto; padding: 0 1em; }
-table { border-collapse: collapse; margin: 1em 0; font-variant-numeric: tabular-nums; }
+from figure_tables import ROOT
+
+STYLE = """main > p, section > p { max-width: none; }
 td:nth-child(n+2):not(:last-child) { white-space: nowrap; }
-td, th { border-bottom: 1px solid #d5dce3; padding: .3em .8em; text-align: left; vertical-align: top; }
-img { max-width: 100%; height: auto; }
-figure { margin: 1em 0; }
 img.mesh { float: right; width: 300px; margin: 0 0 1em 1.5em; }
-section { clear: both; }
-pre { overflow-x: auto; background: #f4f6f8; padding: .8em; font-size: 12.5px; clear: both; }"""
+section, section pre { clear: both; }
+"""
 
 LEAD = """<p>{version}, edge diffraction on unless stated. <b>Errors</b> are mean of the magnitude / rms in dB against the reference, both sides clipped at 80 dB (box, almond, ship and grooves: 40 dB) below the reference's maximum, over all directions or
 frequencies of the cut; nothing is interpolated. <b>Measured</b> is the measurement against the same reference: what two honest answers differ by. <b>Numerical</b>: mean change of our own levels in dB with patches of a quarter of the side (of a cavity: 8 in place of 6 per wavelength),
@@ -28,9 +27,9 @@ def change(value):
 
 
 def table(head, rows):
-    lines = ["<table>", "<tr>" + "".join(f"<th>{c}</th>" for c in head) + "</tr>"]
+    lines = ['<div class="scroll"><table>', "<tr>" + "".join(f"<th>{c}</th>" for c in head) + "</tr>"]
     lines += ["<tr>" + "".join(f"<td>{c}</td>" for c in row) + "</tr>" for row in rows]
-    return "\n".join(lines + ["</table>"])
+    return "\n".join(lines + ["</table></div>"])
 
 
 def picture(file):
@@ -48,15 +47,29 @@ def summary(results):
 
 
 def section(case, out):
-    printed = "\n".join(line for line in (out / f"{case.name}.txt").read_text(encoding="utf-8").splitlines() if not line.startswith("Figure"))
+    printed = "\n".join(line for line in (out / f"{case.name}.txt").read_text(encoding="utf-8").splitlines() if not line.startswith(("Figure", "Curves")))
     note = f"<p><b>Limits.</b> {case.note}</p>" if case.note else ""
     return f"""<section id="{case.name}"><h2>{html.escape(case.title)}</h2>
 <img class="mesh" alt="the mesh from azimuth {case.view[0]}, elevation {case.view[1]} deg" src="{picture(out / f'{case.name}_mesh.png')}">
 <p><b>Geometry.</b> {html.escape(case.geometry)}</p>
 <p><b>Reference.</b> {case.source}</p>
 {note}
-<figure><img alt="{html.escape(case.title)}: levels and differences" src="{picture(out / f'{case.name}.png')}"></figure>
+{curves(case, out)}
 <pre>{html.escape(printed)}</pre></section>"""
+
+
+def curves(case, out):
+    """The levels and differences as a picture, and for the script of the page as curves in its place."""
+    plot = (out / f"{case.name}_curves.json").read_text(encoding="utf-8").strip()
+    return f"""<figure class="plot"><img alt="{html.escape(case.title)}: levels and differences" src="{picture(out / f'{case.name}.png')}"><script type="application/json">{plot}</script></figure>"""
+
+
+def scripts():
+    """plotly and the script of the program's own pages."""
+    plotly = gzip.compress((ROOT / "build/release/generated/plotly.min.js").read_bytes(), 9, mtime=0)
+    return f"""<script type="text/plain" id="plotly">{base64.b64encode(plotly).decode()}</script>
+<script>
+{(ROOT / "tools/page/page.js").read_text(encoding="utf-8")}</script>"""
 
 
 def text_section(title, about, text):
@@ -65,7 +78,7 @@ def text_section(title, about, text):
 
 def page(version, results, flashes, others, out):
     """others: (title, text in HTML, printed text)."""
-    parts = ["<h1>The solver against references</h1>", LEAD.format(version=html.escape(version)), summary(results)]
+    parts = ["<header>\n<h1>The solver against references</h1>\n</header>", LEAD.format(version=html.escape(version)), summary(results)]
     if flashes:
         parts.append(table(["flash of the box, HH, 10.24 GHz: azimuth (deg)", "computed (dBsm)", "reference (dBsm)", "difference (dB)"], flashes))
     parts += [section(case, out) for case, _ in results] + [text_section(*other) for other in others]
@@ -74,13 +87,16 @@ def page(version, results, flashes, others, out):
 <head>
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
+<link rel="icon" href="data:,">
 <title>seaglint: the solver against references</title>
 <style>
-{STYLE}
-</style>
+{(ROOT / "tools/page/style.css").read_text(encoding="utf-8")}{STYLE}</style>
 </head>
 <body>
+<main>
 {chr(10).join(parts)}
+</main>
+{scripts()}
 </body></html>
 """
 

@@ -130,7 +130,7 @@ def solve(case, out):
     for file, polarisation in case.references:
         references += ["--reference", file if "/" in file else out / file]
         references += ["--reference-polarisation", polarisation] if polarisation else []
-    printed, _ = seaglint("rcs", "--target", mesh_of(case, out), *case.sweep, "--floor-db", case.floor_db, *references, "-o", out / f"{case.name}.csv")
+    printed, _ = seaglint("rcs", "--target", mesh_of(case, out), *case.sweep, "--floor-db", case.floor_db, *references, "--curves", out / f"{case.name}_curves.json", "-o", out / f"{case.name}.csv")
     (out / f"{case.name}.txt").write_text(printed, encoding="utf-8")
     seaglint("mesh", "info", mesh_of(case, out), "--picture", out / f"{case.name}_mesh.png", "--width", 480, "--azimuth-deg", case.view[0], "--elevation-deg", case.view[1])
     cuts = cuts_of(printed, case.against)
