@@ -7,22 +7,19 @@
 #include <string>
 #include <vector>
 
+#include "sim/core/process/error.h"
+#include "sim/core/text/suggestion.h"
 #include "sim/scenario/fields.h"
+#include "sim/scenario/key_meanings.h"
 #include "sim/scenario/scenario.h"
 
 namespace seaglint {
 
 namespace {
 
-struct Row {
-  std::string path;
-  std::string standard;
-  std::string allowed;
-};
-
 class Lister : public FieldVisitor {
  public:
-  std::vector<Row> rows;
+  std::vector<KeyEntry> rows;
 
   void number(const char* key, double& value, const Bound& bound) override {
     add(key, is_optional_ ? "" : fmt::format("{}", value), number_text(bound));
@@ -98,21 +95,52 @@ class Lister : public FieldVisitor {
   bool is_optional_ = false;  // the next field has no default
 };
 
+// The key with names of targets and indices as NAME and N: targets.ship.points.0 -> targets.NAME.points.N.
+std::string general_key(std::string_view key) {
+  std::vector<std::string> words;
+  for (std::size_t begin = 0; begin <= key.size();) {
+    const std::size_t end = std::min(key.find('.', begin), key.size());
+    std::string word(key.substr(begin, end - begin));
+    const bool number = !word.empty() && word.find_first_not_of("0123456789") == std::string::npos;
+    if (words.size() == 1 && words[0] == "targets") word = "NAME";
+    words.push_back(number ? "N" : word);
+    begin = end + 1;
+  }
+  return fmt::format("{}", fmt::join(words, "."));
+}
+
 }  // namespace
 
-std::string list_keys() {
+std::vector<KeyEntry> scenario_keys() {
   Scenario scenario;
   Lister lister;
   visit_fields(scenario, lister);
+  return lister.rows;
+}
+
+std::string list_keys(std::string_view of) {
+  std::vector<KeyEntry> rows = scenario_keys();
+  if (!of.empty()) {
+    const std::string asked = general_key(of);
+    std::vector<std::string> known;
+    for (const KeyEntry& row : rows) known.push_back(row.key);
+    std::erase_if(rows, [&](const KeyEntry& row) { return row.key != asked && !row.key.starts_with(asked + "."); });
+    if (rows.empty()) {
+      const std::string near = suggestion(asked, known);
+      throw InputError(fmt::format("{}: unknown key or section: {}", of,
+                                   near.starts_with("did you mean") ? near : "`seaglint keys` lists all"));
+    }
+  }
   std::size_t path_width = 0;
   std::size_t standard_width = 0;
-  for (const Row& row : lister.rows) {
-    path_width = std::max(path_width, row.path.size());
+  for (const KeyEntry& row : rows) {
+    path_width = std::max(path_width, row.key.size());
     standard_width = std::max(standard_width, row.standard.size());
   }
   std::string text;
-  for (const Row& row : lister.rows) {
-    text += fmt::format("{:{}}  {:{}}  {}\n", row.path, path_width, row.standard, standard_width, row.allowed);
+  for (const KeyEntry& row : rows) {
+    text += fmt::format("{:{}}  {:{}}  {}\n", row.key, path_width, row.standard, standard_width, row.allowed);
+    if (!of.empty()) text += fmt::format("    {}\n", meaning_of(row.key));
   }
   return text;
 }

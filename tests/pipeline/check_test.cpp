@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "sim/geometry/files/mesh_io.h"
@@ -133,6 +134,27 @@ TEST(Keys, AreListedWithDefaultAndBound) {
       result.out,
       ContainsRegex("\nsea.peak_period_s +8 +number, list or from:to:step, within 0.5 and 40, or dnv_wind_sea or "
                     "wind_and_fetch\n"));
+}
+
+TEST(Keys, OfASectionComeWithTheirMeanings) {
+  const ProgramResult section = run_program({"keys", "sea.spreading"});
+  EXPECT_EQ(section.code, 0);
+  EXPECT_THAT(section.out, StartsWith("sea.spreading.kind "));
+  EXPECT_THAT(section.out, HasSubstr("    Standard deviation of wrapped_normal, deg.\n"));
+  EXPECT_THAT(section.out, Not(HasSubstr("sea.swell")));
+  const ProgramResult target = run_program({"keys", "targets.ship.points.3.amplitude_m"});
+  EXPECT_THAT(target.out, StartsWith("targets.NAME.points.N.amplitude_m "));
+  expect_refused({"keys", "sea.gama"}, "sea.gama: unknown key or section: did you mean 'sea.gamma'?\n");
+  expect_refused({"keys", "weather"}, "weather: unknown key or section: `seaglint keys` lists all");
+  expect_refused({"keys", "sea", "--json"}, "--json lists all keys");
+}
+
+TEST(Keys, AsJsonHaveAMeaningEach) {
+  const ProgramResult result = run_program({"keys", "--json"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  const auto list = nlohmann::json::parse(result.out);
+  EXPECT_GT(list.size(), 150u);
+  for (const auto& entry : list) EXPECT_GE(entry.at("meaning").get<std::string>().size(), 10u) << entry;
 }
 
 TEST(Check, RefusesATargetWhoseEchoOutlastsThePulse) {
