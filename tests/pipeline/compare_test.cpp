@@ -265,6 +265,29 @@ TEST_F(CompareCommand, SuggestsAMeshOfAnotherSize) {
   EXPECT_THAT(result.out, HasSubstr("the export's mesh is 1.3"));
 }
 
+// A plate in its plane of symmetry has no cross-polar echo: what both have there is rounding, 0 and 1e-9 m.
+TEST_F(CompareCommand, LeavesOutElementsThatAreRounding) {
+  const auto table = [](double cross_m) {
+    std::string csv = "# transmitter=monostatic\nfrequency_hz,azimuth_deg,elevation_deg,hv_re,hv_im,vv_re,vv_im\n";
+    for (int n = 0; n <= 10; ++n) csv += fmt::format("{},0,0,{},0,{},1\n", 9e9 + 1e7 * n, cross_m, 1 + 0.1 * n);
+    return csv;
+  };
+  write_file(path("here.csv"), table(0));
+  write_file(path("other.csv"), table(1e-9));
+  const std::vector<std::string> words{"compare", path("other.csv"), "--against", path("here.csv"),
+                                       "-o",      path("compared")};
+  const ProgramResult result = run_program(words);
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("other.csv: hv is not compared: it is 120 dB or more below the strongest in both"));
+  ASSERT_EQ(compared().at("exports").size(), 1u);
+  EXPECT_EQ(compared().at("exports")[0].at("polarisation"), "vv");
+  // A cross-polar echo of one of them is a difference, of the floor at most: 0.1 m against the floor 80 dB below.
+  write_file(path("other.csv"), table(0.1));
+  EXPECT_EQ(run_program(words).code, 0);
+  ASSERT_EQ(compared().at("exports").size(), 2u);
+  EXPECT_NEAR(compared().at("exports")[0].at("bias_db").get<double>(), -80, 1e-6);
+}
+
 TEST_F(CompareCommand, FailsBelowItsLimits) {
   const std::string file = kExports + "monostatic.ffe";
   const ProgramResult result =

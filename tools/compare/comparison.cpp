@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <tuple>
 
@@ -131,15 +132,38 @@ void add_extrema(const PairedCut& cut, double highest, double floor, ElementStat
   statistics.axis = cut.axis;
 }
 
+// Levels further below the strongest of an export are rounding: single precision is 144 dB.
+constexpr double kRounding_db = 120;
+
+// The highest level of the export in an element, or in all.
+double highest_of(const std::vector<PairedCut>& cuts, std::optional<Polarisation> element = std::nullopt) {
+  double highest = -1e300;
+  for (const PairedCut& cut : cuts) {
+    if (!element || cut.element == *element) highest = std::max(highest, std::ranges::max(cut.level_dbsm));
+  }
+  return highest;
+}
+
+// Removes the cuts of elements that are rounding in both, as the cross-polar ones of a symmetric body.
+void omit_rounding(ExportComparison& comparison) {
+  const double rounding = highest_of(comparison.cuts) - kRounding_db;
+  for (const Polarisation element : {Polarisation::kHh, Polarisation::kHv, Polarisation::kVh, Polarisation::kVv}) {
+    const auto silent = [&](const PairedCut& cut) {
+      return cut.element != element ||
+             (std::ranges::max(cut.level_dbsm) < rounding && std::ranges::max(cut.models[0].level_dbsm) < rounding);
+    };
+    if (!std::ranges::all_of(comparison.cuts, silent)) continue;
+    if (std::erase_if(comparison.cuts, [&](const PairedCut& cut) { return cut.element == element; }) > 0)
+      comparison.omitted.push_back(fmt::format("{} is not compared: it is {:g} dB or more below the strongest in both",
+                                               kPolarisationNames[static_cast<int>(element)], kRounding_db));
+  }
+}
+
 ElementStatistics statistics_of(const std::vector<PairedCut>& cuts, Polarisation element, double floor_db) {
   constexpr std::size_t kWorst = 5;
   ElementStatistics statistics;
   statistics.element = element;
-  double highest = -1e300;
-  for (const PairedCut& cut : cuts) {
-    if (cut.element == element)
-      highest = std::max(highest, *std::max_element(cut.level_dbsm.begin(), cut.level_dbsm.end()));
-  }
+  const double highest = std::max(highest_of(cuts, element), highest_of(cuts) - kRounding_db);
   const double floor = highest - floor_db;
   DifferenceSum sum;
   std::vector<double> sizes;
@@ -171,6 +195,7 @@ ElementStatistics statistics_of(const std::vector<PairedCut>& cuts, Polarisation
 }
 
 ExportComparison finished(ExportComparison comparison, const ComparisonSettings& settings, int threads) {
+  omit_rounding(comparison);
   if (!settings.as_is) comparison.alignment = align(comparison.cuts, threads);
   for (const Polarisation element : {Polarisation::kHh, Polarisation::kHv, Polarisation::kVh, Polarisation::kVv}) {
     if (std::any_of(comparison.cuts.begin(), comparison.cuts.end(),
@@ -209,7 +234,7 @@ RcsRequest at_frequencies_of(const std::vector<FieldTable>& tables, RcsRequest r
 ExportComparison compare_with_target(const FieldTable& table, const RcsRequest& request, const RcsTarget& target,
                                      const ComparisonSettings& settings, int threads, const StopFlag& stop,
                                      const std::function<void(const std::string&)>& say) {
-  ExportComparison comparison{table.name, table.reader, "seaglint", table.notes, {}, {}, {}, {}, {}, {}};
+  ExportComparison comparison{table.name, table.reader, "seaglint", table.notes, {}, {}, {}, {}, {}, {}, {}};
   for (const auto& [key, cuts] : by_transmitter(table)) {
     RcsRequest solved = request;
     solved.transmitter = fixed_transmitter(*cuts.front());
@@ -241,7 +266,7 @@ ExportComparison compare_with_target(const FieldTable& table, const RcsRequest& 
 
 ExportComparison compare_with_table(const FieldTable& table, const FieldTable& other,
                                     const ComparisonSettings& settings, int threads) {
-  ExportComparison comparison{table.name, table.reader, other.name, table.notes, {}, {}, {}, {}, {}, {}};
+  ExportComparison comparison{table.name, table.reader, other.name, table.notes, {}, {}, {}, {}, {}, {}, {}};
   for (const RcsCut& cut : table.cuts) {
     for (const RcsCut& values : other.cuts) {
       if (values.element != cut.element) continue;

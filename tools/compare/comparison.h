@@ -48,6 +48,7 @@ struct ExportComparison {
   std::vector<std::string> warnings;
   std::optional<InterpolationQuality> interpolation;  // of the compared values
   std::vector<RcsCut> solved;                         // of a target: all elements, at the places of the export
+  std::vector<std::string> omitted;                   // a sentence for each element that is rounding in both
 };
 
 struct ComparisonSettings {

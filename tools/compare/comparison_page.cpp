@@ -101,6 +101,7 @@ std::string readings(const std::vector<ExportComparison>& comparisons) {
   for (const ExportComparison& c : comparisons) {
     std::string notes;
     for (const std::string& note : c.notes) notes += "; " + escape_html(note);
+    for (const std::string& sentence : c.omitted) notes += "; " + escape_html(sentence);
     items += fmt::format("<li><b>{}</b>: read as {}{}</li>\n", escape_html(c.name), escape_html(c.reader), notes);
   }
   return "<ul>\n" + items + "</ul>\n";

@@ -131,6 +131,7 @@ std::string comparison_table(const std::vector<ExportComparison>& comparisons, c
   for (const ExportComparison& c : comparisons) {
     if (c.interpolation) text += fmt::format("{}: {}\n", c.compared, text_of(*c.interpolation));
     if (c.alignment) text += fmt::format("{}: {}\n", c.name, text_of(*c.alignment, c.elements.size() > 1));
+    for (const std::string& sentence : c.omitted) text += fmt::format("{}: {}\n", c.name, sentence);
     for (const std::string& warning : c.warnings) text += fmt::format("{}: warning: {}\n", c.name, warning);
   }
   return text;
@@ -148,6 +149,7 @@ nlohmann::ordered_json comparison_json(const std::vector<ExportComparison>& comp
       entry["name"] = c.name;
       entry["reader"] = c.reader;
       entry["convention"] = c.notes;
+      entry["omitted"] = c.omitted;
       entry["compared"] = c.compared;
       entry["polarisation"] = name_of(s.element);
       entry["pairs"] = s.pairs;
