@@ -25,7 +25,7 @@ constexpr Meaning kMeanings[] = {
     {"radar.hop_code",
      "Order of the carriers: random (independent from pulse to pulse), balanced (each equally often), stepped, or "
      "file."},
-    {"radar.hop_code_file", "Carrier number of each pulse, for hop_code: file; at least `pulses` numbers."},
+    {"radar.hop_code_file", "Carrier number of each pulse, for hop_code: file; at least pulses numbers."},
     {"radar.bandwidth_mhz", "Bandwidth B of the LFM pulse, MHz."},
     {"radar.pulse_width_us", "Duration of the pulse, us; shorter than pri_us."},
     {"radar.sampling_mhz", "Complex sampling rate of the echo, MHz; at least bandwidth_mhz."},
@@ -104,7 +104,7 @@ constexpr Meaning kMeanings[] = {
     {"targets.NAME.layout.line.centre_x_m", "Centre of the line, target frame, m."},
     {"targets.NAME.layout.line.centre_y_m", "Centre of the line, target frame, m."},
     {"targets.NAME.motion.model",
-     "fixed; ship (strip theory); float; series (recorded motion) or rao (recorded response operators) of `file`."},
+     "fixed; ship (strip theory); float; series (recorded motion) or rao (recorded response operators) of file."},
     {"targets.NAME.motion.translations", "Surge, sway and heave beside the rotations."},
     {"targets.NAME.motion.rotation_centre_m",
      "Centre of rotation, body frame, m; default: centre of gravity of a ship, of flotation of a float."},

@@ -1,0 +1,45 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""tutorial_test.py SEAGLINT SOURCE TUTORIAL...: runs tutorials as they stand, each in an empty folder, with the program on PATH and tools/slurm
+below the folder."""
+import os
+import pathlib
+import sys
+import tempfile
+
+sys.dont_write_bytecode = True
+
+
+def main(seaglint, source, *names):
+    source = pathlib.Path(source).resolve()
+    sys.path.insert(0, str(source / "tools/python"))
+    import tutorial
+    check_patterns(tutorial)
+    environment = dict(os.environ, PATH=f"{pathlib.Path(seaglint).resolve().parent}:{os.environ['PATH']}")
+    for name in names:
+        with tempfile.TemporaryDirectory(dir=os.environ.get("SEAGLINT_TUTORIAL_FOLDER")) as folder:
+            folder = pathlib.Path(folder)
+            folder.chmod(0o755)
+            (folder / "tools").mkdir()
+            (folder / "tools/slurm").symlink_to(source / "tools/slurm")
+            tutorial.run(source / f"tools/tutorials/{name}.md", source, folder, environment)
+
+
+def check_patterns(tutorial):
+    """What the tests below rely on: other output, another exit code and a changed option are found."""
+    as_printed = tutorial.as_printed
+    assert as_printed(["a", "...", "d"], "a\nb\nc\nd\n") and as_printed(["a", "...", "d"], "a\nd\n")
+    assert as_printed(["made in ... s"], "made in 3.1 s\n") and not as_printed(["made in ... s"], "made in 3.1 m\n")
+    assert not as_printed(["a"], "a\nb\n") and not as_printed([], "warning\n") and not as_printed(["a.c"], "abc\n")
+    with tempfile.TemporaryDirectory() as folder:
+        file = pathlib.Path(folder) / "t.md"
+        for block in ("$ echo a\nb", "$ false", "$ ls --no-such-option\n..."):
+            file.write_text(f"```console\n{block}\n```\n", encoding="utf-8")
+            try:
+                tutorial.run(file, None, pathlib.Path(folder), os.environ)
+            except AssertionError:
+                continue
+            raise SystemExit(f"{block!r} was not found to fail")
+
+
+main(*sys.argv[1:])

@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Tutorials of the manual: Markdown whose commands can be run.
+
+A block ```console has commands behind `$ ` with what they print; `...` stands for any text, or, alone on a line, for any
+lines, none included. A line `[exit code N]` ends the output of a command that fails. A block ```yaml NAME is the file
+NAME; a comment <!-- copy FILE... --> copies files of the source tree. Standard output and standard error are checked
+together, in the order of lines within each.
+"""
+import dataclasses
+import pathlib
+import re
+import shutil
+import subprocess
+
+
+@dataclasses.dataclass
+class Step:
+    kind: str  # "file", "copy", "command"
+    name: str  # of the file, the files, the command
+    lines: list  # content of the file, expected lines of the command
+    code: int = 0
+    line: int = 0  # in the Markdown
+
+
+FENCE = re.compile(r"^```(?P<language>\w+)?(?: (?P<name>\S+))?$")
+EXIT_CODE = re.compile(r"^\[exit code (\d+)\]$")
+
+
+def steps(text):
+    """The files and commands of a tutorial, in order."""
+    found, block = [], None
+    for number, line in enumerate(text.splitlines(), 1):
+        fence = FENCE.match(line)
+        if fence and block is None:
+            block = fence["language"]
+            if fence["name"]:
+                found.append(Step("file", fence["name"], [], line=number))
+        elif line == "```":
+            block = None
+        elif block == "console" and line.startswith("$ "):
+            found.append(Step("command", line[2:], [], line=number))
+        elif block == "console" and (code := EXIT_CODE.match(line)):
+            found[-1].code = int(code[1])
+        elif block == "console" or (block is not None and found and found[-1].kind == "file"):
+            found[-1].lines.append(line)
+        elif copied := re.match(r"^<!-- copy (.*) -->$", line):
+            found.append(Step("copy", copied[1], [], line=number))
+    return found
+
+
+def pattern(lines):
+    """The regular expression of expected lines."""
+    parts = ["(?:.*\n)*?" if line == "..." else re.escape(line).replace(re.escape("..."), ".*") + "\n" for line in lines]
+    return re.compile("".join(parts))
+
+
+def as_printed(lines, printed):
+    """Whether the lines that a command printed are those that are expected. Lines are compared without spaces at their end."""
+    text = "".join(line.rstrip() + "\n" for line in printed.splitlines())
+    return pattern([line.rstrip() for line in lines]).fullmatch(text) is not None
+
+
+def run(tutorial, source, folder, environment):
+    """Runs a tutorial in an empty folder; raises AssertionError with file, line, and both outputs."""
+    for step in steps(tutorial.read_text(encoding="utf-8")):
+        where = f"{tutorial.name}:{step.line}"
+        if step.kind == "file":
+            (folder / step.name).write_text("\n".join(step.lines) + "\n", encoding="utf-8")
+        elif step.kind == "copy":
+            for name in step.name.split():
+                shutil.copy(source / name, folder / pathlib.Path(name).name)
+        else:
+            print(f"{where}: {step.name}", flush=True)
+            result = subprocess.run(["bash", "-c", step.name], cwd=folder, env=environment, capture_output=True, text=True, stdin=subprocess.DEVNULL)
+            assert result.returncode == step.code, f"{where}: {step.name}\nexit code {result.returncode} in place of {step.code}\n{result.stdout}{result.stderr}"
+            outputs = (result.stdout, result.stderr, result.stdout + result.stderr, result.stderr + result.stdout)
+            assert any(as_printed(step.lines, printed) for printed in outputs), (
+                f"{where}: {step.name}\nexpected\n" + "\n".join(step.lines) + f"\nprinted\n{result.stdout}\non standard error\n{result.stderr}")
