@@ -3,6 +3,7 @@
 # A Slurm of its own with two nodes on this machine, for tests: source it, then `start_slurm`. Sets `work`, a folder that is
 # removed at the end with all daemons; exits with 77 where Slurm or root is missing.
 
+PATH=$PATH:/usr/sbin:/sbin  # of the daemons
 for needed in munged slurmctld slurmd sbatch; do
   command -v "$needed" >/dev/null || { echo "skipped: $needed is missing (packages slurm-wlm and munge)"; exit 77; }
 done
