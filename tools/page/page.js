@@ -8,7 +8,8 @@ const seaglint = (() => {
   const SYMBOLS = ["circle", "diamond-open", "square", "x", "triangle-up", "cross", "star"];
 
   async function inflate(base64, format = "deflate") {
-    const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+    const text = atob(base64), bytes = new Uint8Array(text.length);
+    for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
     return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream(format))).arrayBuffer();
   }
 
