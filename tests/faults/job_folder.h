@@ -31,6 +31,7 @@ inline const std::vector<Job>& jobs() {
       {"merge", true, {"merge", "@/data"}},
       {"export", true, {"export", "@/data", "-o", "@/npz"}},
       {"export, one file", true, {"export", "@/data", "-o", "@/all.npz"}},
+      {"export, tar", true, {"export", "@/data", "-o", "@/tar", "--as", "webdataset", "--max-tar-mb", "0.1"}},
       {"train", true, {"train", "@/data", "-o", "@/model", "--threads", "1"}},
       {"run", false, {"run", "@/tiny.yaml", "-o", "@/run", "--resume", "--threads", "1"}}};
   return all;

@@ -2,8 +2,11 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <optional>
 
 #include "classify/dataset/directory/export.h"
+#include "classify/dataset/directory/webdataset.h"
+#include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/core/process/progress.h"
 #include "sim/core/process/standard_output.h"
@@ -18,16 +21,24 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void export_dataset(const std::string& directory, const fs::path& output, const StopFlag& stop) {
-  const DatasetReader reader(find_data_set(directory));
-  warn(data_set_warnings(reader));
+constexpr double kMegabyte = 1e6;  // bytes
+constexpr double kDefaultTar_mb = 500;
+
+struct ExportArguments {
+  std::string directory;
+  std::string output;
+  std::string format = "npz";
+  std::optional<double> max_tar_mb;
+};
+
+void export_npz(const DatasetReader& reader, const fs::path& output, const StopFlag& stop) {
   if (output.extension() == ".npz") {
     export_shards(reader, 0, reader.shards(), output, &stop);
     remove_leftovers(output.parent_path(), output.filename().native());
     print_out("{}: {} samples\n", output.string(), reader.size());
     return;
   }
-  require_export_directory(reader, output);
+  require_npz_directory(reader, output);
   make_directory(output);
   Progress progress("exporting shards", reader.shards());
   for (std::size_t i = 0; i < reader.shards(); ++i) {
@@ -39,27 +50,44 @@ void export_dataset(const std::string& directory, const fs::path& output, const 
   print_out("{}: {} samples in {} files\n", output.string(), reader.size(), reader.shards());
 }
 
+void export_dataset(const ExportArguments& arguments, const StopFlag& stop) {
+  const bool webdataset = arguments.format == "webdataset";
+  if (!webdataset && arguments.max_tar_mb) throw InputError("--max-tar-mb: only with --as webdataset");
+  const fs::path output = arguments.output;
+  if (webdataset && (output.extension() == ".tar" || output.extension() == ".npz"))
+    throw InputError(fmt::format("{}: --as webdataset writes a directory", output.string()));
+  const DatasetReader reader(find_data_set(arguments.directory));
+  warn(data_set_warnings(reader));
+  if (!webdataset) return export_npz(reader, output, stop);
+  const auto max_bytes = static_cast<std::uint64_t>(arguments.max_tar_mb.value_or(kDefaultTar_mb) * kMegabyte);
+  const std::size_t archives = export_webdataset(reader, output, max_bytes, &stop);
+  print_out("{}: {} samples in {} archives\n", output.string(), reader.size(), archives);
+}
+
 }  // namespace
 
 void add_export(CommandOptions& program, CommandContext& context) {
-  struct Arguments {
-    std::string directory;
-    std::string output;
-  };
-  CommandOptions command =
-      program.add_command("export", "A data set as NumPy's .npz, in one file or one for each shard");
-  auto arguments = std::make_shared<Arguments>();
+  CommandOptions command = program.add_command("export", "A data set as NumPy's .npz or in the WebDataset layout");
+  auto arguments = std::make_shared<ExportArguments>();
   command.add_option("directory", arguments->directory, "Directory of the data set").required();
   command
       .add_option("-o,--output", arguments->output,
                   "FILE.npz: everything in one file, for up to some 10,000 maps; else a directory for one file a shard")
       .required();
+  command
+      .add_option("--as", arguments->format,
+                  "npz: NumPy's archives; webdataset: tar archives with map, row and label of each sample in turn")
+      .one_of({"npz", "webdataset"})
+      .show_default();
+  command
+      .add_option("--max-tar-mb", arguments->max_tar_mb,
+                  fmt::format("Largest tar archive, MB (10^6 bytes), {:g} unless given", kDefaultTar_mb))
+      .number_within(0.01, 1e6);
   command.footer(
       "Example:\n  seaglint export build/points/data -o build/points.npz\n  seaglint export build/paper -o "
-      "build/paper_npz");
-  command.callback([arguments, &context] {
-    context.work = [arguments, &context] { export_dataset(arguments->directory, arguments->output, context.stop); };
-  });
+      "build/paper_npz\n  seaglint export build/paper -o build/paper_tar --as webdataset --max-tar-mb 1000");
+  command.callback(
+      [arguments, &context] { context.work = [arguments, &context] { export_dataset(*arguments, context.stop); }; });
 }
 
 }  // namespace seaglint

@@ -7,13 +7,13 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "classify/dataset/directory/dataset_writer.h"
-#include "classify/dataset/directory/temporary.h"
+#include "classify/dataset/directory/file_names.h"
 #include "classify/dataset/format/checksum.h"
 #include "classify/dataset/format/hdf5_file.h"
 #include "classify/dataset/format/layout.h"
 #include "classify/dataset/format/npz.h"
 #include "sim/core/process/error.h"
+#include "sim/core/process/temporary_file.h"
 
 namespace seaglint {
 
@@ -26,16 +26,6 @@ using nlohmann::ordered_json;
 constexpr const char* kDescription = "description.json";
 
 std::string name_of(const std::string& path) { return path.substr(1); }
-
-const char* numpy_type(ArrayType element) {
-  switch (element) {
-    case ArrayType::kFloat: return "<f4";
-    case ArrayType::kInt64: return "<i8";
-    case ArrayType::kUint16: return "<u2";
-    case ArrayType::kName: return "|S64";
-    default: return "<f8";
-  }
-}
 
 struct Range {
   const DatasetReader& reader;
@@ -140,7 +130,8 @@ void export_shards(const DatasetReader& reader, std::size_t first, std::size_t c
   write_npz(file, arrays, {{kDescription, description(range, processors, complex_maps)}});
 }
 
-void require_export_directory(const DatasetReader& reader, const fs::path& directory) {
+void require_export_directory(const DatasetReader& reader, const fs::path& directory, const ExportedName& is_name,
+                              const ExportedName& is_of_this_set) {
   std::error_code error;
   if (!fs::exists(directory, error)) return;
   if (!fs::is_directory(directory, error))
@@ -148,22 +139,28 @@ void require_export_directory(const DatasetReader& reader, const fs::path& direc
   if (fs::equivalent(directory, reader.directory(), error))
     throw InputError(fmt::format("{}: is the data set itself; export it into another directory", directory.string()));
 
-  std::set<std::string> ours;
-  for (const ManifestShard& shard : reader.manifest().shards)
-    ours.insert(fs::path(shard.file).replace_extension(".npz"));
-  const std::string manifest = sha256_file(reader.directory() / kManifestFile);
   std::set<std::string> there;
   for (fs::directory_iterator it(directory, error), end; !error && it != end; it.increment(error))
     there.insert(it->path().filename());
   if (error) throw WorkError(fmt::format("{}: {}", directory.string(), error.message()));
   for (const std::string& name : there) {
     // Network file systems keep a file under a hidden name if it was removed while another process had it open.
-    if (name.starts_with('.') || is_temporary(name)) continue;
-    if (ours.contains(name) && exported_manifest(directory / name) == manifest) continue;
+    if (name.starts_with('.') || is_name(std::string(target_of_temporary(name)))) continue;
+    if (is_name(name) && is_of_this_set(name)) continue;
     throw InputError(
         fmt::format("{}: the directory contains {}, which is not of this data set's export; choose a new directory",
                     directory.string(), name));
   }
+}
+
+void require_npz_directory(const DatasetReader& reader, const fs::path& directory) {
+  std::set<std::string> ours;
+  for (const ManifestShard& shard : reader.manifest().shards)
+    ours.insert(fs::path(shard.file).replace_extension(".npz"));
+  const std::string manifest = sha256_file(reader.directory() / kManifestFile);
+  require_export_directory(
+      reader, directory, [&](const std::string& name) { return ours.contains(name); },
+      [&](const std::string& name) { return exported_manifest(directory / name) == manifest; });
 }
 
 }  // namespace seaglint

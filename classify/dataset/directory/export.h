@@ -6,6 +6,8 @@
 // inside lists units and meaning of every array and the provenance.
 
 #include <filesystem>
+#include <functional>
+#include <string>
 
 #include "classify/dataset/directory/dataset_reader.h"
 #include "sim/core/process/parallel.h"
@@ -19,9 +21,14 @@ namespace seaglint {
 void export_shards(const DatasetReader& reader, std::size_t first, std::size_t count, const std::filesystem::path& file,
                    const StopFlag* stop = nullptr);
 
-// Checks a directory for one file per shard: it must be new or empty, or contain only an export of the same data set,
-// complete or incomplete. Throws InputError naming the directory and its content; the data set's own directory is
-// rejected too.
-void require_export_directory(const DatasetReader& reader, const std::filesystem::path& directory);
+// Checks a directory for an export of several files: it must be new or empty, or contain only files of an export of the
+// same data set, complete or incomplete: their names satisfy is_name(), their contents is_of_this_set(name). Throws
+// InputError naming the directory and its content; the data set's own directory is rejected too.
+using ExportedName = std::function<bool(const std::string& name)>;
+void require_export_directory(const DatasetReader& reader, const std::filesystem::path& directory,
+                              const ExportedName& is_name, const ExportedName& is_of_this_set);
+
+// The same for one .npz per shard.
+void require_npz_directory(const DatasetReader& reader, const std::filesystem::path& directory);
 
 }  // namespace seaglint

@@ -7,13 +7,10 @@
 #include <zip.h>
 
 #include <algorithm>
-#include <bit>
 #include <cerrno>
-#include <charconv>
 #include <cstring>
 #include <exception>
 #include <memory>
-#include <numeric>
 #include <utility>
 
 #include "sim/core/process/error.h"
@@ -23,35 +20,8 @@ namespace seaglint {
 
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "values are written as they lie in memory");
-
 // MS-DOS time and date of 1980-01-01 00:00.
 constexpr zip_uint16_t kFirstTime = 0, kFirstDate = (1 << 5) | 1;
-
-// The header of a .npy file, version 1.0: magic, length, a Python dictionary, padded to a multiple of 64 bytes
-// (numpy/lib/format.py).
-std::string npy_header(const NpzArray& array) {
-  std::string shape;
-  for (const std::uint64_t length : array.shape) shape += fmt::format("{}, ", length);
-  if (array.shape.size() > 1) shape.resize(shape.size() - 2);
-  if (array.shape.size() == 1) shape.pop_back();
-  std::string text = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}), }}", array.type, shape);
-  constexpr std::size_t kAlignment = 64, kBefore = 10;  // magic, version and length
-  const std::size_t padded = (kBefore + text.size() + 1 + kAlignment - 1) / kAlignment * kAlignment - kBefore;
-  text.resize(padded - 1, ' ');
-  text += '\n';
-  std::string header("\x93NUMPY\x01\x00", 8);
-  header += static_cast<char>(padded & 0xff);
-  header += static_cast<char>(padded >> 8);
-  return header + text;
-}
-
-std::uint64_t item_bytes(const std::string& type) {
-  std::uint64_t bytes = 0;
-  const auto [end, error] = std::from_chars(type.data() + 2, type.data() + type.size(), bytes);
-  SEAGLINT_CHECK(error == std::errc() && end == type.data() + type.size() && bytes > 0, type);
-  return bytes;
-}
 
 // A member of the archive, read by libzip while it writes the archive.
 struct Member {
@@ -249,10 +219,9 @@ void write_npz(const std::filesystem::path& file, const std::vector<NpzArray>& a
   for (const NpzArray& array : arrays) {
     Member member;
     member.name = array.name + ".npy";
-    member.head = npy_header(array);
+    member.head = npy_header(array.type, array.shape);
     member.next = array.next;
-    member.bytes = member.head.size() +
-                   std::accumulate(array.shape.begin(), array.shape.end(), item_bytes(array.type), std::multiplies<>());
+    member.bytes = member.head.size() + npy_data_bytes(array.type, array.shape);
     members.push_back(std::move(member));
   }
   for (const NpzText& text : texts) {

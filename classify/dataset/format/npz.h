@@ -8,10 +8,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "classify/dataset/format/npy.h"
 
 namespace seaglint {
 
@@ -32,12 +33,6 @@ struct NpzText {
 
 // NpzArray of values in memory, which are copied.
 NpzArray npz_array(std::string name, std::string type, std::vector<std::uint64_t> shape, std::string bytes);
-
-// Bytes of the values in memory order.
-template <class T>
-std::string bytes_of_values(std::span<const T> values) {
-  return {reinterpret_cast<const char*>(values.data()), values.size_bytes()};
-}
 
 // Reads the text file `name` inside an archive. Throws InputError naming the archive if it has no such file of at most
 // 16 MB.

@@ -78,6 +78,23 @@ TEST_F(Files, AFailedWriteLeavesTheOldFileAndNothingElse) {
   EXPECT_EQ(entries(), 1u);
 }
 
+TEST_F(Files, WrittenInPartsAreTheirSumOrTheOldFile) {
+  write_blocks(folder_ / "x", [](const AppendText& append) {
+    append("one, ");
+    append("");
+    append("two");
+  });
+  EXPECT_EQ(read_file(folder_ / "x"), "one, two");
+  EXPECT_THROW(write_blocks(folder_ / "x",
+                            [](const AppendText& append) {
+                              append("half");
+                              throw Interrupted();
+                            }),
+               Interrupted);
+  EXPECT_EQ(read_file(folder_ / "x"), "one, two");
+  EXPECT_EQ(entries(), 1u);
+}
+
 TEST_F(Files, WritingErrorsNameTheFileAndTheCause) {
   const auto writing = [](const fs::path& path) { return message_of<WorkError>([&] { write_file(path, "content"); }); };
   EXPECT_THAT(writing(folder_ / "none" / "x"), HasSubstr("none/x: cannot write: No such file or directory"));
