@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <vector>
 
+#include "classify/dataset/cards/croissant.h"
+#include "classify/dataset/directory/croissant_audit.h"
 #include "classify/dataset/directory/input_list.h"
 #include "classify/dataset/format/manifest.h"
 #include "classify/dataset/format/npz.h"
@@ -31,6 +33,12 @@ void fuzz_npz(const std::string& bytes) {
 void fuzz_inputs(const std::string& bytes) {
   const std::filesystem::path list = file_of(bytes, kInputsFile);
   is_refused([&] { require_same_inputs(list.parent_path(), Scenario{}); });
+}
+
+void fuzz_croissant(const std::string& bytes) {
+  const std::filesystem::path file = file_of(bytes, kCroissantFile);
+  croissant_faults(file.parent_path(), Manifest{});
+  is_croissant_of_seaglint(bytes);
 }
 
 }  // namespace seaglint

@@ -55,6 +55,7 @@ const std::vector<NamedReader> kReaders = {{"numbers", fuzz_numbers},
                                            {"shard", fuzz_shard},
                                            {"npz", fuzz_npz},
                                            {"inputs", fuzz_inputs},
+                                           {"croissant", fuzz_croissant},
                                            {"embeddings", fuzz_embeddings}};
 
 // The inputs of all readers, each of which may be given to any.

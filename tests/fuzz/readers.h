@@ -47,7 +47,8 @@ void fuzz_gmsh(const std::string& bytes);
 void fuzz_manifest(const std::string& bytes);
 void fuzz_shard(const std::string& bytes);
 void fuzz_npz(const std::string& bytes);
-void fuzz_inputs(const std::string& bytes);      // inputs.sha256
+void fuzz_inputs(const std::string& bytes);  // inputs.sha256
+void fuzz_croissant(const std::string& bytes);
 void fuzz_embeddings(const std::string& bytes);  // embeddings.csv
 
 }  // namespace seaglint

@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "sim/core/numbers/random.h"
+#include "tests/pipeline/directory_bytes.h"
 #include "tests/pipeline/program.h"
 
 namespace seaglint {
@@ -32,12 +33,6 @@ Words generate(const fs::path& directory, const Words& more) {
               "radar.pulses=64", "--set",    "dataset.maps_per_case=5"};
   words.insert(words.end(), more.begin(), more.end());
   return words;
-}
-
-std::map<std::string, std::string> bytes_of(const fs::path& directory) {
-  std::map<std::string, std::string> bytes;
-  for (const auto& entry : fs::directory_iterator(directory)) bytes[entry.path().filename()] = read_file(entry.path());
-  return bytes;
 }
 
 struct Uninterrupted {

@@ -3,8 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <map>
-
+#include "tests/pipeline/directory_bytes.h"
 #include "tests/pipeline/program.h"
 
 namespace seaglint {
@@ -12,12 +11,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
-
-std::map<std::string, std::string> bytes_of(const fs::path& directory) {
-  std::map<std::string, std::string> bytes;
-  for (const auto& entry : fs::directory_iterator(directory)) bytes[entry.path().filename()] = read_file(entry.path());
-  return bytes;
-}
 
 // One data set for all tests of this file, of ten samples in each of four shards.
 class WebDataset : public testing::Test {

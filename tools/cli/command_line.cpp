@@ -58,6 +58,7 @@ void add_commands(CommandOptions& program, CommandContext& context) {
   add_verify(program, context);
   add_regenerate(program, context);
   add_export(program, context);
+  add_card(program, context);
   add_train(program, context);
   add_run(program, context);
   add_report(program, context);

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "classify/dataset/format/checksum.h"
+#include "classify/dataset/format/layout.h"
 #include "sim/core/text/escape.h"
 
 namespace seaglint {
@@ -15,13 +17,14 @@ std::string join(const std::vector<double>& values) {
   return text;
 }
 
-std::string targets_table(const Scenario& scenario) {
-  std::string table = "| target | label | made of |\n|---|---|---|\n";
+std::string targets_table(const Scenario& scenario, const SamplePlan& plan) {
+  std::string table = "| target | label | samples | made of |\n|---|---|---|---|\n";
   for (const TargetSpec& target : scenario.targets) {
     std::string made_of =
         target.mesh.empty() ? fmt::format("{} ideal points", target.points.size()) : markdown_text(target.mesh);
     if (target.line) made_of += fmt::format(", {} in line, {:g} m apart", target.line->count, target.line->spacing_m);
-    table += fmt::format("| {} | {} | {} |\n", markdown_text(target.name), target.label, made_of);
+    table += fmt::format("| {} | {} | {} | {} |\n", markdown_text(target.name), target.label,
+                         samples_per_target(scenario, plan), made_of);
   }
   return table;
 }
@@ -29,7 +32,7 @@ std::string targets_table(const Scenario& scenario) {
 std::string columns_table() {
   std::string table = "| column | units | meaning |\n|---|---|---|\n";
   for (const SampleColumn& column : sample_columns()) {
-    table += fmt::format("| `{}` | {} | {} |\n", column.name, column.unit, column.description);
+    table += fmt::format("| `{}` | {} | {} |\n", column.name, column.unit, markdown_text(column.description));
   }
   return table;
 }
@@ -52,58 +55,103 @@ std::string clutter_level(const ClutterSpec& clutter) {
   return fmt::format("The clutter is set relative to the target (SCR {:g} dB).", clutter.scr_db);
 }
 
+// The arrays of a shard with n samples.
+std::string arrays_table(const Scenario& scenario, const StoredAxes& axes) {
+  const std::size_t velocities = axes.velocity_mps.size(), ranges = axes.range_m.size();
+  std::string table = "| array | type | shape | units | meaning |\n|---|---|---|---|---|\n";
+  const auto add = [&](const StoredArray& array, const char* type, const std::string& shape) {
+    table += fmt::format("| `{}` | {} | {} | {} | {} |\n", array.path, type, shape, array.units,
+                         markdown_text(array.description));
+  };
+  add(kMaps, "float32", fmt::format("n, {}, {}", velocities, ranges));
+  if (scenario.dataset.complex_maps) add(kComplexMaps, "float32", fmt::format("n, {}, {}, 2", velocities, ranges));
+  add(kVelocityAxis, "float64", fmt::format("{}", velocities));
+  add(kRangeAxis, "float64", fmt::format("{}", ranges));
+  add(kHopCodes, "uint16", fmt::format("n, {}", scenario.radar.pulses));
+  add(kCentres, "float32", fmt::format("n, {}, 3", scenario.features.max_centres));
+  return table + "| `/samples/COLUMN` | int64, float64, text | n | | the columns below |\n";
+}
+
+constexpr const char* kSignature = "<!-- data card of seaglint, SHA-256 of the text above: ";
+constexpr const char* kSignatureEnd = " -->\n";
+
+constexpr const char* kReading =
+    "## Reading\n\n"
+    "```python\n"
+    "import seaglint                            # the Python package of the program\n"
+    "data = seaglint.Dataset(\".\")               # data[7], data.columns[\"label\"], data.torch_dataset()\n\n"
+    "import h5py\n"
+    "with h5py.File(\"shard_00000.h5\") as shard:\n"
+    "    maps = shard[\"maps\"][:]               # [sample][velocity][range], metres\n"
+    "    range_m = shard[\"axes/range_m\"][:]\n"
+    "    velocity = shard[\"axes/velocity_mps\"][:]\n"
+    "    label = shard[\"samples/label\"][:]\n"
+    "```\n\n"
+    "`seaglint merge DIR` makes one file of all shards, `seaglint export DIR -o FILE.npz` arrays for NumPy, `--as "
+    "webdataset` tar archives.\n"
+    "`manifest.json` lists the shards in order with their SHA-256. `centres` is zero beyond `samples/centres`.\n\n";
+
 }  // namespace
+
+std::size_t samples_per_target(const Scenario& scenario, const SamplePlan& plan) {
+  return plan.size() / scenario.targets.size();
+}
+
+std::string data_set_summary(const Scenario& scenario, const SamplePlan& plan, const Manifest& manifest) {
+  const std::size_t seas = plan.sea_states().size() * static_cast<std::size_t>(scenario.dataset.realisations_per_case);
+  return fmt::format(
+      "{} range-velocity maps of {} radar targets at sea ({} independent sea realisations, {} views), for the "
+      "classification of targets by their label. Synthetic: simulated by seaglint {} with seed {}; nothing was "
+      "measured.",
+      manifest.samples, scenario.targets.size(), seas, plan.views().size(), manifest.program_version, manifest.seed);
+}
 
 std::string data_card(const Scenario& scenario, const SamplePlan& plan, const Manifest& manifest,
                       const StoredAxes& axes) {
   const DatasetSpec& set = scenario.dataset;
-  std::string text = fmt::format("# Data set {}\n\n", markdown_code(scenario.name));
-  text += fmt::format(
-      "{} range-velocity maps of ships (label 1) and corner-reflector arrays (label 0), simulated by seaglint {} with "
-      "seed {}.\n"
-      "Nothing here was measured: these are the echoes that the scenario's physics gives (`{}`).\n\n",
-      manifest.samples, markdown_text(manifest.program_version), manifest.seed, "scenario.yaml");
-  text += targets_table(scenario);
+  std::string text =
+      fmt::format("# Data set {}\n\n{}\n`scenario.yaml` has every key of the scenario with its value.\n\n",
+                  markdown_code(scenario.name), markdown_text(data_set_summary(scenario, plan, manifest)));
+  text += targets_table(scenario, plan);
   text += fmt::format(
       "\n* Significant wave heights: {} m. Views: azimuth {} deg, elevation {} deg.\n"
-      "* {} maps per case (sea state and view) and class, from {} independent seas; intervals {:g} s apart.\n"
+      "* {} maps per case (sea state and view) and target, from {} independent seas; intervals {:g} s apart.\n"
       "* A map has {} velocity cells ({:.3f} to {:.3f} m/s, positive = receding) and {} range cells ({:.2f} to {:.2f} "
       "m, positive = farther).\n"
-      "* Values are |RV| in metres: a point scatterer of amplitude a = sqrt(sigma / 4 pi) peaks at a.\n\n",
+      "* Values are |RV| in metres: a point scatterer of amplitude a = sqrt(sigma / 4 pi) peaks at a.\n\n"
+      "## Arrays\n\nOf a shard with n samples:\n\n",
       join(wave_heights(plan)), join(scenario.view.azimuth_deg), join(scenario.view.elevation_deg), set.maps_per_case,
       set.realisations_per_case, set.interval_spacing_s, axes.velocity_mps.size(), axes.velocity_mps.front(),
       axes.velocity_mps.back(), axes.range_m.size(), axes.range_m.front(), axes.range_m.back());
-  text +=
-      "## Reading\n\n"
-      "```python\n"
-      "import h5py\n"
-      "with h5py.File(\"shard_00000.h5\") as shard:\n"
-      "    maps = shard[\"maps\"][:]               # [sample][velocity][range], metres\n"
-      "    range_m = shard[\"axes/range_m\"][:]\n"
-      "    velocity = shard[\"axes/velocity_mps\"][:]\n"
-      "    label = shard[\"samples/label\"][:]\n"
-      "```\n\n"
-      "`seaglint merge DIR` makes one file of all shards, `seaglint export DIR -o FILE.npz` arrays for NumPy.\n"
-      "`manifest.json` lists the shards in order with their SHA-256. `hop_code` contains the carrier number of every "
-      "pulse, `centres` the\n"
-      "scattering centres (range, velocity, amplitude), zero beyond `samples/centres`.\n\n"
-      "## Columns of `samples/`\n\n";
-  text += columns_table();
+  text += arrays_table(scenario, axes) + "\n" + kReading + "## Columns of `samples/`\n\n" + columns_table();
   text += fmt::format(
       "\n## Splitting\n\n"
-      "All maps of one `group` (one sea realisation: both classes, all views, all its intervals) share a sea and must "
-      "lie on one side of\n"
+      "All maps of one `group` (one sea realisation: all targets, views and intervals in it, {} maps) share a sea and "
+      "must lie on one side of\n"
       "a split. A random split of the rows cuts through groups and looks better than it is.\n\n"
-      "## What gives the class away\n\n"
+      "## Limitations\n\n"
+      "All samples are simulated: what a classifier achieves on them is no statement about measured data.\n"
       "{} The absolute level of a map tells the target's size: `peak_m` and\n"
-      "`energy_m2` separate the classes by themselves. A classifier of shape and motion must be given maps divided by "
-      "their own energy.\n\n"
+      "`energy_m2` separate targets of different size by themselves. A classifier of shape and motion must be given "
+      "maps "
+      "divided by their own energy.\n\n"
       "## Reproduction\n\n"
       "`seaglint generate scenario.yaml -o DIR` with the same version makes the same bytes on the same kind of "
       "processor\n"
       "({}), for any number of threads and parts. Mesh paths in `scenario.yaml` start at the working directory.\n",
+      samples_per_target(scenario, plan) * scenario.targets.size() /
+          (plan.sea_states().size() * static_cast<std::size_t>(set.realisations_per_case)),
       clutter_level(scenario.clutter), markdown_code(fmt::format("{}", fmt::join(manifest.processors, "; "))));
   return text;
 }
+
+std::string signed_card(const std::string& text) { return text + kSignature + sha256(text) + kSignatureEnd; }
+
+bool is_unchanged_card(const std::string& text) {
+  const std::size_t place = text.rfind(kSignature);
+  return place != std::string::npos && text == signed_card(text.substr(0, place));
+}
+
+bool has_front_matter(const std::string& text) { return text.starts_with("---\n"); }
 
 }  // namespace seaglint

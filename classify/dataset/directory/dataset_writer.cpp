@@ -77,6 +77,14 @@ void write_in_company(const fs::path& file, const std::string& content) {
   }
 }
 
+// A card that a user changed or that has metadata of `seaglint card` is kept.
+bool is_replaceable_card(const fs::path& file) {
+  std::error_code error;
+  if (!fs::exists(file, error)) return true;
+  const std::string text = read_file(file);
+  return is_unchanged_card(text) && !has_front_matter(text);
+}
+
 // Removes the temporary files of killed processes.
 void remove_temporaries(const fs::path& directory) {
   for (const std::string& name : file_names(directory)) {
@@ -119,7 +127,7 @@ bool holds(const fs::path& file, const Shard& content, std::string& sha256) {
 }  // namespace
 
 bool is_dataset_file(const std::string& name) {
-  for (const char* own : {kScenarioFile, kInputsFile, kManifestFile, kDataCardFile}) {
+  for (const char* own : kSingleFiles) {
     if (name == own) return true;
   }
   return name.ends_with(".h5") || name.ends_with(".npz") || name.starts_with('.') || is_temporary(name);
@@ -297,7 +305,8 @@ std::vector<std::size_t> DatasetWriter::finish() {
   if (!missing.empty()) return missing;
 
   const Manifest whole = manifest();
-  write_in_company(directory_ / kDataCardFile, data_card(scenario_, plan_, whole, *axes_));
+  if (const fs::path card = directory_ / kDataCardFile; is_replaceable_card(card))
+    write_in_company(card, signed_card(data_card(scenario_, plan_, whole, *axes_)));
   write_in_company(directory_ / kManifestFile, to_json(whole));
   remove_temporaries(directory_);
   return {};

@@ -10,7 +10,7 @@ namespace seaglint {
 
 bool is_temporary(const std::string& name) {
   const std::string_view target = target_of_temporary(name);
-  for (const std::string_view own : {kScenarioFile, kInputsFile, kManifestFile, kDataCardFile}) {
+  for (const std::string_view own : kSingleFiles) {
     if (target == own) return true;
   }
   for (const std::string_view ending : {".h5", ".npz"}) {
