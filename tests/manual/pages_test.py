@@ -98,6 +98,15 @@ def check_in_browser(folder, picture):
                 driver.save_screenshot(f"{picture}_{name}.png")
 
 
+def check_refusal(seaglint, source, folder):
+    """Pages of somebody else are not replaced."""
+    folder.mkdir()
+    (folder / "index.html").write_text("mine", encoding="utf-8")
+    refused = subprocess.run([source / "tools/manual", "--program", seaglint, "-o", folder], capture_output=True, text=True)
+    assert refused.returncode == 2 and "something else than a manual" in refused.stderr, refused
+    assert (folder / "index.html").read_text(encoding="utf-8") == "mine"
+
+
 def main(seaglint, source, picture=None):
     try:
         import markdown, selenium  # noqa: E401, F401
@@ -111,6 +120,8 @@ def main(seaglint, source, picture=None):
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder) / "manual"
         subprocess.run([source / "tools/manual", "--program", seaglint, "-o", folder], check=True)
+        subprocess.run([source / "tools/manual", "--program", seaglint, "-o", folder], check=True)  # in place of the first
+        check_refusal(seaglint, source, folder.with_name("other"))
         pages = check_links(folder)
         check_contents(pages, seaglint, source)
         check_in_browser(folder, picture)

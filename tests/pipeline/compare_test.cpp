@@ -221,6 +221,20 @@ TEST_F(CompareCommand, OfTheFilesForOtherProgramsFindsNoDifference) {
   EXPECT_TRUE(std::filesystem::exists(path("own_h.ffe")));
 }
 
+TEST_F(CompareCommand, TakesSeveralExports) {
+  const std::string head = "# transmitter=monostatic\nfrequency_hz,azimuth_deg,elevation_deg,";
+  write_file(path("hh.csv"), head + "hh_dbsm\n1e10,0,0,3\n1e10,1,0,2\n");
+  write_file(path("vv.csv"), head + "vv_dbsm\n1e10,0,0,5\n1e10,1,0,4\n");
+  write_file(path("both.csv"), head + "hh_dbsm,vv_dbsm\n1e10,0,0,4,4\n1e10,1,0,3,3\n");
+  const ProgramResult result =
+      run_program({"compare", path("hh.csv"), path("vv.csv"), "--against", path("both.csv"), "-o", path("compared")});
+  ASSERT_EQ(result.code, 0) << result.err;
+  const nlohmann::json json = compared();
+  ASSERT_EQ(json["exports"].size(), 2u);
+  EXPECT_NEAR(json["exports"][0]["bias_db"], 1, 1e-9);
+  EXPECT_NEAR(json["exports"][1]["bias_db"], -1, 1e-9);
+}
+
 TEST_F(CompareCommand, SuggestsWhatIsWrongWithLevels) {
   const std::string head = "# transmitter=monostatic\nfrequency_hz,azimuth_deg,elevation_deg,hh_dbsm\n";
   std::string here = head, in_mm = head, doubled = head, mirrored = head;

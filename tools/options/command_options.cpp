@@ -81,7 +81,8 @@ CommandOption CommandOption::group(const std::string& heading) {
 }
 
 CommandOption CommandOption::repeatable(const std::string& value_name) {
-  option_->type_name(value_name)->allow_extra_args(false);
+  option_->type_name(value_name);
+  if (!option_->get_positional()) option_->allow_extra_args(false);
   return *this;
 }
 

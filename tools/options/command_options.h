@@ -31,8 +31,9 @@ class CommandOption {
   CommandOption show_default();                     // the help text gives the variable's present value
   CommandOption group(const std::string& heading);  // of the help text
 
-  CommandOption repeatable(const std::string& value_name);  // one value per occurrence; the help text names it
-  CommandOption comma_separated(int count);                 // a list of `count` values
+  // One value per occurrence, any number of positional ones; the help text names them.
+  CommandOption repeatable(const std::string& value_name);
+  CommandOption comma_separated(int count);  // a list of `count` values
   CommandOption integer_within(int lowest, int highest);
   CommandOption number_within(double lowest, double highest);  // refuses NaN
   CommandOption one_of(const std::vector<std::string>& values);
