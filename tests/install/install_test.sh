@@ -27,6 +27,7 @@ has "$("$seaglint" check nowhere.yaml 2>&1 || true)" "neither in the working dir
 [[ $(ls) == $'r.csv\nx' ]] || fail "other files: $(ls)"
 
 # Every command stands in the manual page.
+[[ -f $prefix/share/doc/seaglint/html/index.html ]] || fail "no manual"
 man_page=$prefix/share/man/man1/seaglint.1
 commands=$("$seaglint" --help | sed -n '/^Subcommands:/,/^$/s/^  \([a-z][a-z]*\) .*/\1/p')
 for command in $commands; do grep -qw "$command" "$man_page" || fail "$command is not in the manual page"; done

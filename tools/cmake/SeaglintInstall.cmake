@@ -15,6 +15,20 @@ install(FILES tools/install/seaglint.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 
 install(FILES tools/install/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
         RENAME seaglint COMPONENT program)
 
+
+# The manual, except with sanitizers, whose program would make it.
+if(NOT SEAGLINT_SANITIZE)
+  file(GLOB_RECURSE chapters CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/*.md)
+  list(FILTER chapters EXCLUDE REGEX "^${CMAKE_BINARY_DIR}/|/build/")
+  file(GLOB modules CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/tools/python/manual_*.py)
+  set(manual ${CMAKE_BINARY_DIR}/manual)
+  add_custom_command(OUTPUT ${manual}/index.html
+    COMMAND ${CMAKE_SOURCE_DIR}/tools/manual --program $<TARGET_FILE:seaglint> -o ${manual}
+    DEPENDS seaglint ${CMAKE_SOURCE_DIR}/tools/manual ${CMAKE_SOURCE_DIR}/tools/page/style.css ${modules} ${chapters} COMMENT "Building the manual" VERBATIM)
+  add_custom_target(seaglint_manual ALL DEPENDS ${manual}/index.html)
+  install(DIRECTORY ${manual}/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/html COMPONENT program)
+endif()
+
 get_property(stages GLOBAL PROPERTY SEAGLINT_STAGES)
 get_property(stage_targets GLOBAL PROPERTY SEAGLINT_STAGE_TARGETS)
 set(headers ${CMAKE_INSTALL_INCLUDEDIR}/seaglint)

@@ -173,7 +173,7 @@ def index_body(groups, titles, version):
 
 
 def build(program, output):
-    """Writes all pages into `output`, in place of an earlier manual; returns the first page."""
+    """Writes all pages into `output`, in place of an earlier manual once all are written; returns the first page."""
     groups = documents()
     pages = {path: page_name(path) for _, paths in groups for path in paths}
     links = Links(pages)
@@ -186,13 +186,16 @@ def build(program, output):
     titles = {page: title for page, (title, _, _) in made.items()}
     listed = [(group, [pages[path] for path in paths]) for group, paths in groups]
     search = [[title if title == titles[page] else f"{titles[page]}: {title}", page + "#" + name] for page, (_, _, headings) in made.items() for title, name in headings]
-    shutil.rmtree(output, ignore_errors=True)
-    (output / "pictures").mkdir(parents=True)
-    (output / "search.js").write_text("const SEARCH = " + json.dumps(search, ensure_ascii=False) + ";\n", encoding="utf-8")
+    made_in = output.with_name(output.name + ".new")
+    shutil.rmtree(made_in, ignore_errors=True)
+    (made_in / "pictures").mkdir(parents=True)
+    (made_in / "search.js").write_text("const SEARCH = " + json.dumps(search, ensure_ascii=False) + ";\n", encoding="utf-8")
     for path, name in links.pictures.items():
-        shutil.copy(ROOT / path, output / name)
+        shutil.copy(ROOT / path, made_in / name)
     for page, (title, body, _) in made.items():
-        (output / page).write_text(frame(title, contents(listed, titles, page), body), encoding="utf-8")
+        (made_in / page).write_text(frame(title, contents(listed, titles, page), body), encoding="utf-8")
     version = manual_reference.printed(program, "--version").strip()
-    (output / "index.html").write_text(frame("Manual", contents(listed, titles, ""), index_body(listed, titles, version)), encoding="utf-8")
+    (made_in / "index.html").write_text(frame("Manual", contents(listed, titles, ""), index_body(listed, titles, version)), encoding="utf-8")
+    shutil.rmtree(output, ignore_errors=True)
+    made_in.rename(output)
     return output / "index.html"
