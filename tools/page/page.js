@@ -98,7 +98,14 @@ const seaglint = (() => {
     observer.observe(element);
   }
 
+  // Pictures stay until plotly is there; then what is drawn takes their place, and so has a width.
+  async function takePlace(element, show) {
+    await plotly();
+    element.classList.add("drawn");
+    return show();
+  }
+
   const able = "DecompressionStream" in window;
   if (able) document.querySelectorAll("figure.plot").forEach((element) => whenSeen(element, draw));
-  return { able, inflate, plotly, whenSeen, element, axis, COLOURS, SYMBOLS, CONFIG };
+  return { able, inflate, plotly, whenSeen, takePlace, element, axis, COLOURS, SYMBOLS, CONFIG };
 })();

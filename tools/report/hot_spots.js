@@ -9,7 +9,6 @@
   const short = (x) => Number(x.toPrecision(6)).toString();
   const box = element("div", { className: "interactive" });
   place.prepend(box);
-  place.classList.add("drawn");
 
   const target = element("select", { id: "hot-spot-target" }, ...set.targets.map((t, i) => element("option", { value: i, textContent: t.name })));
   const slider = element("input", { type: "range", min: 0, step: 1, value: 0, id: "hot-spot-view" });
@@ -60,5 +59,5 @@
   }
   target.addEventListener("input", show);
   slider.addEventListener("input", show);
-  seaglint.whenSeen(box, show);
+  seaglint.whenSeen(place, () => seaglint.takePlace(place, show));
 })().catch((error) => console.error(error));

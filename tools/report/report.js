@@ -61,7 +61,6 @@
   // Maps of all chosen targets at one aspect and wave height.
   const view = element("div", { className: "interactive" });
   explorer.prepend(view);
-  explorer.classList.add("drawn");
   const ofTargets = boxes("Targets", targets, (t) => set.targets[t]), ofHeight = select("Hs (m)", heights, short);
   ofHeight.input.id = "height";
   const slider = element("input", { type: "range", min: 0, max: azimuths.length - 1, step: 1, value: 0, id: "aspect" });
@@ -92,12 +91,11 @@
   const near = (values, value) => values.reduce((best, x, i) => (Math.abs(x - value) < Math.abs(values[best] - value) ? i : best), 0);
   slider.value = near(azimuths, set.azimuth_deg);
   ofHeight.input.value = heights[near(heights, set.wave_height_m)];
-  seaglint.whenSeen(view, showMaps);
+  seaglint.whenSeen(explorer, () => seaglint.takePlace(explorer, showMaps));
 
   // Scatter of two columns; a click or the numbered field opens the map of a sample.
   const scatter = document.getElementById("scatter"), plain = element("div", { className: "interactive" });
   scatter.prepend(plain);
-  scatter.classList.add("drawn");
   const names = set.columns.filter((column) => column.varies).map((column) => column.name);
   const ofX = select("x", names, String), ofY = select("y", names, String), byTarget = boxes("Targets", targets, (t) => set.targets[t]), byHeight = boxes("Hs (m)", heights, short);
   const log = element("input", { type: "checkbox", checked: true });
@@ -144,5 +142,5 @@
     }
   });
   for (const input of [ofX.input, ofY.input, log, byTarget.set, byHeight.set]) input.addEventListener("input", showPoints);
-  seaglint.whenSeen(plain, showPoints);
+  seaglint.whenSeen(scatter, () => seaglint.takePlace(scatter, showPoints));
 })().catch((error) => console.error(error));
