@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -21,6 +22,7 @@
 #include "tools/pipeline/output_files.h"
 #include "tools/pipeline/warnings.h"
 #include "tools/rcs/rcs_comparison.h"
+#include "tools/rcs/rcs_convergence.h"
 #include "tools/rcs/rcs_table.h"
 #include "tools/rcs/rcs_uncertainty.h"
 #include "tools/rcs/rcs_views.h"
@@ -85,10 +87,19 @@ std::vector<FieldTable> read_references(const ReferenceArguments& arguments) {
   return references;
 }
 
-RcsResult compute(const RcsArguments& arguments, const RcsRequest& request, const RcsTarget& target,
-                  const CommandContext& context) {
+// Computes the sweep; with --converge the request becomes that of the last step, and the sentences are what did not
+// converge.
+RcsResult compute(const RcsArguments& arguments, RcsRequest& request, const RcsTarget& target,
+                  const CommandContext& context, std::vector<std::string>& sentences) {
   try {
-    return compute_rcs(request, target, context.threads, &context.stop);
+    if (!arguments.converge_db) return compute_rcs(request, target, context.threads, &context.stop);
+    ConvergedSweep converged = converge_rcs(request, target, *arguments.converge_db, context.threads, &context.stop,
+                                            [](const std::string& line) { print_error(line); });
+    request.min_patch_m = converged.min_patch_m;
+    if (!converged.converged)
+      sentences.push_back(fmt::format("levels still change by {:.3g} dB after {} halvings of the patches",
+                                      std::abs(converged.series.back().change.largest_db), kMostHalvings));
+    return std::move(converged.result);
   } catch (const WorkError& error) {
     throw WorkError(fmt::format("{}; {} is not written", error.what(), arguments.output));
   }
@@ -96,7 +107,7 @@ RcsResult compute(const RcsArguments& arguments, const RcsRequest& request, cons
 
 void run_rcs(const RcsArguments& arguments, const CommandContext& context) {
   require_files(arguments);
-  const RcsRequest request = arguments.make_request();
+  RcsRequest request = arguments.make_request();
   require_export_formats(arguments.export_as, request.transmitter.has_value());
   std::vector<std::string> warnings = request_warnings(request);
   warn(warnings);
@@ -112,7 +123,8 @@ void run_rcs(const RcsArguments& arguments, const CommandContext& context) {
                             1e-9 * *std::max_element(request.frequency_hz.begin(), request.frequency_hz.end())));
   }
   const auto start = std::chrono::steady_clock::now();
-  const RcsResult result = compute(arguments, request, target, context);
+  std::vector<std::string> not_converged;
+  const RcsResult result = compute(arguments, request, target, context, not_converged);
   const double seconds =
       std::max(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 1e-9);
 
@@ -120,6 +132,7 @@ void run_rcs(const RcsArguments& arguments, const CommandContext& context) {
   const std::vector<std::string> uncertain = uncertainty_warnings(sweep, target.prepared.mesh.part_names);
   warn(uncertain);
   warnings.insert(warnings.end(), uncertain.begin(), uncertain.end());
+  warnings.insert(warnings.end(), not_converged.begin(), not_converged.end());
   write_file(arguments.output, rcs_table(request, *target.prepared.scatterer, sweep, warnings));
   std::vector<RcsCut> solved;
   if (!arguments.export_as.empty()) append_cuts(sweep, solved);
@@ -139,6 +152,7 @@ void run_rcs(const RcsArguments& arguments, const CommandContext& context) {
   if (!cuts.empty()) print_out("{}", error_table(cuts, arguments.reference.floor_db));
   if (!cuts.empty() || request.uncertainty) show_figure(arguments, cuts, sweep);
   if (!arguments.reference.curves.empty()) write_curves(arguments.reference.curves, cuts, arguments.reference.floor_db);
+  if (!not_converged.empty()) throw WorkError(fmt::format("{}: {}", arguments.output, not_converged.front()));
 }
 
 }  // namespace

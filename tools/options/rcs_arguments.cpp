@@ -196,6 +196,12 @@ void RcsArguments::add_to(CommandOptions& command) {
                    "Also trace with all facets flat: columns xx_flat_over_smooth_db after the others (level of flat "
                    "facets over that of smooth surfaces) and xx_vertex_change (estimated change, relative to the echo, "
                    "by vertices displaced by a 2000th of a wavelength), and a figure of both");
+  command
+      .add_option(
+          "--converge", converge_db,
+          "Halve the smallest patch until no level changes by more than this, dB; prints the series, and columns "
+          "xx_patch_change_db after the others (level less that with patches of twice the side)")
+      .number_within(1e-4, 20.0);
   add_cavity_options(command, request.cavities);
   add_sea_options(command, *this);
   command.add_option("-o,--output", output, "CSV file to write").required();

@@ -16,7 +16,7 @@ namespace seaglint {
 struct RcsArguments {
   RcsRequest request;  // members that options set directly; make_request() fills the others
   std::string target, frequency_ghz, azimuth_deg, elevation_deg = "0", edges = "on", crease_deg = "auto", output;
-  std::optional<double> transmit_azimuth_deg, transmit_elevation_deg;
+  std::optional<double> transmit_azimuth_deg, transmit_elevation_deg, converge_db;
   std::vector<std::string> materials;  // NAME or PART=NAME
   std::vector<std::string> export_as;  // of kExportFormats
   std::string sea_surface = "sea_water", sea_paths = "all";

@@ -10,6 +10,7 @@
 #include "sim/field_tables/transmitter_keys.h"
 #include "sim/scattering/beams/illumination_settings.h"
 #include "tools/rcs/echo_selection.h"
+#include "tools/rcs/rcs_convergence.h"
 #include "tools/rcs/rcs_uncertainty.h"
 
 namespace seaglint {
@@ -71,7 +72,7 @@ std::string rcs_table(const RcsRequest& request, const Scatterer& scatterer, con
       request.crease_deg ? fmt::format("{:.6g}", *request.crease_deg) : "auto", request.sheet_thickness_mm,
       request.range_m, request.min_patch_m > 0 ? request.min_patch_m : default_min_patch(scatterer),
       cavity_line(request.cavities), transmitter_line(request.transmitter), warning_lines(warnings),
-      sweep.flat ? uncertainty_header() : "");
+      (sweep.flat ? uncertainty_header() : "") + (sweep.coarser ? convergence_header() : ""));
   for (std::size_t q = 0; q < sweep.frequency_hz.size(); ++q) {
     for (std::size_t view = 0; view < sweep.views(); ++view) {
       const auto& s = sweep.models.back().matrices[view][q];
@@ -79,7 +80,9 @@ std::string rcs_table(const RcsRequest& request, const Scatterer& scatterer, con
           fmt::format("{:.9g},{:.9g},{:.9g}", sweep.frequency_hz[q], sweep.azimuth_of(view), sweep.elevation_of(view));
       for (const Complex& x : s) csv += fmt::format(",{:.9g},{:.9g}", x.real(), x.imag());
       csv += fmt::format(",{:.4f},{:.4f}", dbsm(s[0], kMinPrinted_m2), dbsm(s[3], kMinPrinted_m2));
-      csv += sweep.flat ? uncertainty_cells(sweep, view, q) + "\n" : "\n";
+      if (sweep.flat) csv += uncertainty_cells(sweep, view, q);
+      if (sweep.coarser) csv += convergence_cells(sweep, view, q);
+      csv += "\n";
     }
   }
   return csv;

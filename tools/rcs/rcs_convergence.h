@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// A sweep with ever smaller patches until two answers agree.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "sim/core/process/parallel.h"
+#include "tools/rcs/rcs_request.h"
+#include "tools/rcs/rcs_sweep.h"
+#include "tools/rcs/rcs_target.h"
+#include "tools/rcs/rcs_views.h"
+
+namespace seaglint {
+
+// Changes of a level by halving the patches, dB, of hh and vv in all rows; levels are raised to 60 dB below the highest
+// of their element, as in deep nulls any change is large.
+struct LevelChange {
+  double mean_db = 0;                                // of the magnitude
+  double largest_db = 0;                             // with its sign
+  std::size_t view = 0, frequency = 0, element = 0;  // where; element 0 hh, 1 vv
+};
+
+struct ConvergenceStep {
+  double min_patch_m = 0;    // of the body with the smallest ones
+  std::size_t segments = 0;  // beam segments traced
+  LevelChange change;        // from the step before; zero in the first
+};
+
+struct ConvergedSweep {
+  RcsResult result;  // with the smallest patches; its sweep has the answer before as `coarser`
+  std::vector<ConvergenceStep> series;
+  double min_patch_m = 0;  // of the result, for RcsRequest
+  bool converged = false;  // the last change is at most the tolerance
+};
+
+inline constexpr int kMostHalvings = 6;
+
+// Halves the smallest patch from that of the request until no level of the sweep changes by more than tolerance_db > 0,
+// at most kMostHalvings times. say() gets a line after each step. Throws InputError for a request with cavities, whose
+// walls have no patches of this kind, and what compute_rcs() throws.
+ConvergedSweep converge_rcs(const RcsRequest& request, const RcsTarget& target, double tolerance_db, int threads,
+                            const StopFlag* stop, const std::function<void(const std::string&)>& say);
+
+// Change of the levels of `fine` from those of `coarse`, models of one sweep.
+LevelChange level_change(const RcsSweep& sweep, const RcsSweep::Model& fine, const RcsSweep::Model& coarse);
+
+// The columns of a converged sweep after those of every table, and their values: the level less that with patches of
+// twice the side, dB, within -60 and 60.
+std::string convergence_header();
+std::string convergence_cells(const RcsSweep& sweep, std::size_t view, std::size_t frequency);
+
+}  // namespace seaglint
