@@ -45,7 +45,7 @@ struct RocPoint {
 // The receiver operating characteristic from (0, 0) to (1, 1), thresholds descending; rows of equal probability are
 // one step, points on a straight line between their neighbours are left out. Of more than `most` points (at least 2)
 // every one that is kept is followed by the last whose false_alarms + detections is at most 2 / (most - 1) larger, or
-// by the next. Empty when a class is missing.
+// by the next: less than 2 most points. Empty when a class is missing.
 std::vector<RocPoint> roc_curve(std::span<const Prediction> predictions, std::size_t most = 200);
 
 struct WaveHeightScores {

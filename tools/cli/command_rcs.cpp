@@ -87,19 +87,13 @@ std::vector<FieldTable> read_references(const ReferenceArguments& arguments) {
   return references;
 }
 
-// Computes the sweep; with --converge the request becomes that of the last step, and the sentences are what did not
-// converge.
-RcsResult compute(const RcsArguments& arguments, RcsRequest& request, const RcsTarget& target,
-                  const CommandContext& context, std::vector<std::string>& sentences) {
+// The sweep; without --converge a series of no steps.
+ConvergedSweep compute(const RcsArguments& arguments, const RcsRequest& request, const RcsTarget& target,
+                       const CommandContext& context) {
   try {
-    if (!arguments.converge_db) return compute_rcs(request, target, context.threads, &context.stop);
-    ConvergedSweep converged = converge_rcs(request, target, *arguments.converge_db, context.threads, &context.stop,
-                                            [](const std::string& line) { print_error(line); });
-    request.min_patch_m = converged.min_patch_m;
-    if (!converged.converged)
-      sentences.push_back(fmt::format("levels still change by {:.3g} dB after {} halvings of the patches",
-                                      std::abs(converged.series.back().change.largest_db), kMostHalvings));
-    return std::move(converged.result);
+    if (!arguments.converge_db) return {compute_rcs(request, target, context.threads, &context.stop), {}, true};
+    return converge_rcs(request, target, *arguments.converge_db, context.threads, &context.stop,
+                        [](const std::string& line) { print_error(line); });
   } catch (const WorkError& error) {
     throw WorkError(fmt::format("{}; {} is not written", error.what(), arguments.output));
   }
@@ -123,8 +117,9 @@ void run_rcs(const RcsArguments& arguments, const CommandContext& context) {
                             1e-9 * *std::max_element(request.frequency_hz.begin(), request.frequency_hz.end())));
   }
   const auto start = std::chrono::steady_clock::now();
-  std::vector<std::string> not_converged;
-  const RcsResult result = compute(arguments, request, target, context, not_converged);
+  const ConvergedSweep computed = compute(arguments, request, target, context);
+  const RcsResult& result = computed.result;
+  if (!computed.series.empty()) request.min_patch_m = computed.series.back().min_patch_m;
   const double seconds =
       std::max(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 1e-9);
 
@@ -132,7 +127,9 @@ void run_rcs(const RcsArguments& arguments, const CommandContext& context) {
   const std::vector<std::string> uncertain = uncertainty_warnings(sweep, target.prepared.mesh.part_names);
   warn(uncertain);
   warnings.insert(warnings.end(), uncertain.begin(), uncertain.end());
-  warnings.insert(warnings.end(), not_converged.begin(), not_converged.end());
+  if (!computed.converged)
+    warnings.push_back(fmt::format("levels still change by {:.3g} dB after {} halvings of the patches",
+                                   std::abs(computed.series.back().change.largest_db), kMostHalvings));
   write_file(arguments.output, rcs_table(request, *target.prepared.scatterer, sweep, warnings));
   std::vector<RcsCut> solved;
   if (!arguments.export_as.empty()) append_cuts(sweep, solved);
@@ -152,7 +149,7 @@ void run_rcs(const RcsArguments& arguments, const CommandContext& context) {
   if (!cuts.empty()) print_out("{}", error_table(cuts, arguments.reference.floor_db));
   if (!cuts.empty() || request.uncertainty) show_figure(arguments, cuts, sweep);
   if (!arguments.reference.curves.empty()) write_curves(arguments.reference.curves, cuts, arguments.reference.floor_db);
-  if (!not_converged.empty()) throw WorkError(fmt::format("{}: {}", arguments.output, not_converged.front()));
+  if (!computed.converged) throw WorkError(fmt::format("{}: {}", arguments.output, warnings.back()));
 }
 
 }  // namespace

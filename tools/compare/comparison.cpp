@@ -46,7 +46,7 @@ std::vector<ViewGrid> grids_of(const std::vector<const RcsCut*>& cuts) {
 
 // The part of a solved grid at a cut of it.
 RcsSweep part_of(const RcsSweep& sweep, const ViewGrid& cut) {
-  RcsSweep part{cut.frequency_hz, cut.azimuth_deg, cut.elevation_deg, {}, {}, {}, 0, sweep.transmitter, {}};
+  RcsSweep part{cut.frequency_hz, cut.azimuth_deg, cut.elevation_deg, {}, {}, {}, 0, sweep.transmitter};
   for (const RcsSweep::Model& model : sweep.models) part.models.push_back({model.name, model.edge_diffraction, {}});
   if (sweep.flat) part.flat = RcsSweep::Model{sweep.flat->name, sweep.flat->edge_diffraction, {}};
   for (std::size_t view = 0; view < sweep.views(); ++view) {

@@ -14,7 +14,7 @@ section, section pre { clear: both; }
 """
 
 LEAD = """<p>{version}, edge diffraction on unless stated. <b>Errors</b> are mean of the magnitude / rms in dB against the reference, both sides clipped at 80 dB (box, almond, ship and grooves: 40 dB) below the reference's maximum, over all directions or
-frequencies of the cut; nothing is interpolated. <b>Measured</b> is the measurement against the same reference: what two honest answers differ by. <b>Numerical</b>: mean change of our own levels in dB with patches of a quarter of the side (of a cavity: 8 in place of 6 per wavelength),
+frequencies of the cut; nothing is interpolated. <b>Measured</b> is the measurement against the same reference: the difference of two references. <b>Numerical</b>: mean change of our own levels in dB with patches of a quarter of the side (of a cavity: 8 in place of 6 per wavelength),
 80 bounces in place of 40 (rays in the duct: 24 of 12), and flat in place of smooth facets, over some of the directions. Where these are far below the error, the error is that of the physics in the model; finer meshes and more rays will not mend it.</p>"""
 
 

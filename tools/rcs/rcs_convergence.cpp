@@ -16,9 +16,8 @@ namespace {
 
 constexpr std::array<std::size_t, 2> kElements{0, 3};  // hh, vv of a matrix
 constexpr const char* kElementNames[2] = {"hh", "vv"};
-constexpr double kFloorDb = 60;           // of levels below the highest of their element
-constexpr double kMostDb = 60;            // printed
-constexpr double kMinPrinted_m2 = 1e-30;  // -300 dBsm
+constexpr double kFloorDb = 60;  // of levels below the highest of their element
+constexpr double kMostDb = 60;   // printed
 
 double level(const RcsSweep::Model& model, std::size_t view, std::size_t frequency, std::size_t element) {
   return dbsm(model.matrices[view][frequency][kElements[element]], kMinPrinted_m2);
@@ -77,8 +76,8 @@ ConvergedSweep converge_rcs(const RcsRequest& request, const RcsTarget& target, 
     throw InputError("--converge halves the patches of beams; cavities have --cavity-patches-per-wavelength");
   ConvergedSweep converged;
   RcsRequest step = plain(request);
-  step.min_patch_m = min_patch(*target.prepared.scatterer, settings_of(request, target, request.edges));
   converged.result = compute_rcs(step, target, threads, stop);
+  step.min_patch_m = min_patch(*target.prepared.scatterer, settings_of(request, target, request.edges));
   converged.series.push_back({step.min_patch_m, converged.result.segments, {}});
   say(line_of(converged.series.back(), converged.result.sweep, true));
   std::optional<RcsSweep::Model> coarser;
@@ -92,7 +91,6 @@ ConvergedSweep converge_rcs(const RcsRequest& request, const RcsTarget& target, 
     say(line_of(converged.series.back(), sweep, false));
     converged.converged = std::abs(converged.series.back().change.largest_db) <= tolerance_db;
   }
-  converged.min_patch_m = step.min_patch_m;
   if (!is_plain(request)) {
     RcsRequest whole = request;
     whole.min_patch_m = step.min_patch_m;

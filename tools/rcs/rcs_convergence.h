@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// A sweep with ever smaller patches until two answers agree.
+// A sweep whose smallest patch is halved until its levels no longer change.
 
 #include <functional>
 #include <string>
@@ -30,17 +30,16 @@ struct ConvergenceStep {
 };
 
 struct ConvergedSweep {
-  RcsResult result;  // with the smallest patches; its sweep has the answer before as `coarser`
-  std::vector<ConvergenceStep> series;
-  double min_patch_m = 0;  // of the result, for RcsRequest
-  bool converged = false;  // the last change is at most the tolerance
+  RcsResult result;  // with the smallest patches; its sweep has the result of the step before as `coarser`
+  std::vector<ConvergenceStep> series;  // the last one's min_patch_m is that of the result
+  bool converged = false;               // the last change is at most the tolerance
 };
 
 inline constexpr int kMostHalvings = 6;
 
-// Halves the smallest patch from that of the request until no level of the sweep changes by more than tolerance_db > 0,
-// at most kMostHalvings times. say() gets a line after each step. Throws InputError for a request with cavities, whose
-// walls have no patches of this kind, and what compute_rcs() throws.
+// Halves the smallest patch, from that of the smallest body, which all bodies get, until no level of the sweep changes
+// by more than tolerance_db > 0, at most kMostHalvings times. say() gets a line after each step. Throws InputError for
+// a request with cavities, whose walls have no patches of this kind, and what compute_rcs() throws.
 ConvergedSweep converge_rcs(const RcsRequest& request, const RcsTarget& target, double tolerance_db, int threads,
                             const StopFlag* stop, const std::function<void(const std::string&)>& say);
 
@@ -48,7 +47,7 @@ ConvergedSweep converge_rcs(const RcsRequest& request, const RcsTarget& target, 
 LevelChange level_change(const RcsSweep& sweep, const RcsSweep::Model& fine, const RcsSweep::Model& coarse);
 
 // The columns of a converged sweep after those of every table, and their values: the level less that with patches of
-// twice the side, dB, within -60 and 60.
+// twice the side (of larger bodies after one halving: their own), dB, within -60 and 60.
 std::string convergence_header();
 std::string convergence_cells(const RcsSweep& sweep, std::size_t view, std::size_t frequency);
 

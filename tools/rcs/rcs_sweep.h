@@ -13,6 +13,8 @@
 
 namespace seaglint {
 
+inline constexpr double kMinPrinted_m2 = 1e-30;  // floor of printed levels, -300 dBsm
+
 // Estimates of one view at one frequency (sim/scattering/surfaces/view_estimate.h) for hh and vv, and the indices of
 // the parts that contribute most to each.
 struct ViewUncertainty {
@@ -39,7 +41,7 @@ struct RcsSweep {
   std::size_t estimated = 0;
   std::optional<Vec3>
       transmitter;  // look direction of a fixed transmitter; the sweep is then over the receiver's directions
-  std::optional<Model> coarser;  // the last model with patches of twice the side, of a converged sweep
+  std::optional<Model> coarser = {};  // the last model with patches of twice the side, of a converged sweep
 
   std::size_t views() const { return azimuth_deg.size() * elevation_deg.size(); }
   std::size_t rows() const { return views() * frequency_hz.size(); }

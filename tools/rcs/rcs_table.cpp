@@ -16,8 +16,6 @@
 namespace seaglint {
 namespace {
 
-constexpr double kMinPrinted_m2 = 1e-30;  // -300 dBsm
-
 std::string materials_text(const std::vector<MaterialChoice>& materials) {
   if (materials.empty()) return "pec";
   std::vector<std::string> choices;

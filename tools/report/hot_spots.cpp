@@ -9,6 +9,7 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/dbsm.h"
+#include "sim/field_tables/field_table.h"
 #include "sim/scattering/beams/bistatic_geometry.h"
 #include "sim/scattering/response/body_response.h"
 #include "sim/scattering/response/scattering_matrix.h"
@@ -23,7 +24,6 @@ using nlohmann::ordered_json;
 
 constexpr double kRangeDb = 50;      // of the colours
 constexpr int kPositionDigits = 16;  // binary digits of a coordinate: 2 mm of a 144 m ship
-constexpr const char* kElementNames[4] = {"HH", "HV", "VH", "VV"};
 
 double centre_ghz(const RadarSpec& radar) { return (lowest_ghz(radar) + highest_ghz(radar)) / 2; }
 
@@ -66,7 +66,7 @@ ordered_json json_of(const Target& target, const Scenario& scenario, const std::
     levels.push_back(facet_levels(scatterer, contributions.points, k, element));
     total_dbsm.push_back(dbsm_of_area(4 * kPi * std::norm(contributions.matrix[element])));
   }
-  const double top = std::ceil(std::ranges::max(levels, {}, &FacetLevels::highest_dbsm).highest_dbsm);
+  const double top = std::ceil(std::ranges::max_element(levels, {}, &FacetLevels::highest_dbsm)->highest_dbsm);
   const TriangleMesh mesh = welded(mesh_of_facets(scatterer));
   std::vector<double> coordinates;
   for (const Vec3& vertex : mesh.vertices) coordinates.insert(coordinates.end(), vertex.begin(), vertex.end());
@@ -109,7 +109,7 @@ HotSpots hot_spots(const Scenario& scenario, const SamplePlan& plan, const std::
     list.push_back(json_of(target, scenario, views, threads, stop));
   }
   if (list.empty()) return {"", left_out};
-  const char* element = kElementNames[static_cast<int>(scenario.radar.polarisation)];
+  const char* element = kPolarisationNames[static_cast<int>(scenario.radar.polarisation)];
   return {
       script_json(ordered_json{{"range_db", kRangeDb}, {"step_db", 1}, {"targets", list}}.dump()),
       fmt::format("Level of each facet’s contribution at {:g} GHz, {}, for one body at rest without the sea; facets of "

@@ -27,9 +27,9 @@ class Convergence : public testing::Test {
   TemporaryFolder folder_;
 };
 
-// The answer is that of the last patch, to the printed digits, and the columns are its levels less those of twice the
-// patch.
-TEST_F(Convergence, EndsWithTwoSweepsThatAgree) {
+// The table is that of a sweep with the last patch, to the printed digits; the columns are its levels less those of a
+// sweep with twice the patch.
+TEST_F(Convergence, EndsWithTwoSweepsOfEqualLevels) {
   const ProgramResult result = rcs("converged.csv", {"--converge", "0.05"});
   ASSERT_EQ(result.code, 0) << result.err;
   std::vector<std::string> patches;

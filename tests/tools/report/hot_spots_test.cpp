@@ -41,7 +41,7 @@ TEST_F(HotSpotsOf, MeshesAreShownAtEveryView) {
   ASSERT_EQ(corner.at("views").size(), 3u);
   EXPECT_EQ(corner.at("views")[0].at("azimuth_deg"), 10);
   EXPECT_EQ(corner.at("views")[2].at("azimuth_deg"), 200);
-  EXPECT_THAT(spots.about, HasSubstr("VV"));
+  EXPECT_THAT(spots.about, HasSubstr(" GHz, vv, "));
   EXPECT_THAT(spots.about, Not(HasSubstr("views")));
 }
 
