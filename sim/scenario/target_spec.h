@@ -4,6 +4,7 @@
 // The `targets` section of a scenario: a mesh (one body, or several in a layout) with its motion, or ideal points.
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -81,8 +82,14 @@ struct PointSpec {
 // (tests/README.md, "High-order bounces").
 inline constexpr int kDefaultBounces = 40, kMaxBounces = 200;
 
+// How the reflectors of every path are found: by beams (sim/scattering/beams), by shooting and bouncing rays
+// (sim/scattering/rays), or by that of the two which costs less for the target.
+enum class SolverMethod : std::uint8_t { kBeams, kRays, kAuto };
+
 // (auto): zero means derived from the size of the mesh (sim/scattering/README.md).
 struct SolverSpec {
+  SolverMethod method = SolverMethod::kBeams;
+  double ray_spacing_m = 0;           // (auto) distance between rays, 0 or 1e-5 <= x <= 1
   double min_patch_m = 0;             // (auto) side of the smallest illuminated patch kept, 0 or 5e-5 <= x <= 1
   int max_bounces = kDefaultBounces;  // 1 <= x <= kMaxBounces
   double max_aspect_change_deg = 0;   // (auto) aspect change covered by one aspect trace, 0 or 0.001 <= x <= 5

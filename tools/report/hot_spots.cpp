@@ -62,7 +62,7 @@ ordered_json json_of(const Target& target, const Scenario& scenario, const std::
     const RadarBasis basis = radar_basis(direction_to_radar(view.azimuth_rad, view.elevation_rad));
     const AspectContributions contributions =
         aspect_contributions(scatterer, monostatic(basis), {k, default_aspect_change(scatterer, wavelength)},
-                             {solver.min_patch_m, solver.max_bounces, solver.edges}, threads, stop);
+                             tracing_settings(solver), threads, stop);
     levels.push_back(facet_levels(scatterer, contributions.points, k, element));
     total_dbsm.push_back(dbsm_of_area(4 * kPi * std::norm(contributions.matrix[element])));
   }

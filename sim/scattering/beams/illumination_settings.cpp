@@ -11,6 +11,9 @@ namespace {
 // Side of the smallest illuminated patch in radii of the body: 5 mm on the 144 m ship.
 constexpr double kMinPatchSide = 0.7e-4;
 
+// Distance between rays in radii of the target: 22 mm on the 144 m ship.
+constexpr double kRaySpacing = 3e-4;
+
 // Side of the smallest patch on a body of this radius, m.
 double patch_side(double radius, const TracingSettings& settings) {
   const double coarsest = kMinPatchSide * radius;
@@ -20,6 +23,16 @@ double patch_side(double radius, const TracingSettings& settings) {
 double smallest_radius(const Scatterer& scatterer) { return std::ranges::min(scatterer.bodies().radius); }
 
 }  // namespace
+
+TracingSettings tracing_settings(const SolverSpec& solver) {
+  return {solver.min_patch_m, solver.max_bounces, solver.edges, {}, solver.method, solver.ray_spacing_m};
+}
+
+double default_ray_spacing(const Scatterer& scatterer) { return kRaySpacing * scatterer.radius(); }
+
+double ray_spacing(const Scatterer& scatterer, const TracingSettings& settings) {
+  return settings.ray_spacing_m > 0 ? settings.ray_spacing_m : default_ray_spacing(scatterer);
+}
 
 double default_min_patch(const Scatterer& scatterer) { return kMinPatchSide * smallest_radius(scatterer); }
 

@@ -20,7 +20,16 @@ struct TracingSettings {
   int max_bounces = kDefaultBounces;  // 1 <= x <= kMaxBounces
   bool edges = false;                 // edge diffraction
   ContributionFilter filter = {};     // contributions that are summed; beams end at the walls of cavities only
+  SolverMethod method = SolverMethod::kBeams;
+  double ray_spacing_m = 0;  // distance between rays, m; 0: default_ray_spacing(). Used by rays alone
 };
+
+// Tracing settings of a target of a scenario.
+TracingSettings tracing_settings(const SolverSpec& solver);
+
+// Distance between rays by default, m: 3e-4 of the radius of the target's bounding sphere, 22 mm on the 144 m ship.
+double default_ray_spacing(const Scatterer& scatterer);
+double ray_spacing(const Scatterer& scatterer, const TracingSettings& settings);  // of the settings, or the default
 
 // Side of the smallest illuminated patch kept by default, m: 0.7e-4 of the radius of the smallest body's bounding
 // sphere, 5 mm on the 144 m ship.

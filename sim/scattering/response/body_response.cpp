@@ -127,7 +127,7 @@ std::vector<ResponseGrid> trace_to_grid(const Scatterer& scatterer, std::span<co
   // Materials are evaluated at the centre of the band and at equal distances on either side, the lower end among them.
   const double half_band = kc - wavenumbers.first;
   const std::array band{kc - half_band, kc, kc + half_band};
-  const TracingSettings settings{solver.min_patch_m, solver.max_bounces, solver.edges};
+  const TracingSettings settings = tracing_settings(solver);
   std::vector<BistaticGeometry> pairs;
   for (const PlannedPath& path : paths) pairs.push_back(path.geometry);
   const AspectTrace trace(scatterer, pairs, settings, band, threads);
