@@ -30,6 +30,7 @@ enum class Stream : std::uint32_t {
   kClutterPlace = 15,
   kPriJitter = 16,
   kMeshChange = 17,
+  kRayLattice = 18,
   kTest = 1000,
 };
 

@@ -27,6 +27,7 @@ struct BeamSegment {
   // Unit normal of the first reflector, mirrored in the later ones; zero before the first reflection.
   Vec3 first_reflector_normal = Vec3::Zero();
   int first_reflector = -1;            // its first facet; -1 before the first reflection
+  int path = -1;                       // number of the sequence of its reflectors (FoundPanel), -1: none
   bool has_curved_reflection = false;  // one of the reflectors so far is curved
   // Where a reflector was curved: the rays as they leave the last one, psi that its curvature adds, m, the chief ray's
   // way from the one before, m, and the factor of all curvatures on the path (curved_reflection.h).
@@ -41,6 +42,7 @@ struct BeamSegment {
 struct CandidatePanel {
   ProjectedPanel projection;  // polygon clipped to the side of the last reflector that the segment leaves
   PolygonSet illuminated;
+  int path = -1;  // as FoundPanel::path
 };
 
 // Field at wavenumber index q.

@@ -6,7 +6,6 @@
 #include <limits>
 #include <numeric>
 
-#include "sim/scattering/beams/beam_culling.h"
 #include "sim/scattering/beams/cross_section.h"
 #include "sim/scattering/beams/curved_reflection.h"
 #include "sim/scattering/diffraction/tolerances.h"
@@ -23,11 +22,11 @@ constexpr int kMaxHalvings = 6;
 
 class BeamTracer {
  public:
-  BeamTracer(const TracingContext& scene, BeamVisitor& visitor)
+  BeamTracer(const TracingContext& scene, const PanelSearch& search, BeamVisitor& visitor)
       : scene_(scene),
+        search_(search),
         facets_(scene.scatterer.facets()),
         curvature_{facets_, scene.scatterer.surface(), scene.transmit},
-        tree_(scene.scatterer.tree()),
         basis_(scene.transmit),
         visitor_(visitor),
         scratch_(static_cast<std::size_t>(scene.settings.max_bounces) + 1) {}
@@ -36,46 +35,69 @@ class BeamTracer {
 
   void trace_panel(int facet) {
     if (scene_.is_submerged(facet)) return;
-    BeamSegment first;
-    first.direction = -basis_.r;
-    first.E_h = basis_.h;
-    first.E_v = basis_.v;
+    const BeamSegment first = transmitted();
     CandidatePanel candidate;
     candidate.projection.facet = facet;
     candidate.projection.plane = depth_plane(facets_[facet].normal, facets_[facet].offset, basis_);
-    candidate.illuminated.assign(scene_.visible_to_transmitter.pieces(facet));
+    candidate.illuminated.assign(scene_.visible_to_transmitter->pieces(facet));
     visit_candidate(first, candidate, scratch_[0].visible);
     if (continues(first, candidate)) trace_segment(reflected_segment(first, candidate), candidate.illuminated);
+  }
+
+  void trace_window(const PolygonSet& window, int path) {
+    BeamSegment first = transmitted();
+    first.path = path;
+    trace_segment(first, window);
   }
 
  private:
   // Work memory of one bounce number, kept from segment to segment.
   struct Scratch {
-    std::vector<const BvhPanel*> found;
-    std::vector<CandidatePanel> met;     // grows to the largest number of candidates so far
-    std::vector<const BvhPanel*> panel;  // of each candidate
-    std::vector<Extent> extent;          // of the illuminated polygons of each candidate
+    std::vector<FoundPanel> found;
+    std::vector<CandidatePanel> met;  // grows to the largest number of candidates so far
+    std::vector<FoundPanel> panel;    // of each candidate
+    std::vector<Extent> extent;       // of the illuminated polygons of each candidate
     std::vector<std::uint32_t> order;
     std::vector<MovingPolygon> visible;
   };
+
+  BeamSegment transmitted() const {
+    BeamSegment first;
+    first.direction = -basis_.r;
+    first.E_h = basis_.h;
+    first.E_v = basis_.v;
+    return first;
+  }
 
   // Passes the illuminated polygons and, for every receiver, their visible parts to the visitor. `seen`: work memory.
   void visit_candidate(const BeamSegment& segment, const CandidatePanel& candidate, std::vector<MovingPolygon>& seen) {
     visitor_.illuminated(segment, candidate);
     const Vec3 illuminated_side = illuminated_normal(segment, facets_[candidate.projection.facet]);
     for (std::size_t i = 0; i < scene_.receivers.size(); ++i) {
-      const auto& [geometry, visible] = scene_.receivers[i];
+      const BistaticGeometry& geometry = scene_.receivers[i].geometry;
       // At the first bounce a monostatic receiver sees exactly the illuminated polygons.
       if (segment.bounce == 1 && geometry.monostatic) {
         visitor_.visible(segment, candidate, i, candidate.illuminated.polygons());
         continue;
       }
       seen.clear();
-      if (illuminated_side.dot(geometry.receive.r) > kEdgeOn)
-        visible->visible_after_reflections(candidate.projection.facet, segment.image_transform,
-                                           candidate.illuminated.polygons(), basis_, seen);
+      if (illuminated_side.dot(geometry.receive.r) > kEdgeOn) search_.find_visible(segment, candidate, i, seen);
       visitor_.visible(segment, candidate, i, seen);
     }
+  }
+
+  // Clips the projection to the half-space beyond the last reflector; false when nothing remains.
+  static bool clip_beyond_source(const BeamSegment& segment, double min_area, ProjectedPanel& projection) {
+    double farthest = 0, nearest = 0;  // distance beyond the last reflector along the ray, m
+    for (const MovingVertex& vertex : projection.polygon) {
+      const double beyond = segment.source_plane.at(vertex.p) - projection.plane.at(vertex.p);
+      farthest = std::max(farthest, beyond);
+      nearest = std::min(nearest, beyond);
+    }
+    if (farthest < kCoincident) return false;  // it is coplanar with the last reflector or behind it
+    if (nearest >= 0) return true;
+    projection.polygon = clip(projection.polygon, depth_difference(projection.plane, segment.source_plane), +1);
+    return !projection.polygon.empty() && signed_area(projection.polygon) >= min_area;
   }
 
   // Projects the panel, clips it to the half-space beyond the last reflector and intersects it with the beam
@@ -85,17 +107,7 @@ class BeamTracer {
     ProjectedPanel& projection = candidate.projection;
     const double min_area = scene_.min_area.on(panel.facet);
     if (!project_panel(projection, panel, segment.image_transform, basis_, min_area)) return false;
-    double farthest = 0, nearest = 0;  // distance beyond the last reflector along the ray, m
-    for (const MovingVertex& vertex : projection.polygon) {
-      const double beyond = segment.source_plane.at(vertex.p) - projection.plane.at(vertex.p);
-      farthest = std::max(farthest, beyond);
-      nearest = std::min(nearest, beyond);
-    }
-    if (farthest < kCoincident) return false;  // it is coplanar with the last reflector or behind it
-    if (nearest < 0) {
-      projection.polygon = clip(projection.polygon, depth_difference(projection.plane, segment.source_plane), +1);
-      if (projection.polygon.empty() || signed_area(projection.polygon) < min_area) return false;
-    }
+    if (segment.source_facet != kNoFacet && !clip_beyond_source(segment, min_area, projection)) return false;
     const Box box = box_of(projection.polygon);
     candidate.illuminated.clear();
     for (std::size_t i = 0; i < window.size(); ++i) {
@@ -111,21 +123,10 @@ class BeamTracer {
   void trace_segment(const BeamSegment& segment, const PolygonSet& window) {
     ++segments_;
     Scratch& scratch = scratch_[segment.bounce];
-    const Prism prism = bounding_prism(window.polygons(), segment, basis_, facets_);
     scratch.found.clear();
-    double covered = std::numeric_limits<double>::infinity();
-    tree_.traverse(prism, [&](const BvhPanel& panel) {
-      if (panel.facet == segment.source_facet) return covered;
-      const PrismOverlap met = test_overlap(segment, prism, panel);
-      if (met.possible) scratch.found.push_back(&panel);
-      return covered = std::min(covered, met.full_cover_distance);
-    });
+    search_.find(segment, window, scratch.found);
     // The last segment of a beam contributes only on panels that a receiver sees, or at edges.
-    const auto seen = [&](const BvhPanel* panel) {
-      return std::ranges::any_of(scene_.receivers, [&](const Receiver& receiver) {
-        return !receiver.visible_to_receiver->pieces(panel->facet).empty();
-      });
-    };
+    const auto seen = [&](const FoundPanel& found) { return search_.may_be_seen(found.panel->facet); };
     if (segment.bounce == scene_.settings.max_bounces && !visitor_.needs_last_segment(segment) &&
         std::ranges::none_of(scratch.found, seen))
       return;
@@ -140,12 +141,13 @@ class BeamTracer {
     std::vector<Extent>& extent = scratch.extent;
     extent.clear();
     scratch.panel.clear();
-    for (const BvhPanel* panel : scratch.found) {
+    for (const FoundPanel& found : scratch.found) {
       if (met.size() == extent.size()) met.emplace_back();
       CandidatePanel& next = met[extent.size()];
-      if (!intersect_panel(segment, window, *panel, next)) continue;
+      if (!intersect_panel(segment, window, *found.panel, next)) continue;
+      next.path = found.path;
       extent.push_back(extent_of(next.illuminated.polygons(), next.projection.plane));
-      scratch.panel.push_back(panel);
+      scratch.panel.push_back(found);
     }
     std::vector<std::uint32_t>& order = scratch.order;
     order.resize(extent.size());
@@ -198,7 +200,7 @@ class BeamTracer {
   // of it are limited.
   void illuminate_halves(const BeamSegment& segment, const PolygonSet& window, int halvings) {
     Scratch& scratch = scratch_[segment.bounce];
-    std::vector<const BvhPanel*> illuminated;
+    std::vector<FoundPanel> illuminated;
     for (const std::uint32_t i : scratch.order) {
       if (!scratch.met[i].illuminated.empty()) illuminated.push_back(scratch.panel[i]);
     }
@@ -242,6 +244,7 @@ class BeamTracer {
     next.source_normal = n;
     next.bounce = segment.bounce + 1;
     next.first_reflector_normal = segment.bounce == 1 ? n : reflect_direction(segment.first_reflector_normal, n);
+    next.path = candidate.path;
     next.previous = &segment;
     next.first_reflector = segment.bounce == 1 ? facet : segment.first_reflector;
     reflect_rays(curvature_, segment, candidate, next);
@@ -257,9 +260,9 @@ class BeamTracer {
   }
 
   const TracingContext& scene_;
+  const PanelSearch& search_;
   std::span<const Facet> facets_;
   CurvatureContext curvature_;
-  const PanelBvh& tree_;
   const RadarBasis& basis_;  // of the projection plane: the transmitter's
   BeamVisitor& visitor_;
   std::vector<Scratch> scratch_;  // indexed by bounce number
@@ -268,13 +271,20 @@ class BeamTracer {
 
 }  // namespace
 
-std::size_t trace_beams(const TracingContext& scene, std::span<const int> facets, BeamVisitor& visitor,
-                        const std::function<void()>& after_each) {
-  BeamTracer tracer(scene, visitor);
+std::size_t trace_beams(const TracingContext& scene, const PanelSearch& search, std::span<const int> facets,
+                        BeamVisitor& visitor, const std::function<void()>& after_each) {
+  BeamTracer tracer(scene, search, visitor);
   for (const int facet : facets) {
     tracer.trace_panel(facet);
     after_each();
   }
+  return tracer.segments();
+}
+
+std::size_t trace_window(const TracingContext& scene, const PanelSearch& search, const PolygonSet& window, int path,
+                         BeamVisitor& visitor) {
+  BeamTracer tracer(scene, search, visitor);
+  tracer.trace_window(window, path);
   return tracer.segments();
 }
 

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "sim/scattering/beams/beam_segment.h"
+#include "sim/scattering/beams/panel_search.h"
 #include "sim/scattering/beams/tracing_context.h"
 
 namespace seaglint {
@@ -27,9 +28,15 @@ class BeamVisitor {
 };
 
 // Traces all beams whose first reflector is the panel of one of these facets (its first facet) and returns the number
-// of segments behind it. Calls after_each() when the beams of one facet are complete.
+// of segments behind it. The scene must have the surface visible to the transmitter. Calls after_each() when the beams
+// of one facet are complete.
 std::size_t trace_beams(
-    const TracingContext& scene, std::span<const int> facets, BeamVisitor& visitor,
+    const TracingContext& scene, const PanelSearch& search, std::span<const int> facets, BeamVisitor& visitor,
     const std::function<void()>& after_each = [] {});
+
+// Traces the transmitted wave within a window of the projection plane and all that it illuminates; returns the number
+// of segments. `path`: of the transmitted wave, as FoundPanel::path.
+std::size_t trace_window(const TracingContext& scene, const PanelSearch& search, const PolygonSet& window, int path,
+                         BeamVisitor& visitor);
 
 }  // namespace seaglint

@@ -17,7 +17,7 @@ namespace seaglint {
 // Receiver of one illumination. geometry: the transmitter and this receiver.
 struct Receiver {
   BistaticGeometry geometry;
-  const VisibleSurface* visible_to_receiver;  // visible part of the surface as seen from it
+  const VisibleSurface* visible_to_receiver;  // visible part of the surface as seen from it; null: not known
 };
 
 // What the beams of one illumination have in common.
@@ -26,7 +26,7 @@ struct TracingContext {
   const RadarBasis& transmit;
   std::span<const Receiver> receivers;  // none: beams are traced for their illumination only
   const TracingSettings& settings;
-  const VisibleSurface& visible_to_transmitter;            // directly illuminated part of the surface
+  const VisibleSurface* visible_to_transmitter;            // directly illuminated part of the surface; null: not known
   std::span<const std::vector<MaterialSurface>> surfaces;  // [material][wavenumber]; none for a perfect conductor
   SmallestAreas min_area;                                  // of illuminated patches that are kept, m^2
   double min_beam_per_patch = 1;  // area of the smallest beam cross-section that is reflected further over min_area

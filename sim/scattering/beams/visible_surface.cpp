@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "sim/core/process/parallel.h"
+#include "sim/scattering/beams/panel_map.h"
 #include "sim/scattering/diffraction/tolerances.h"
 
 namespace seaglint {
@@ -189,37 +190,20 @@ void VisibleSurface::clip_to_visible(const VisiblePieces& window, double min_are
                                      const ImageTransform& image_transform, std::span<const MovingPolygon> illuminated,
                                      const RadarBasis& transmit, std::vector<MovingPolygon>& visible) const {
   if (window.pieces.empty() || illuminated.empty()) return;
-  // For points of the panel, the map from the radar's projection plane to the beam's is affine, q -> origin + q1 first
-  // + q2 second, with heights as third component.
-  const auto in_beam = [&](const Vec3& x) { return Vec3(x.dot(transmit.h), x.dot(transmit.v), x.dot(transmit.r)); };
-  const Vec3 origin = in_beam(image_transform.image(own.z0 * basis_.r));
-  const Vec3 first = in_beam(image_transform.L * (basis_.h + own.slope.x() * basis_.r)),
-             second = in_beam(image_transform.L * (basis_.v + own.slope.y() * basis_.r));
-  // Inverse map: bounding box of the illuminated polygons in the radar's projection plane.
-  const double determinant = first.x() * second.y() - first.y() * second.x();
+  const PanelMap map(own, basis_, image_transform, transmit);
+  // Bounding box of the illuminated polygons in the radar's projection plane.
   Box direct;
   for (const MovingPolygon& part : illuminated) {
     for (const MovingVertex& corner : part) {
-      const Vec2 p = corner.p - origin.head<2>();
-      const Vec2 q = Vec2(p.x() * second.y() - p.y() * second.x(), p.y() * first.x() - p.x() * first.y()) / determinant;
+      const Vec2 q = map.inverse(corner.p);
       const bool start = &corner == illuminated.front().begin();
       direct = {start ? q : Vec2(direct.lower.cwiseMin(q)), start ? q : Vec2(direct.upper.cwiseMax(q))};
     }
   }
-  MovingPolygon image;
   for (std::size_t i = 0; i < window.pieces.size(); ++i) {
     const MovingPolygon& piece = window.pieces[i];
     if (!overlap(window.boxes[i], direct)) continue;
-    image.clear();
-    for (const MovingVertex& vertex : piece) {
-      // Point of the vertex on the panel, and its slide over the panel relative to a body-fixed point.
-      const double z = own.at(vertex.p);
-      const Vec3 x = origin + vertex.p.x() * first + vertex.p.y() * second;
-      const auto moved = [&](const Vec2& slide) -> Vec2 { return (slide.x() * first + slide.y() * second).head<2>(); };
-      image.push_back({x.head<2>(), moved(vertex.d1 + Vec2(z, 0)) - Vec2(x.z(), 0),
-                       moved(vertex.d2 + Vec2(0, z)) - Vec2(0, x.z())});
-    }
-    if (signed_area(image) < 0) std::reverse(image.begin(), image.end());
+    const MovingPolygon image = map.mapped(piece);
     const Box around = box_of(image);
     for (const MovingPolygon& part : illuminated) {
       if (!overlap(box_of(part), around)) continue;

@@ -8,9 +8,11 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
 #include "sim/scattering/beams/beam_tracer.h"
+#include "sim/scattering/beams/prism_search.h"
 #include "sim/scattering/diffraction/tolerances.h"
 #include "sim/scattering/edges/beam_boundary.h"
 #include "sim/scattering/edges/beam_edges.h"
+#include "sim/scattering/rays/ray_tracer.h"
 #include "sim/scattering/surfaces/beam_contributions.h"
 
 namespace seaglint {
@@ -95,23 +97,30 @@ Aspects aspects_of(const Scatterer& scatterer, const BistaticGeometry& geometry,
 }  // namespace
 
 Aspect::Aspect(const Scatterer& scatterer, const RadarBasis& direction, const TracingSettings& settings, int threads)
-    : basis(perturbed_look_direction(scatterer, direction, settings.edges)),
-      visible(scatterer.facets(), scatterer.panels(), scatterer.tree(), basis, SmallestAreas(scatterer, settings),
-              threads) {}
+    : basis(perturbed_look_direction(scatterer, direction, settings.edges)) {
+  if (settings.edges || settings.method == SolverMethod::kBeams)
+    visible.emplace(scatterer.facets(), scatterer.panels(), scatterer.tree(), basis, SmallestAreas(scatterer, settings),
+                    threads);
+}
 
 Illumination::Illumination(const Scatterer& scatterer, Aspects aspects, const TracingSettings& settings,
                            std::span<const double> wavenumbers)
     : scatterer_(scatterer), settings_(settings), aspects_(std::move(aspects)) {
   const Aspect& transmitter = *aspects_.transmitter;
+  const auto surface_of = [](const Aspect& aspect) { return aspect.visible ? &*aspect.visible : nullptr; };
   for (const auto& receiver : aspects_.receivers) {
     if (receiver) {
-      receivers_.push_back({bistatic(transmitter.basis, receiver->basis), &receiver->visible});
+      receivers_.push_back({bistatic(transmitter.basis, receiver->basis), surface_of(*receiver)});
     } else {
-      receivers_.push_back({monostatic(transmitter.basis), &transmitter.visible});
+      receivers_.push_back({monostatic(transmitter.basis), surface_of(transmitter)});
     }
   }
-  for (int facet = 0; facet < static_cast<int>(scatterer.facets().size()); ++facet) {
-    if (!transmitter.visible.pieces(facet).empty()) seen_.push_back(facet);
+  if (settings_.method == SolverMethod::kRays) {
+    lattice_.emplace(scatterer, transmitter.basis, ray_spacing(scatterer, settings));
+  } else {
+    for (int facet = 0; facet < static_cast<int>(scatterer.facets().size()); ++facet) {
+      if (!transmitter.visible->pieces(facet).empty()) seen_.push_back(facet);
+    }
   }
   for (const MaterialSpec& material : scatterer.materials()) {
     std::vector<MaterialSurface>& surface = surfaces_.emplace_back();
@@ -129,15 +138,17 @@ Illumination::Illumination(const Scatterer& scatterer, const BistaticGeometry& g
                            const TracingSettings& settings, int threads, std::span<const double> wavenumbers)
     : Illumination(scatterer, aspects_of(scatterer, geometry, settings, threads), settings, wavenumbers) {}
 
-std::size_t Illumination::panels_per_chunk() const {
-  return std::max(kPanelsPerChunk, (seen_.size() + kMaxChunks - 1) / kMaxChunks);
+std::size_t Illumination::items() const { return lattice_ ? lattice_->tiles() : seen_.size(); }
+
+std::size_t Illumination::items_per_chunk() const {
+  return std::max(lattice_ ? 1 : kPanelsPerChunk, (items() + kMaxChunks - 1) / kMaxChunks);
 }
 
-std::size_t Illumination::chunk_count() const { return (seen_.size() + panels_per_chunk() - 1) / panels_per_chunk(); }
+std::size_t Illumination::chunk_count() const { return (items() + items_per_chunk() - 1) / items_per_chunk(); }
 
 TraceSummary Illumination::trace_all(int threads, const Visit& visit, const StopFlag* stop,
                                      const std::function<void(std::size_t)>& complete) const {
-  const std::size_t size = panels_per_chunk();
+  const std::size_t size = items_per_chunk();
   const ContributionFilter& filter = settings_.filter;
   const double faint = lowest_ > 0 ? min_amplitude(scatterer_, settings_, lowest_) : 0.0;
   std::vector<std::vector<EdgeIllumination>> illuminations(chunk_count());
@@ -146,10 +157,10 @@ TraceSummary Illumination::trace_all(int threads, const Visit& visit, const Stop
       chunk_count(), threads,
       [&](std::size_t chunk) {
         TracedContributions traced;
-        const auto panels = visible_panels().subspan(chunk * size, std::min(size, seen_.size() - chunk * size));
+        const std::size_t first = chunk * size, last = std::min(items(), first + size);
         const TracingContext of_chunk = scene();
         IlluminationRecorder recorder(of_chunk, traced);
-        segments[chunk] = trace_beams(of_chunk, panels, recorder, [&] {
+        const auto pass_on = [&] {
           for (std::size_t receiver = 0; receiver < traced.receivers.size(); ++receiver) {
             auto& [footprints, boundary_terms] = traced.receivers[receiver];
             std::erase_if(footprints, [&](const Footprint& f) {
@@ -163,7 +174,10 @@ TraceSummary Illumination::trace_all(int threads, const Visit& visit, const Stop
             footprints.clear();
             boundary_terms.clear();
           }
-        });
+        };
+        segments[chunk] = lattice_ ? trace_rays(of_chunk, *lattice_, first, last, recorder, pass_on).segments
+                                   : trace_beams(of_chunk, PrismSearch(of_chunk),
+                                                 visible_panels().subspan(first, last - first), recorder, pass_on);
         illuminations[chunk] = std::move(traced.edge_illuminations);
         if (complete) complete(chunk);
       },
@@ -174,11 +188,12 @@ TraceSummary Illumination::trace_all(int threads, const Visit& visit, const Stop
 
 TracingContext Illumination::scene() const {
   const auto& [basis, visible] = *aspects_.transmitter;
+  const VisibleSurface* surface = visible ? &*visible : nullptr;
   return {scatterer_,
           basis,
           receivers_,
           settings_,
-          visible,
+          surface,
           surfaces_,
           SmallestAreas(scatterer_, settings_),
           kMinBeamPerPatch * kMinBeamPerPatch};
@@ -187,7 +202,7 @@ TracingContext Illumination::scene() const {
 std::size_t Illumination::trace_from(std::span<const int> facets, TracedContributions& traced) const {
   const TracingContext of_facets = scene();
   IlluminationRecorder recorder(of_facets, traced);
-  return trace_beams(of_facets, facets, recorder);
+  return trace_beams(of_facets, PrismSearch(of_facets), facets, recorder);
 }
 
 }  // namespace seaglint

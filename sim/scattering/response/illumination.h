@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Illumination of a target from one direction: traces the beams from every visible panel and collects surface
-// contributions, boundary terms and edge illuminations. Beams are bundles of parallel rays of polygonal cross-section
-// (beams/README.md). The geometry is independent of frequency.
+// Illumination of a target from one direction: traces the beams from every visible panel, or tubes of rays from every
+// tile of a lattice, and collects surface contributions, boundary terms and edge illuminations. Both are bundles of
+// parallel rays of polygonal cross-section (beams/README.md, rays/README.md). The geometry is independent of frequency.
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -18,6 +19,7 @@
 #include "sim/scattering/edges/edge_contribution.h"
 #include "sim/scattering/edges/edge_illumination.h"
 #include "sim/scattering/material/material.h"
+#include "sim/scattering/rays/ray_lattice.h"
 #include "sim/scattering/surfaces/footprint.h"
 
 namespace seaglint {
@@ -46,10 +48,10 @@ struct TraceSummary {
   std::size_t segments = 0;
 };
 
-// A look direction and the visible part of every panel.
+// A look direction and the visible part of every panel, which rays need for edge diffraction only.
 struct Aspect {
   RadarBasis basis;  // perturbed by 1e-6 rad where faces or edges have only a limit (illumination.cpp)
-  VisibleSurface visible;
+  std::optional<VisibleSurface> visible;
 
   Aspect(const Scatterer& scatterer, const RadarBasis& direction, const TracingSettings& settings, int threads);
 };
@@ -60,8 +62,8 @@ struct Aspects {
   std::vector<std::shared_ptr<const Aspect>> receivers;
 };
 
-// Traces the beams of one transmit direction for its receivers. trace_from() follows the beams of one panel; panels are
-// independent and may be traced in any order by any thread.
+// Traces the beams or rays of one transmit direction for its receivers. trace_from() follows the beams of one panel;
+// panels and tiles are independent and may be traced in any order by any thread.
 class Illumination {
  public:
   // `wavenumbers`: at which materials are evaluated and weak boundary terms are omitted. May be empty for perfect
@@ -73,13 +75,13 @@ class Illumination {
   Illumination(const Scatterer& scatterer, const BistaticGeometry& geometry, const TracingSettings& settings,
                int threads = 1, std::span<const double> wavenumbers = {});
 
-  // Panels visible to the transmitter, by their representative facets, ascending.
+  // Panels visible to the transmitter, by their representative facets, ascending; none for rays.
   std::span<const int> visible_panels() const { return seen_; }
 
-  // Traces all panels in chunks on `threads` threads. visit(chunk, receiver, contributions) receives the contributions
-  // of each chunk panel by panel, in order and from one thread, without those that the filter of the settings rejects
-  // and without boundary terms that are negligible at the wavenumbers. Chunks do not depend on the number of threads.
-  // Throws Interrupted when *stop becomes true.
+  // Traces all panels or tiles in chunks on `threads` threads. visit(chunk, receiver, contributions) receives the
+  // contributions of each chunk panel by panel or tile by tile, in order and from one thread, without those that the
+  // filter of the settings rejects and without boundary terms that are negligible at the wavenumbers. Chunks do not
+  // depend on the number of threads. Throws Interrupted when *stop becomes true.
   std::size_t chunk_count() const;
   using Visit = std::function<void(std::size_t chunk, std::size_t receiver, const PanelContributions& contributions)>;
   // `complete`, unless empty, is called after the last contributions of a chunk.
@@ -92,7 +94,8 @@ class Illumination {
   std::size_t trace_from(std::span<const int> facets, TracedContributions& traced) const;
 
  private:
-  std::size_t panels_per_chunk() const;
+  std::size_t items() const;  // panels, or tiles of rays
+  std::size_t items_per_chunk() const;
   TracingContext scene() const;
 
   const Scatterer& scatterer_;
@@ -100,6 +103,7 @@ class Illumination {
   Aspects aspects_;
   std::vector<Receiver> receivers_;
   std::vector<int> seen_;
+  std::optional<RayLattice> lattice_;                   // of the method of rays
   std::vector<std::vector<MaterialSurface>> surfaces_;  // [material][wavenumber]; empty for a perfect conductor
   double lowest_ = 0, highest_ = 0;                     // of the wavenumbers; 0: none given
 };

@@ -27,7 +27,7 @@ BeamContributions::BeamContributions(const TracingContext& scene, const Receiver
       curvature_{facets_, scene.scatterer.surface(), scene.transmit},
       panels_(scene.scatterer.panels()),
       geometry_(receiver.geometry),
-      visible_(*receiver.visible_to_receiver),
+      visible_(receiver.visible_to_receiver),
       basis_(scene.transmit),
       max_slide_rate_(2 * scene.scatterer.radius()),
       out_(out),
@@ -99,7 +99,7 @@ void BeamContributions::radiate_image(const BeamSegment& segment, const Candidat
   // The part that the reflector illuminates first is the part that a receiver at the same place sees via it.
   std::vector<MovingPolygon> by_reflector;
   if (segment.bounce > 2)
-    visible_.visible_via_reflector(segment.first_reflector, facet, footprint.image_transform, visible, basis_,
+    visible_->visible_via_reflector(segment.first_reflector, facet, footprint.image_transform, visible, basis_,
                                    by_reflector);
   for (const MovingPolygon& piece :
        segment.bounce > 2 ? std::span<const MovingPolygon>(by_reflector) : candidate.illuminated.polygons()) {

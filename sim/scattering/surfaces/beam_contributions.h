@@ -56,7 +56,7 @@ class BeamContributions {
   CurvatureContext curvature_;
   const Panels& panels_;
   const BistaticGeometry& geometry_;
-  const VisibleSurface& visible_;
+  const VisibleSurface* visible_;
   const RadarBasis& basis_;  // projection plane: that of the transmitter
   double max_slide_rate_;    // m/rad
   std::vector<Footprint>& out_;

@@ -5,6 +5,7 @@
 #include <pmmintrin.h>
 #include <xmmintrin.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <new>
@@ -24,6 +25,8 @@ struct RayScene::Impl {
 };
 
 namespace {
+
+constexpr std::size_t kPacket = 16;  // rays that Embree traces together
 
 // Sets denormal numbers to zero, as Embree requires, and restores the caller's floating-point mode at the end of the
 // scope.
@@ -191,34 +194,33 @@ RayScene::RayScene(RayScene&&) noexcept = default;
 RayScene& RayScene::operator=(RayScene&&) noexcept = default;
 
 void RayScene::first_hits(std::span<const Ray> rays, std::span<int> facets) const {
+  RayBatch batch;
+  for (const Ray& ray : rays) batch.add(ray.origin, ray.direction);
+  first_hits(batch, facets);
+}
+
+void RayScene::first_hits(const RayBatch& rays, std::span<int> facets) const {
   const DenormalsAreZero mode;
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  for (std::size_t first = 0; first < rays.size(); first += 16) {
-    alignas(64) int valid[16];
-    RTCRayHit16 packet;
-    for (std::size_t lane = 0; lane < 16; ++lane) {
-      const bool used = first + lane < rays.size();
-      const Ray& ray = rays[used ? first + lane : first];
-      valid[lane] = used ? -1 : 0;
-      packet.ray.org_x[lane] = static_cast<float>(ray.origin.x());
-      packet.ray.org_y[lane] = static_cast<float>(ray.origin.y());
-      packet.ray.org_z[lane] = static_cast<float>(ray.origin.z());
-      packet.ray.dir_x[lane] = static_cast<float>(ray.direction.x());
-      packet.ray.dir_y[lane] = static_cast<float>(ray.direction.y());
-      packet.ray.dir_z[lane] = static_cast<float>(ray.direction.z());
+  alignas(64) RTCRayHit16 packet{};
+  const std::array<float*, 6> component{packet.ray.org_x, packet.ray.org_y, packet.ray.org_z,
+                                        packet.ray.dir_x, packet.ray.dir_y, packet.ray.dir_z};
+  for (std::size_t first = 0; first < rays.size(); first += kPacket) {
+    const std::size_t used = std::min(kPacket, rays.size() - first);
+    alignas(64) int valid[kPacket];
+    for (std::size_t lane = 0; lane < kPacket; ++lane) {
+      valid[lane] = lane < used ? -1 : 0;
       packet.ray.tnear[lane] = 0;
       packet.ray.tfar[lane] = std::numeric_limits<float>::infinity();
-      packet.ray.time[lane] = 0;
       packet.ray.mask[lane] = ~0u;
-      packet.ray.id[lane] = 0;
-      packet.ray.flags[lane] = 0;
       packet.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
       packet.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
     }
+    for (int i = 0; i < 6; ++i) std::copy_n(rays.component(i) + first, used, component[i]);
     rtcIntersect16(valid, impl_->scene, &context, &packet);
-    for (std::size_t lane = 0; lane < 16 && first + lane < rays.size(); ++lane) {
+    for (std::size_t lane = 0; lane < used; ++lane) {
       facets[first + lane] =
           packet.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID ? kNoFacet : static_cast<int>(packet.hit.primID[lane]);
     }

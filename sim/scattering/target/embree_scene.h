@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Wrapper of Embree: the bounding-volume hierarchy that PanelBvh traverses, and ray queries for the first facet hit, an
-// independent check of the beam tracer. Ray queries return facet numbers only, since Embree's distances are single
-// precision.
+// Wrapper of Embree: the bounding-volume hierarchy that PanelBvh traverses, and ray queries for the first facet hit.
+// Ray queries return facet numbers only, since Embree's distances are single precision.
 
 #include <array>
 #include <cstdint>
@@ -19,6 +18,26 @@ namespace seaglint {
 struct Ray {
   Vec3 origin;     // m, body frame
   Vec3 direction;  // unit
+};
+
+// Rays in single precision, by component, as Embree takes them.
+class RayBatch {
+ public:
+  void clear() {
+    for (std::vector<float>& component : component_) component.clear();
+  }
+  void add(const Vec3& origin, const Vec3& direction) {
+    for (int axis = 0; axis < 3; ++axis) {
+      component_[axis].push_back(static_cast<float>(origin[axis]));
+      component_[axis + 3].push_back(static_cast<float>(direction[axis]));
+    }
+  }
+  std::size_t size() const { return component_[0].size(); }
+  // 0, 1, 2: of the origins; 3, 4, 5: of the directions.
+  const float* component(int i) const { return component_[i].data(); }
+
+ private:
+  std::array<std::vector<float>, 6> component_;
 };
 
 inline constexpr int kNoFacet = -1;
@@ -63,6 +82,7 @@ class RayScene {
   RayScene& operator=(RayScene&&) noexcept;
 
   // First facet along each ray, or kNoFacet. Rays are traced in packets of 16; neighbouring rays should be coherent.
+  void first_hits(const RayBatch& rays, std::span<int> facets) const;
   void first_hits(std::span<const Ray> rays, std::span<int> facets) const;
 
  private:

@@ -3,6 +3,7 @@
 
 // Target geometry and materials of the solver, independent of the look direction.
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/scattering/material/material.h"
 #include "sim/scattering/target/bodies.h"
+#include "sim/scattering/target/embree_scene.h"
 #include "sim/scattering/target/facets.h"
 #include "sim/scattering/target/panel_bvh.h"
 #include "sim/scattering/target/panels.h"
@@ -39,6 +41,8 @@ class Scatterer {
   const SmoothSurface& surface() const { return surface_; }
   const Panels& panels() const { return panels_; }
   const PanelBvh& tree() const { return tree_; }
+  // Facets as an Embree scene, made at the first call.
+  const RayScene& ray_scene() const;
   const SharpEdges& edges() const { return edges_; }
   double sheet_thickness() const { return sheet_thickness_; }  // m
   // Bounding sphere: its centre in the body frame, rounded to 1e-6 of its radius, and its radius about that, m.
@@ -58,6 +62,8 @@ class Scatterer {
   PanelBvh tree_;
   BodySizes bodies_;
   std::vector<MaterialSpec> materials_;
+  struct RaySceneOnDemand;
+  std::shared_ptr<RaySceneOnDemand> ray_scene_;
 };
 
 }  // namespace seaglint

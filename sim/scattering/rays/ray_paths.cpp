@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/scattering/rays/ray_paths.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "sim/scattering/diffraction/tolerances.h"
+#include "sim/scattering/diffraction/wedge.h"
+
+namespace seaglint {
+namespace {
+
+// Height above a panel at which rays start, in radii of the target: 30 times the rounding of Embree's coordinates.
+constexpr double kOffSurface = 2e-6;
+
+}  // namespace
+
+RayPaths::RayPaths(const TracingContext& scene)
+    : scene_(scene),
+      facets_(scene.scatterer.facets()),
+      embree_(scene.scatterer.ray_scene()),
+      off_surface_(kOffSurface * scene.scatterer.radius()),
+      child_of_panel_(facets_.size(), -1),
+      bundle_of_panel_(facets_.size(), -1) {}
+
+std::span<const Obstacle> RayPaths::obstacles(int path, std::size_t receiver) const {
+  const auto number = static_cast<std::int32_t>(receiver);
+  const auto first = std::ranges::lower_bound(obstacles_, Obstacle{path, number, -1}),
+             last = std::ranges::lower_bound(obstacles_, Obstacle{path, number + 1, -1});
+  return {first, last};
+}
+
+void RayPaths::trace(std::span<const Vec2> rays) {
+  const RadarBasis& basis = scene_.transmit;
+  paths_.assign(1, {});
+  paths_.front().direction = -basis.r;
+  paths_.front().start = 2 * scene_.scatterer.radius() * basis.r;
+  paths_.front().per_h = basis.h;
+  paths_.front().per_v = basis.v;
+  obstacles_.clear();
+  rays_.resize(rays.size());
+  std::iota(rays_.begin(), rays_.end(), 0);
+  bundles_.assign(1, {0, 0, rays.size()});
+  for (int bounce = 1; bounce <= scene_.settings.max_bounces && !rays_.empty(); ++bounce) {
+    batch_.clear();
+    for (const Bundle& bundle : bundles_) {
+      const RayPath& path = paths_[static_cast<std::size_t>(bundle.path)];
+      for (std::size_t i = bundle.first; i < bundle.first + bundle.count; ++i)
+        batch_.add(path.leaves_at(rays[rays_[i]]), path.direction);
+    }
+    first_hits();
+    reflect(bounce);
+    find_obstacles(rays);
+    // Rays end in water, at the walls of cavities, and after the last reflection.
+    std::erase_if(bundles_, [&](const Bundle& bundle) {
+      const int facet = paths_[static_cast<std::size_t>(bundle.path)].panel.facet;
+      return scene_.is_submerged(facet) || scene_.settings.filter.is_cavity(facets_[facet].part);
+    });
+    std::size_t kept = 0;
+    for (Bundle& bundle : bundles_) {
+      std::copy_n(rays_.begin() + static_cast<std::ptrdiff_t>(bundle.first), bundle.count,
+                  rays_.begin() + static_cast<std::ptrdiff_t>(kept));
+      bundle.first = kept;
+      kept += bundle.count;
+    }
+    rays_.resize(kept);
+  }
+  std::ranges::sort(obstacles_);
+  const auto repeated = std::ranges::unique(obstacles_);
+  obstacles_.erase(repeated.begin(), repeated.end());
+  for (const RayPath& path : paths_) {
+    if (path.panel.facet < 0) continue;
+    bundle_of_panel_[static_cast<std::size_t>(path.panel.facet)] = -1;
+  }
+}
+
+void RayPaths::first_hits() {
+  hits_.resize(batch_.size());
+  embree_.first_hits(batch_, hits_);
+  queries_ += batch_.size();
+}
+
+bool RayPaths::is_lit(int facet, const Vec3& direction) const {
+  const double cosine = facets_[facet].normal.dot(direction);
+  return facets_[facet].two_sided ? std::abs(cosine) > kInPlaneAngle : cosine < -kInPlaneAngle;
+}
+
+// Divides every bundle by the panels that its rays hit.
+void RayPaths::reflect(int bounce) {
+  next_bundles_.clear();
+  next_rays_.clear();
+  for (const Bundle& bundle : bundles_) {
+    const auto first_child = static_cast<std::int32_t>(paths_.size());
+    child_.assign(bundle.count, -1);
+    const Vec3 direction = paths_[static_cast<std::size_t>(bundle.path)].direction;
+    for (std::size_t i = 0; i < bundle.count; ++i) {
+      const int hit = hits_[bundle.first + i];
+      if (hit == kNoFacet) continue;
+      const int panel = scene_.scatterer.panels().representative(hit);
+      const auto at = static_cast<std::size_t>(panel);
+      if (bundle_of_panel_[at] != bundle.path) {
+        if (!is_lit(panel, direction)) continue;
+        bundle_of_panel_[at] = bundle.path;
+        child_of_panel_[at] = path_after(bundle.path, panel);
+        paths_.back().bounce = static_cast<std::uint8_t>(bounce);
+      }
+      child_[i] = child_of_panel_[at];
+      ++paths_[static_cast<std::size_t>(child_[i])].rays;
+    }
+    std::size_t first = next_rays_.size();
+    for (std::int32_t child = first_child; child < static_cast<std::int32_t>(paths_.size()); ++child) {
+      const std::size_t count = paths_[static_cast<std::size_t>(child)].rays;
+      next_bundles_.push_back({child, first, 0});
+      first += count;
+    }
+    next_rays_.resize(first);
+    const std::size_t first_bundle = next_bundles_.size() - (paths_.size() - static_cast<std::size_t>(first_child));
+    for (std::size_t i = 0; i < bundle.count; ++i) {
+      if (child_[i] < 0) continue;
+      Bundle& next = next_bundles_[first_bundle + static_cast<std::size_t>(child_[i] - first_child)];
+      next_rays_[next.first + next.count++] = rays_[bundle.first + i];
+    }
+  }
+  bundles_.swap(next_bundles_);
+  rays_.swap(next_rays_);
+}
+
+std::int32_t RayPaths::path_after(std::int32_t parent, int panel) {
+  const RayPath before = paths_[static_cast<std::size_t>(parent)];
+  const RadarBasis& basis = scene_.transmit;
+  RayPath path;
+  path.panel = bvh_panel(facets_, scene_.scatterer.panels(), panel);
+  path.parent = parent;
+  path.next_sibling = before.first_child;
+  const Facet& facet = facets_[panel];
+  const Vec3 n = facet.normal.dot(before.direction) < 0 ? facet.normal : Vec3(-facet.normal);
+  const Mat3& L = before.image_transform.L;
+  const Vec3 n_image = L * n;
+  const double offset = n.dot(facet.corner[0]);
+  const DepthPlane plane = depth_plane(n_image, offset + n_image.dot(before.image_transform.t), basis);
+  path.image_transform = before.image_transform * plane_reflection(n, offset);
+  path.direction = reflect_direction(before.direction, n);
+  path.start = L.transpose() * (plane.z0 * basis.r - before.image_transform.t) + off_surface_ * n;
+  path.per_h = L.transpose() * (basis.h + plane.slope.x() * basis.r);
+  path.per_v = L.transpose() * (basis.v + plane.slope.y() * basis.r);
+  const auto number = static_cast<std::int32_t>(paths_.size());
+  paths_.push_back(path);
+  paths_[static_cast<std::size_t>(parent)].first_child = number;
+  return number;
+}
+
+void RayPaths::find_obstacles(std::span<const Vec2> rays) {
+  for (std::size_t receiver = 0; receiver < scene_.receivers.size(); ++receiver) {
+    const BistaticGeometry& geometry = scene_.receivers[receiver].geometry;
+    // The first reflector is seen where it is lit by the same antenna.
+    const auto is_asked = [&](const Bundle& bundle) {
+      const RayPath& path = paths_[static_cast<std::size_t>(bundle.path)];
+      if (path.bounce == 1 && geometry.monostatic) return false;
+      const Facet& facet = facets_[path.panel.facet];
+      const Vec3& before = paths_[static_cast<std::size_t>(path.parent)].direction;
+      const double side = facet.normal.dot(before) < 0 ? 1 : -1;
+      return side * facet.normal.dot(geometry.receive.r) > kEdgeOn;
+    };
+    batch_.clear();
+    for (const Bundle& bundle : bundles_) {
+      if (!is_asked(bundle)) continue;
+      const RayPath& path = paths_[static_cast<std::size_t>(bundle.path)];
+      for (std::size_t i = bundle.first; i < bundle.first + bundle.count; ++i)
+        batch_.add(path.leaves_at(rays[rays_[i]]), geometry.receive.r);
+    }
+    first_hits();
+    std::size_t at = 0;
+    for (const Bundle& bundle : bundles_) {
+      if (!is_asked(bundle)) continue;
+      for (std::size_t i = 0; i < bundle.count; ++i, ++at) {
+        if (hits_[at] == kNoFacet) continue;
+        const Obstacle obstacle{bundle.path, static_cast<std::int32_t>(receiver),
+                                scene_.scatterer.panels().representative(hits_[at])};
+        if (obstacles_.empty() || obstacles_.back() != obstacle) obstacles_.push_back(obstacle);
+      }
+    }
+  }
+}
+
+}  // namespace seaglint

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/scattering/rays/ray_search.h"
+
+#include "sim/scattering/beams/panel_map.h"
+
+namespace seaglint {
+
+void RaySearch::find(const BeamSegment& segment, const PolygonSet&, std::vector<FoundPanel>& found) const {
+  if (segment.path < 0) return;
+  for (int child = paths_.path(segment.path).first_child; child >= 0; child = paths_.path(child).next_sibling)
+    found.push_back({&paths_.path(child).panel, child});
+}
+
+void RaySearch::find_visible(const BeamSegment& segment, const CandidatePanel& candidate, std::size_t receiver,
+                             std::vector<MovingPolygon>& visible) const {
+  const std::span<const MovingPolygon> illuminated = candidate.illuminated.polygons();
+  const std::span<const Obstacle> obstacles =
+      candidate.path < 0 ? std::span<const Obstacle>() : paths_.obstacles(candidate.path, receiver);
+  if (obstacles.empty()) {
+    visible.insert(visible.end(), illuminated.begin(), illuminated.end());
+    return;
+  }
+  const Scatterer& target = scene_.scatterer;
+  const RadarBasis& receive = scene_.receivers[receiver].geometry.receive;
+  const Facet& facet = target.facets()[candidate.projection.facet];
+  const double min_area = scene_.min_area.on(candidate.projection.facet);
+  ProjectedPanel own, obstacle;
+  own.facet = candidate.projection.facet;
+  own.plane = depth_plane(facet.normal, facet.offset, receive);
+  const PanelMap map(own.plane, receive, segment.image_transform, scene_.transmit);
+  PolygonSet left;
+  left.assign(illuminated);
+  for (const Obstacle& found : obstacles) {
+    if (found.facet == own.facet ||
+        !project_panel(obstacle, bvh_panel(target.facets(), target.panels(), found.facet), {}, receive, min_area))
+      continue;
+    const MovingPolygon nearer = nearer_part(obstacle, own);
+    if (nearer.empty()) continue;
+    const MovingPolygon shadow = map.mapped(nearer);
+    left.subtract_hole(shadow, box_of(shadow), min_area);
+  }
+  visible.insert(visible.end(), left.polygons().begin(), left.polygons().end());
+}
+
+}  // namespace seaglint

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/scattering/rays/ray_tracer.h"
+
+#include <vector>
+
+#include "sim/scattering/rays/ray_search.h"
+
+namespace seaglint {
+
+RayCount trace_rays(const TracingContext& scene, const RayLattice& lattice, std::size_t first, std::size_t last,
+                    BeamVisitor& visitor, const std::function<void()>& after_each) {
+  RayCount count;
+  RayPaths paths(scene);
+  const RaySearch search(scene, paths);
+  std::vector<Vec2> rays;
+  for (std::size_t tile = first; tile < last; ++tile) {
+    lattice.rays_of(tile, rays);
+    paths.trace(rays);
+    count.segments += trace_window(scene, search, lattice.window(tile), 0, visitor);
+    after_each();
+  }
+  count.queries = paths.queries();
+  return count;
+}
+
+}  // namespace seaglint
