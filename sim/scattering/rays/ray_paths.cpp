@@ -14,6 +14,14 @@ namespace {
 // Height above a panel at which rays start, in radii of the target: 30 times the rounding of Embree's coordinates.
 constexpr double kOffSurface = 2e-6;
 
+// SplitMix64 (G. L. Steele, D. Lea and C. H. Flood, Proc. OOPSLA 2014, 453-472) of both numbers.
+std::uint64_t mixed(std::uint64_t signature, std::uint64_t next) {
+  std::uint64_t z = signature + (next + 1) * 0x9e3779b97f4a7c15;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
+  return z ^ (z >> 31);
+}
+
 }  // namespace
 
 RayPaths::RayPaths(const TracingContext& scene)
@@ -31,14 +39,21 @@ std::span<const Obstacle> RayPaths::obstacles(int path, std::size_t receiver) co
   return {first, last};
 }
 
-void RayPaths::trace(std::span<const Vec2> rays) {
+void RayPaths::start() {
   const RadarBasis& basis = scene_.transmit;
+  for (const RayPath& path : paths_) {
+    if (path.panel.facet >= 0) bundle_of_panel_[static_cast<std::size_t>(path.panel.facet)] = -1;
+  }
   paths_.assign(1, {});
   paths_.front().direction = -basis.r;
   paths_.front().start = 2 * scene_.scatterer.radius() * basis.r;
   paths_.front().per_h = basis.h;
   paths_.front().per_v = basis.v;
   obstacles_.clear();
+}
+
+void RayPaths::trace(std::span<const Vec2> rays, std::span<std::uint64_t> signatures) {
+  std::ranges::fill(signatures, 0);
   rays_.resize(rays.size());
   std::iota(rays_.begin(), rays_.end(), 0);
   bundles_.assign(1, {0, 0, rays.size()});
@@ -50,9 +65,9 @@ void RayPaths::trace(std::span<const Vec2> rays) {
         batch_.add(path.leaves_at(rays[rays_[i]]), path.direction);
     }
     first_hits();
-    reflect(bounce);
-    find_obstacles(rays);
-    // Rays end in water, at the walls of cavities, and after the last reflection.
+    reflect(bounce, signatures);
+    find_obstacles(rays, signatures);
+    // Rays end in water and at the walls of cavities.
     std::erase_if(bundles_, [&](const Bundle& bundle) {
       const int facet = paths_[static_cast<std::size_t>(bundle.path)].panel.facet;
       return scene_.is_submerged(facet) || scene_.settings.filter.is_cavity(facets_[facet].part);
@@ -66,13 +81,12 @@ void RayPaths::trace(std::span<const Vec2> rays) {
     }
     rays_.resize(kept);
   }
+}
+
+void RayPaths::finish() {
   std::ranges::sort(obstacles_);
   const auto repeated = std::ranges::unique(obstacles_);
   obstacles_.erase(repeated.begin(), repeated.end());
-  for (const RayPath& path : paths_) {
-    if (path.panel.facet < 0) continue;
-    bundle_of_panel_[static_cast<std::size_t>(path.panel.facet)] = -1;
-  }
 }
 
 void RayPaths::first_hits() {
@@ -87,13 +101,18 @@ bool RayPaths::is_lit(int facet, const Vec3& direction) const {
 }
 
 // Divides every bundle by the panels that its rays hit.
-void RayPaths::reflect(int bounce) {
+void RayPaths::reflect(int bounce, std::span<std::uint64_t> signatures) {
   next_bundles_.clear();
   next_rays_.clear();
   for (const Bundle& bundle : bundles_) {
-    const auto first_child = static_cast<std::int32_t>(paths_.size());
     child_.assign(bundle.count, -1);
     const Vec3 direction = paths_[static_cast<std::size_t>(bundle.path)].direction;
+    for (std::int32_t i = paths_[static_cast<std::size_t>(bundle.path)].first_child; i >= 0;
+         i = paths_[static_cast<std::size_t>(i)].next_sibling) {
+      const auto at = static_cast<std::size_t>(paths_[static_cast<std::size_t>(i)].panel.facet);
+      bundle_of_panel_[at] = bundle.path;
+      child_of_panel_[at] = i;
+    }
     for (std::size_t i = 0; i < bundle.count; ++i) {
       const int hit = hits_[bundle.first + i];
       if (hit == kNoFacet) continue;
@@ -106,24 +125,43 @@ void RayPaths::reflect(int bounce) {
         paths_.back().bounce = static_cast<std::uint8_t>(bounce);
       }
       child_[i] = child_of_panel_[at];
-      ++paths_[static_cast<std::size_t>(child_[i])].rays;
+      std::uint64_t& signature = signatures[rays_[bundle.first + i]];
+      signature = mixed(signature, static_cast<std::uint64_t>(child_[i]));
     }
-    std::size_t first = next_rays_.size();
-    for (std::int32_t child = first_child; child < static_cast<std::int32_t>(paths_.size()); ++child) {
-      const std::size_t count = paths_[static_cast<std::size_t>(child)].rays;
-      next_bundles_.push_back({child, first, 0});
-      first += count;
-    }
-    next_rays_.resize(first);
-    const std::size_t first_bundle = next_bundles_.size() - (paths_.size() - static_cast<std::size_t>(first_child));
-    for (std::size_t i = 0; i < bundle.count; ++i) {
-      if (child_[i] < 0) continue;
-      Bundle& next = next_bundles_[first_bundle + static_cast<std::size_t>(child_[i] - first_child)];
-      next_rays_[next.first + next.count++] = rays_[bundle.first + i];
-    }
+    group_by_child(bundle);
   }
   bundles_.swap(next_bundles_);
   rays_.swap(next_rays_);
+}
+
+// Appends the bundles of the children that rays of this bundle met, in the order of the first ray of each.
+void RayPaths::group_by_child(const Bundle& bundle) {
+  const std::size_t first_bundle = next_bundles_.size();
+  place_of_child_.resize(paths_.size(), -1);
+  for (const std::int32_t child : child_) {
+    if (child < 0) continue;
+    std::int32_t& place = place_of_child_[static_cast<std::size_t>(child)];
+    if (place < 0) {
+      place = static_cast<std::int32_t>(next_bundles_.size());
+      next_bundles_.push_back({child, 0, 0});
+    }
+    ++next_bundles_[static_cast<std::size_t>(place)].count;
+  }
+  std::size_t end = next_rays_.size();
+  for (std::size_t i = first_bundle; i < next_bundles_.size(); ++i) {
+    Bundle& next = next_bundles_[i];
+    next.first = end;
+    end += next.count;
+    next.count = 0;
+  }
+  next_rays_.resize(end);
+  for (std::size_t i = 0; i < bundle.count; ++i) {
+    if (child_[i] < 0) continue;
+    Bundle& next = next_bundles_[static_cast<std::size_t>(place_of_child_[static_cast<std::size_t>(child_[i])])];
+    next_rays_[next.first + next.count++] = rays_[bundle.first + i];
+  }
+  for (std::size_t i = first_bundle; i < next_bundles_.size(); ++i)
+    place_of_child_[static_cast<std::size_t>(next_bundles_[i].path)] = -1;
 }
 
 std::int32_t RayPaths::path_after(std::int32_t parent, int panel) {
@@ -150,7 +188,7 @@ std::int32_t RayPaths::path_after(std::int32_t parent, int panel) {
   return number;
 }
 
-void RayPaths::find_obstacles(std::span<const Vec2> rays) {
+void RayPaths::find_obstacles(std::span<const Vec2> rays, std::span<std::uint64_t> signatures) {
   for (std::size_t receiver = 0; receiver < scene_.receivers.size(); ++receiver) {
     const BistaticGeometry& geometry = scene_.receivers[receiver].geometry;
     // The first reflector is seen where it is lit by the same antenna.
@@ -178,6 +216,8 @@ void RayPaths::find_obstacles(std::span<const Vec2> rays) {
         const Obstacle obstacle{bundle.path, static_cast<std::int32_t>(receiver),
                                 scene_.scatterer.panels().representative(hits_[at])};
         if (obstacles_.empty() || obstacles_.back() != obstacle) obstacles_.push_back(obstacle);
+        std::uint64_t& signature = signatures[rays_[bundle.first + i]];
+        signature = mixed(signature, (static_cast<std::uint64_t>(obstacle.facet) << 16 | receiver) + (1ull << 63));
       }
     }
   }

@@ -19,7 +19,6 @@ struct RayPath {
   BvhPanel panel;           // the last reflector
   std::int32_t parent = 0;  // sequence without it
   std::uint8_t bounce = 0;  // number of reflections; 0: the transmitted rays
-  std::uint32_t rays = 0;
   std::int32_t first_child = -1, next_sibling = -1;
   ImageTransform image_transform;  // of all reflectors, this one included
   Vec3 direction;                  // behind it, unit
@@ -39,17 +38,21 @@ struct Obstacle {
   auto operator<=>(const Obstacle&) const = default;
 };
 
-// Traces rays tile by tile; its memory is reused.
+// Rays of one tile, traced in any number of batches; start() begins the next tile and keeps the memory.
 class RayPaths {
  public:
   // The scene must outlive the object.
   explicit RayPaths(const TracingContext& scene);
 
+  void start();
   // Follows the rays that cross the projection plane at these points up to the last reflection of the settings, and
-  // from every reflector towards all receivers that may see it.
-  void trace(std::span<const Vec2> rays);
+  // from every reflector towards all receivers that may see it. signatures[i]: equal for rays that meet the same
+  // reflectors and obstacles, different for others (but for 2^-64).
+  void trace(std::span<const Vec2> rays, std::span<std::uint64_t> signatures);
+  // To be called once after the last batch.
+  void finish();
 
-  // Of the last tile; 0: the transmitted rays.
+  // Of the present tile; 0: the transmitted rays.
   const RayPath& path(int i) const { return paths_[static_cast<std::size_t>(i)]; }
   std::span<const Obstacle> obstacles(int path, std::size_t receiver) const;
   std::size_t queries() const { return queries_; }  // rays that Embree traced, of all tiles
@@ -62,9 +65,10 @@ class RayPaths {
   };
 
   void first_hits();
-  void reflect(int bounce);
+  void reflect(int bounce, std::span<std::uint64_t> signatures);
+  void group_by_child(const Bundle& bundle);
   std::int32_t path_after(std::int32_t parent, int panel);
-  void find_obstacles(std::span<const Vec2> rays);
+  void find_obstacles(std::span<const Vec2> rays, std::span<std::uint64_t> signatures);
   bool is_lit(int facet, const Vec3& direction) const;
 
   const TracingContext& scene_;
@@ -78,6 +82,7 @@ class RayPaths {
   RayBatch batch_;
   std::vector<int> hits_;
   std::vector<std::int32_t> child_;           // of each ray of a bundle
+  std::vector<std::int32_t> place_of_child_;  // its bundle in next_bundles_, by path; -1: none
   std::vector<std::int32_t> child_of_panel_;  // of the bundle `bundle_of_panel_`, by first facet
   std::vector<std::int32_t> bundle_of_panel_;
   std::size_t queries_ = 0;

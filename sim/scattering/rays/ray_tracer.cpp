@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/scattering/rays/ray_tracer.h"
 
-#include <vector>
-
+#include "sim/scattering/rays/ray_refinement.h"
 #include "sim/scattering/rays/ray_search.h"
 
 namespace seaglint {
@@ -12,10 +11,9 @@ RayCount trace_rays(const TracingContext& scene, const RayLattice& lattice, std:
   RayCount count;
   RayPaths paths(scene);
   const RaySearch search(scene, paths);
-  std::vector<Vec2> rays;
+  RayRefinement refinement(lattice, paths);
   for (std::size_t tile = first; tile < last; ++tile) {
-    lattice.rays_of(tile, rays);
-    paths.trace(rays);
+    refinement.trace(tile);
     count.segments += trace_window(scene, search, lattice.window(tile), 0, visitor);
     after_each();
   }
