@@ -85,6 +85,7 @@ inline constexpr int kDefaultBounces = 40, kMaxBounces = 200;
 // How the reflectors of every path are found: by beams (sim/scattering/beams), by shooting and bouncing rays
 // (sim/scattering/rays), or by that of the two which costs less for the target.
 enum class SolverMethod : std::uint8_t { kBeams, kRays, kAuto };
+inline constexpr const char* kSolverMethodNames[] = {"beams", "rays", "auto"};
 
 // (auto): zero means derived from the size of the mesh (sim/scattering/README.md).
 struct SolverSpec {

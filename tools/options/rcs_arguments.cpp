@@ -173,6 +173,17 @@ void RcsArguments::add_detail_to(CommandOptions& command) {
       .number_within(0.0, 1e6);
   command
       .add_option(
+          "--method", method,
+          "How paths are found: beams, exact on flat panels; rays, shooting and bouncing; auto, that of the two "
+          "which costs less")
+      .one_of({std::begin(kSolverMethodNames), std::end(kSolverMethodNames)})
+      .show_default();
+  command
+      .add_option("--ray-spacing-m", request.ray_spacing_m,
+                  "Distance between rays, with --method rays or auto; 0 = 3e-4 of the target's radius")
+      .number_within(0.0, 1e6);
+  command
+      .add_option(
           "--material", materials,
           "Material: pec, a name in assets/materials, or a file; PART=NAME for one part, PART* for every part with "
           "that prefix (repeatable)")
@@ -224,6 +235,7 @@ RcsRequest RcsArguments::make_mesh_request() const {
   RcsRequest made = request;
   made.target = find_input(target);
   made.edges = edges == "on";
+  made.method = solver_method_of(method);
   if (crease_deg != "auto") made.crease_deg = parse_number(crease_deg);
   for (const std::string& text : materials) made.materials.push_back(material_choice(text));
   return made;

@@ -15,7 +15,8 @@ namespace seaglint {
 
 struct RcsArguments {
   RcsRequest request;  // members that options set directly; make_request() fills the others
-  std::string target, frequency_ghz, azimuth_deg, elevation_deg = "0", edges = "on", crease_deg = "auto", output;
+  std::string target, frequency_ghz, azimuth_deg, elevation_deg = "0", edges = "on", crease_deg = "auto",
+                                                  method = "beams", output;
   std::optional<double> transmit_azimuth_deg, transmit_elevation_deg, converge_db;
   std::vector<std::string> materials;  // NAME or PART=NAME
   std::vector<std::string> export_as;  // of kExportFormats

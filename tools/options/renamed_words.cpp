@@ -10,7 +10,6 @@ namespace seaglint {
 namespace {
 
 constexpr RenamedWord kWords[] = {
-    {"rcs", "--ray-spacing-m", "--min-patch-m", " (a fourteenth of the old value)"},
     {"rcs", "--range-m", "--wavefront-range-m"},
     {"rcs", "--height-m", "--origin-height-m"},
     {"rcs", "--wave-height-m", "--significant-wave-height-m"},
@@ -39,7 +38,7 @@ std::optional<std::string> renamed_word(std::string_view command, std::string_vi
   const auto found =
       std::ranges::find_if(kWords, [&](const RenamedWord& old) { return old.command == command && old.word == word; });
   if (found == std::end(kWords)) return std::nullopt;
-  return fmt::format("renamed to {}{}", found->now, found->note);
+  return fmt::format("renamed to {}", found->now);
 }
 
 std::string renamed_value_error(std::string_view option, std::string_view value) {

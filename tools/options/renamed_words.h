@@ -13,7 +13,6 @@ namespace seaglint {
 struct RenamedWord {
   std::string_view command;    // that the option or command belongs to, as "mesh make ship"; "" = the program
   std::string_view word, now;  // an option with its dashes, or a command
-  std::string_view note = {};  // what else has changed
 };
 
 struct RenamedOptionValue {
@@ -23,7 +22,7 @@ struct RenamedOptionValue {
 std::span<const RenamedWord> renamed_words();
 std::span<const RenamedOptionValue> renamed_option_values();
 
-// "renamed to NEW (note)" for an old option or command; nothing for other words.
+// "renamed to NEW" for an old option or command; nothing for other words.
 std::optional<std::string> renamed_word(std::string_view command, std::string_view word);
 
 // "value 'OLD': renamed to 'NEW'" for an old value of an option; "" for other values.

@@ -67,7 +67,7 @@ class Views {
   std::vector<Matrices> matrices(const ChangedMesh& of, std::optional<double> crease_deg) {
     const std::optional<double> crease = crease_deg ? std::optional(radians(*crease_deg)) : std::nullopt;
     const Scatterer scatterer(of.mesh, target_.materials, crease, 1e-3 * request_.sheet_thickness_mm);
-    const TracingSettings settings{request_.min_patch_m, request_.max_bounces, request_.edges};
+    const TracingSettings settings = settings_of(request_, request_.edges);
     std::vector<Matrices> all(count());
     const int side_by_side = static_cast<int>(std::min(all.size(), static_cast<std::size_t>(threads_)));
     parallel_for(

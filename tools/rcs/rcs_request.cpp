@@ -2,9 +2,11 @@
 #include "tools/rcs/rcs_request.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "sim/core/process/error.h"
 #include "sim/scattering/beams/bistatic_geometry.h"
@@ -33,11 +35,29 @@ void check_sea(const RcsRequest& request) {
   }
 }
 
+// Throws InputError for settings that the request's method does not have.
+void check_method(const RcsRequest& request) {
+  if (request.method == SolverMethod::kBeams && request.ray_spacing_m != 0)
+    throw InputError(
+        fmt::format("--ray-spacing-m: value {}: valid only with --method rays or auto; beams have --min-patch-m",
+                    request.ray_spacing_m));
+  if (request.method == SolverMethod::kRays && !request.cavities.parts.empty())
+    throw InputError("--cavity does not support --method rays: only beams end at the walls of cavities");
+}
+
 }  // namespace
+
+SolverMethod solver_method_of(std::string_view name) {
+  const auto* const found = std::find(std::begin(kSolverMethodNames), std::end(kSolverMethodNames), name);
+  if (found == std::end(kSolverMethodNames))
+    throw InputError(fmt::format("method: value '{}': must be one of {}", name, fmt::join(kSolverMethodNames, ", ")));
+  return static_cast<SolverMethod>(found - std::begin(kSolverMethodNames));
+}
 
 RcsSweep requested_sweep(const RcsRequest& request) {
   RcsSweep sweep{request.frequency_hz, request.azimuth_deg, request.elevation_deg, {}, {}, {}, 0, {}};
   if (request.transmitter) sweep.transmitter = direction_to(*request.transmitter);
+  check_method(request);
   check_sea(request);
   if (request.uncertainty && request.crease_deg && *request.crease_deg == 0)
     throw InputError("--uncertainty compares smooth surfaces with flat facets; with --crease-deg 0 all are flat");

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sim/cavity/cavity_scattering.h"
@@ -61,7 +62,9 @@ struct RcsRequest {
   bool uncertainty = false;                     // also computes the echo of flat facets
   bool physical_optics_too = false;             // also computes a second model without edge diffraction
   int max_bounces = kDefaultBounces;
+  SolverMethod method = SolverMethod::kBeams;
   double min_patch_m = 0;            // 0: default_min_patch()
+  double ray_spacing_m = 0;          // of methods rays and auto; 0: default_ray_spacing()
   std::optional<double> crease_deg;  // absent: as the mesh's normals or its shape say
   double sheet_thickness_mm = 0;
   EchoSelection selection;
@@ -69,6 +72,9 @@ struct RcsRequest {
   CavityRequest cavities;
   ViewExport exports;
 };
+
+// Method of this name, one of kSolverMethodNames. Throws InputError for another name.
+SolverMethod solver_method_of(std::string_view name);
 
 // Sweep of the request's directions and frequencies, without models. Throws InputError for a contradictory request and
 // for more than four million rows.

@@ -12,6 +12,7 @@
 #include "tools/rcs/echo_selection.h"
 #include "tools/rcs/rcs_convergence.h"
 #include "tools/rcs/rcs_uncertainty.h"
+#include "tools/rcs/rcs_views.h"
 
 namespace seaglint {
 namespace {
@@ -53,13 +54,20 @@ std::string warning_lines(std::span<const std::string> warnings) {
 
 }  // namespace
 
+std::string method_text(const RcsRequest& request, const Scatterer& scatterer) {
+  const TracingSettings settings = settings_of(request, request.edges);
+  if (settings.method == SolverMethod::kBeams) return "";
+  return fmt::format(", method {}, ray_spacing_m {:.6g}", kSolverMethodNames[static_cast<int>(settings.method)],
+                     ray_spacing(scatterer, settings));
+}
+
 std::string rcs_table(const RcsRequest& request, const Scatterer& scatterer, const RcsSweep& sweep,
                       std::span<const std::string> warnings) {
   std::string csv = fmt::format(
       "# seaglint {} rcs\n# target {} unit {}: {} facets, radius {:.6g} m\n"
       "# material {}, contributions: {}\n{}"
       "# physical optics at every visible bounce, max_bounces {}, edges {}, crease_deg {}, sheet_thickness_mm "
-      "{:.6g}, wavefront_range_m {:.9g} (0 = plane wave), min_patch_m {:.6g}\n{}{}\n"
+      "{:.6g}, wavefront_range_m {:.9g} (0 = plane wave), min_patch_m {:.6g}{}\n{}{}\n"
       "# amplitudes in metres, e^{{+jwt}}, phase origin at the body's origin, S_pq: q transmitted, p received; basis "
       "of "
       "CONVENTIONS.md\n{}"
@@ -69,8 +77,8 @@ std::string rcs_table(const RcsRequest& request, const Scatterer& scatterer, con
       request.max_bounces, request.edges ? "on" : "off",
       request.crease_deg ? fmt::format("{:.6g}", *request.crease_deg) : "auto", request.sheet_thickness_mm,
       request.range_m, request.min_patch_m > 0 ? request.min_patch_m : default_min_patch(scatterer),
-      cavity_line(request.cavities), transmitter_line(request.transmitter), warning_lines(warnings),
-      (sweep.flat ? uncertainty_header() : "") + (sweep.coarser ? convergence_header() : ""));
+      method_text(request, scatterer), cavity_line(request.cavities), transmitter_line(request.transmitter),
+      warning_lines(warnings), (sweep.flat ? uncertainty_header() : "") + (sweep.coarser ? convergence_header() : ""));
   for (std::size_t q = 0; q < sweep.frequency_hz.size(); ++q) {
     for (std::size_t view = 0; view < sweep.views(); ++view) {
       const auto& s = sweep.models.back().matrices[view][q];

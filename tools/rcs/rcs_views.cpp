@@ -44,7 +44,8 @@ std::size_t views_per_trace(const RcsRequest& request) {
 // Largest number of groups of views computed at the same time, each of which needs the memory of a trace.
 constexpr std::size_t kMaxSideBySide = 8;
 
-// Computes the views of a sweep by beam tracing, several at a time. A view's matrices do not depend on the others.
+// Computes the views of a sweep by the request's method, several at a time. A view's matrices do not depend on the
+// others.
 class SweepTracer {
  public:
   SweepTracer(const RcsRequest& request, const RcsTarget& target, int threads, const StopFlag* stop)
@@ -187,8 +188,15 @@ RadarBasis basis_at(double azimuth_deg, double elevation_deg) {
   return {r, h, r.cross(h)};
 }
 
+TracingSettings settings_of(const RcsRequest& request, bool edge_diffraction) {
+  const SolverMethod method = request.cavities.parts.empty() ? request.method : SolverMethod::kBeams;
+  return {request.min_patch_m, request.max_bounces, edge_diffraction, {}, method, request.ray_spacing_m};
+}
+
 TracingSettings settings_of(const RcsRequest& request, const RcsTarget& target, bool edge_diffraction) {
-  return {request.min_patch_m, request.max_bounces, edge_diffraction, target.filter};
+  TracingSettings settings = settings_of(request, edge_diffraction);
+  settings.filter = target.filter;
+  return settings;
 }
 
 RcsResult compute_rcs(const RcsRequest& request, const RcsTarget& target, int threads, const StopFlag* stop) {

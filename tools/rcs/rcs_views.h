@@ -20,7 +20,9 @@ namespace seaglint {
 // elevations, phi^ of a spherical table.
 RadarBasis basis_at(double azimuth_deg, double elevation_deg);
 
-// Tracing settings for the request's target, with or without edge diffraction.
+// Tracing settings of the request, with or without edge diffraction: for all contributions, or those that its target
+// selects. With cavities, `auto` is the method of beams.
+TracingSettings settings_of(const RcsRequest& request, bool edge_diffraction);
 TracingSettings settings_of(const RcsRequest& request, const RcsTarget& target, bool edge_diffraction);
 
 struct RcsResult {

@@ -15,6 +15,7 @@
 #include "sim/scattering/response/scattering_centres_3d.h"
 #include "tools/rcs/echo_selection.h"
 #include "tools/rcs/facet_levels.h"
+#include "tools/rcs/rcs_table.h"
 
 namespace seaglint {
 namespace {
@@ -98,14 +99,15 @@ std::string write_hot_spots(const ViewExport& arguments, const TriangleMesh& mes
 }
 
 // The head of a table of scattering centres.
-std::string heading(const RcsRequest& request) {
+std::string heading(const RcsRequest& request, const Scatterer& scatterer) {
   return fmt::format(
       "# seaglint {} rcs: scattering centres\n# target {} unit {}, {:.9g} Hz, azimuth {:.9g} deg, elevation {:.9g} "
-      "deg, max_bounces {}, edges {}, contributions: {}\n"
+      "deg, max_bounces {}, edges {}{}, contributions: {}\n"
       "# body frame, e^{{+jwt}}, phase origin at the body's origin, S_pq: q transmitted, p received; basis of "
       "CONVENTIONS.md\n",
       kVersion, request.target.string(), request.unit, request.frequency_hz[0], request.azimuth_deg[0],
-      request.elevation_deg[0], request.max_bounces, request.edges ? "on" : "off", text_of(request.selection));
+      request.elevation_deg[0], request.max_bounces, request.edges ? "on" : "off", method_text(request, scatterer),
+      text_of(request.selection));
 }
 
 }  // namespace
@@ -117,7 +119,7 @@ std::string export_view(const RcsRequest& request, const RcsTarget& target,
   std::string lines;
   if (!request.exports.centres.empty())
     lines += write_centres(request.exports, target.prepared.mesh,
-                           cluster_centres(contributions, k, request.exports.cell_m), heading(request));
+                           cluster_centres(contributions, k, request.exports.cell_m), heading(request, scatterer));
   if (!request.exports.hot_spots.empty())
     lines +=
         write_hot_spots(request.exports, target.prepared.mesh, scatterer, facet_levels(scatterer, contributions, k));

@@ -46,19 +46,19 @@ TEST(RenamedWords, AreRefusedByTheirNewNames) {
     words.emplace_back("1");
     const Refusal refused = run(words);
     EXPECT_EQ(refused.code, 2) << old.word;
-    EXPECT_THAT(refused.message, HasSubstr(fmt::format("unknown {} '{}': renamed to {}{} (see seaglint",
-                                                       is_option ? "option" : "command", old.word, old.now, old.note)));
+    EXPECT_THAT(refused.message, HasSubstr(fmt::format("unknown {} '{}': renamed to {} (see seaglint",
+                                                       is_option ? "option" : "command", old.word, old.now)));
     words[words.size() - 2] = std::string(old.now);
     EXPECT_THAT(run(words).message, Not(testing::AnyOf(HasSubstr("unknown"), HasSubstr("renamed")))) << old.now;
   }
 }
 
 TEST(RenamedWords, AreRefusedWithTheirValueBehindAnEqualsSign) {
-  const Refusal refused = run({"rcs", "--ray-spacing-m=0.07"});
+  const Refusal refused = run({"rcs", "--wave-height-m=2"});
   EXPECT_EQ(refused.code, 2);
   EXPECT_EQ(refused.message,
-            "seaglint: unknown option '--ray-spacing-m': renamed to --min-patch-m (a fourteenth of the old value) (see "
-            "seaglint rcs --help)\n");
+            "seaglint: unknown option '--wave-height-m': renamed to --significant-wave-height-m (see seaglint rcs "
+            "--help)\n");
 }
 
 // A word is renamed only for its own command.
