@@ -222,9 +222,18 @@ void check_speed(const TargetSpec& target, const ScenarioDocument& document) {
   }
 }
 
+// Beams have no distance between them.
+void check_solver(const TargetSpec& target, const ScenarioDocument& document) {
+  if (target.solver.method == SolverMethod::kBeams && target.solver.ray_spacing_m != 0) {
+    document.fail_at(fmt::format("targets.{}.solver.ray_spacing_m", target.name),
+                     "valid only with method: rays or auto; beams have min_patch_m");
+  }
+}
+
 void check_target(const TargetSpec& target, const ScenarioDocument& document) {
   const std::string path = "targets." + target.name;
   check_speed(target, document);
+  check_solver(target, document);
   if (target.mesh.empty() && target.points.empty()) document.fail_at(path, "must have a mesh or points");
   if (target.points.empty()) return;
   if (!target.mesh.empty()) document.fail_at(path, "must have a mesh or points, not both");

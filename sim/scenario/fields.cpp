@@ -207,6 +207,8 @@ void visit(MotionSpec& spec, FieldVisitor& v) {
 }
 
 void visit(SolverSpec& spec, FieldVisitor& v) {
+  visit_choice(v, "method", spec.method, kSolverMethodNames);
+  v.number("ray_spacing_m", spec.ray_spacing_m, zero_or_within(1e-5, 1));
   v.number("min_patch_m", spec.min_patch_m, zero_or_within(5e-5, 1));
   v.integer("max_bounces", spec.max_bounces, within(1, kMaxBounces));
   v.number("max_aspect_change_deg", spec.max_aspect_change_deg, zero_or_within(0.001, 5));

@@ -10,7 +10,6 @@
 namespace seaglint {
 namespace {
 
-double fourteenth(double x) { return x / 14; }
 double negated(double x) { return 0 - x; }
 
 constexpr RenamedKey kKeys[] = {
@@ -25,7 +24,6 @@ constexpr RenamedKey kKeys[] = {
     {"targets.*.motion.rao_length_m", "wamit_ulen_m"},
     {"targets.*.motion.yaw_rate_deg_s", "yaw_rate_std_deg_s"},
     {"targets.*.motion.centre_above_water_m", "origin_above_waterline_m"},
-    {"targets.*.solver.ray_spacing_m", "min_patch_m", ", which is a fourteenth", fourteenth},
     {"targets.*.solver.max_turn_deg", "max_aspect_change_deg"},
     {"targets.*.solver.radar_range_m", "wavefront_range_m"},
     {"clutter.noise_to_clutter_db", "cnr_db", ", which has the opposite sign", negated},

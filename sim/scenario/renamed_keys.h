@@ -25,7 +25,7 @@ struct RenamedValue {
 std::span<const RenamedKey> renamed_keys();
 std::span<const RenamedValue> renamed_values();
 
-// "renamed to NEW, note: write NEW: 0.005" for the path of an old key and its value as written; nothing for other keys.
+// "renamed to NEW, note: write NEW: 30" for the path of an old key and its value as written; nothing for other keys.
 std::optional<std::string> renamed_key(std::string_view path, std::string_view value);
 
 // The new name of an old value of a key; nothing for other values.
