@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -119,7 +118,7 @@ void run_rcs(const RcsArguments& arguments, const CommandContext& context) {
   const auto start = std::chrono::steady_clock::now();
   const ConvergedSweep computed = compute(arguments, request, target, context);
   const RcsResult& result = computed.result;
-  if (!computed.series.empty()) request.min_patch_m = computed.series.back().min_patch_m;
+  if (!computed.series.empty()) request = at_step(request, computed.series.back());
   const double seconds =
       std::max(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 1e-9);
 
@@ -127,9 +126,7 @@ void run_rcs(const RcsArguments& arguments, const CommandContext& context) {
   const std::vector<std::string> uncertain = uncertainty_warnings(sweep, target.prepared.mesh.part_names);
   warn(uncertain);
   warnings.insert(warnings.end(), uncertain.begin(), uncertain.end());
-  if (!computed.converged)
-    warnings.push_back(fmt::format("levels still change by {:.3g} dB after {} halvings of the patches",
-                                   std::abs(computed.series.back().change.largest_db), kMostHalvings));
+  if (!computed.converged) warnings.push_back(convergence_warning(request, computed));
   write_file(arguments.output, rcs_table(request, *target.prepared.scatterer, sweep, warnings));
   std::vector<RcsCut> solved;
   if (!arguments.export_as.empty()) append_cuts(sweep, solved);

@@ -210,8 +210,9 @@ void RcsArguments::add_to(CommandOptions& command) {
   command
       .add_option(
           "--converge", converge_db,
-          "Halve the smallest patch until no level changes by more than this, dB; prints the series, and columns "
-          "xx_patch_change_db after the others (level less that with patches of twice the side)")
+          "Halve the smallest patch, or with --method rays the distance between rays, until no level changes by more "
+          "than this, dB; prints the series, and columns xx_patch_change_db or xx_spacing_change_db after the others "
+          "(level less that with twice the size)")
       .number_within(1e-4, 20.0);
   add_cavity_options(command, request.cavities);
   add_sea_options(command, *this);

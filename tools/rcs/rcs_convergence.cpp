@@ -23,6 +23,22 @@ double level(const RcsSweep::Model& model, std::size_t view, std::size_t frequen
   return dbsm(model.matrices[view][frequency][kElements[element]], kMinPrinted_m2);
 }
 
+// What is halved for a method.
+struct HalvedSize {
+  double RcsRequest::*member;
+  const char* quantity;  // in a sentence: halvings of ...
+  const char* step;      // head of the line of a step; {} is the size
+  const char* column;    // of the changes, after hh_ and vv_
+};
+
+const HalvedSize& halved_size(SolverMethod method) {
+  static constexpr HalvedSize kPatches{&RcsRequest::min_patch_m, "the patches", "patches of {:.4g} m and more",
+                                       "patch_change_db"};
+  static constexpr HalvedSize kSpacing{&RcsRequest::ray_spacing_m, "the distance between rays", "rays {:.4g} m apart",
+                                       "spacing_change_db"};
+  return method == SolverMethod::kRays ? kSpacing : kPatches;
+}
+
 // Only what the comparison of two steps needs.
 RcsRequest plain(RcsRequest request) {
   request.uncertainty = request.physical_optics_too = false;
@@ -34,9 +50,10 @@ bool is_plain(const RcsRequest& request) {
   return !request.uncertainty && !request.physical_optics_too && !request.exports.wanted();
 }
 
-std::string line_of(const ConvergenceStep& step, const RcsSweep& sweep, bool first) {
-  const std::string traced = fmt::format("patches of {:.4g} m and more: {:.3g} M beam segments", step.min_patch_m,
-                                         1e-6 * static_cast<double>(step.segments));
+std::string line_of(const ConvergenceStep& step, const RcsSweep& sweep, SolverMethod method, bool first) {
+  const std::string traced =
+      fmt::format("{}: {:.3g} M beam segments", fmt::format(fmt::runtime(halved_size(method).step), step.size_m),
+                  1e-6 * static_cast<double>(step.segments));
   if (first) return traced + "\n";
   const LevelChange& change = step.change;
   return fmt::format(
@@ -74,33 +91,48 @@ ConvergedSweep converge_rcs(const RcsRequest& request, const RcsTarget& target, 
                             const StopFlag* stop, const std::function<void(const std::string&)>& say) {
   if (!target.cavities.empty())
     throw InputError("--converge halves the patches of beams; cavities have --cavity-patches-per-wavelength");
+  if (request.method == SolverMethod::kAuto)
+    throw InputError(
+        "--converge halves the patches of beams or the distance between rays: needs --method beams or rays");
   ConvergedSweep converged;
   RcsRequest step = plain(request);
   converged.result = compute_rcs(step, target, threads, stop);
-  step.min_patch_m = min_patch(*target.prepared.scatterer, settings_of(request, target, request.edges));
-  converged.series.push_back({step.min_patch_m, converged.result.segments, {}});
-  say(line_of(converged.series.back(), converged.result.sweep, true));
+  const TracingSettings settings = settings_of(request, target, request.edges);
+  const Scatterer& scatterer = *target.prepared.scatterer;
+  double& size_m = step.*halved_size(request.method).member;
+  size_m = request.method == SolverMethod::kRays ? ray_spacing(scatterer, settings) : min_patch(scatterer, settings);
+  converged.series.push_back({size_m, converged.result.segments, {}});
+  say(line_of(converged.series.back(), converged.result.sweep, request.method, true));
   std::optional<RcsSweep::Model> coarser;
   while (!converged.converged && converged.series.size() <= kMostHalvings) {
     coarser = std::move(converged.result.sweep.models.back());
-    step.min_patch_m /= 2;
+    size_m /= 2;
     converged.result = compute_rcs(step, target, threads, stop);
     const RcsSweep& sweep = converged.result.sweep;
-    converged.series.push_back(
-        {step.min_patch_m, converged.result.segments, level_change(sweep, sweep.models.back(), *coarser)});
-    say(line_of(converged.series.back(), sweep, false));
+    converged.series.push_back({size_m, converged.result.segments, level_change(sweep, sweep.models.back(), *coarser)});
+    say(line_of(converged.series.back(), sweep, request.method, false));
     converged.converged = std::abs(converged.series.back().change.largest_db) <= tolerance_db;
   }
-  if (!is_plain(request)) {
-    RcsRequest whole = request;
-    whole.min_patch_m = step.min_patch_m;
-    converged.result = compute_rcs(whole, target, threads, stop);
-  }
+  if (!is_plain(request))
+    converged.result = compute_rcs(at_step(request, converged.series.back()), target, threads, stop);
   converged.result.sweep.coarser = std::move(coarser);
   return converged;
 }
 
-std::string convergence_header() { return ",hh_patch_change_db,vv_patch_change_db"; }
+RcsRequest at_step(RcsRequest request, const ConvergenceStep& step) {
+  request.*halved_size(request.method).member = step.size_m;
+  return request;
+}
+
+std::string convergence_warning(const RcsRequest& request, const ConvergedSweep& sweep) {
+  return fmt::format("levels still change by {:.3g} dB after {} halvings of {}",
+                     std::abs(sweep.series.back().change.largest_db), sweep.series.size() - 1,
+                     halved_size(request.method).quantity);
+}
+
+std::string convergence_header(SolverMethod method) {
+  return fmt::format(",hh_{0},vv_{0}", halved_size(method).column);
+}
 
 std::string convergence_cells(const RcsSweep& sweep, std::size_t view, std::size_t frequency) {
   std::string cells;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// A sweep whose smallest patch is halved until its levels no longer change.
+// A sweep whose smallest patch, or distance between rays, is halved until its levels no longer change.
 
 #include <functional>
 #include <string>
@@ -15,8 +15,8 @@
 
 namespace seaglint {
 
-// Changes of a level by halving the patches, dB, of hh and vv in all rows; levels are raised to 60 dB below the highest
-// of their element, as in deep nulls any change is large.
+// Changes of a level by halving this size, dB, of hh and vv in all rows; levels are raised to 60 dB below the
+// highest of their element, as in deep nulls any change is large.
 struct LevelChange {
   double mean_db = 0;                                // of the magnitude
   double largest_db = 0;                             // with its sign
@@ -24,31 +24,39 @@ struct LevelChange {
 };
 
 struct ConvergenceStep {
-  double min_patch_m = 0;    // of the body with the smallest ones
+  double size_m = 0;         // smallest patch, of the body with the smallest ones, or distance between rays
   std::size_t segments = 0;  // beam segments traced
   LevelChange change;        // from the step before; zero in the first
 };
 
 struct ConvergedSweep {
-  RcsResult result;  // with the smallest patches; its sweep has the result of the step before as `coarser`
-  std::vector<ConvergenceStep> series;  // the last one's min_patch_m is that of the result
+  RcsResult result;                     // with the last size; its sweep has the result of the step before as `coarser`
+  std::vector<ConvergenceStep> series;  // the last one's size is that of the result
   bool converged = false;               // the last change is at most the tolerance
 };
 
 inline constexpr int kMostHalvings = 6;
 
-// Halves the smallest patch, from that of the smallest body, which all bodies get, until no level of the sweep changes
-// by more than tolerance_db > 0, at most kMostHalvings times. say() gets a line after each step. Throws InputError for
-// a request with cavities, whose walls have no patches of this kind, and what compute_rcs() throws.
+// Halves a size until no level of the sweep changes by more than tolerance_db > 0, at most kMostHalvings times: by the
+// method of beams the smallest patch, from that of the smallest body, which all bodies get; by that of rays the
+// distance between them, with the smallest patch of the request. say() gets a line after each step. Throws InputError
+// for a request with cavities, whose walls have no patches of this kind, for one that leaves the method open, and what
+// compute_rcs() throws.
 ConvergedSweep converge_rcs(const RcsRequest& request, const RcsTarget& target, double tolerance_db, int threads,
                             const StopFlag* stop, const std::function<void(const std::string&)>& say);
+
+// The request with the size of a step.
+RcsRequest at_step(RcsRequest request, const ConvergenceStep& step);
+
+// "levels still change by 0.3 dB after 6 halvings of the patches": warning for a sweep that has not converged.
+std::string convergence_warning(const RcsRequest& request, const ConvergedSweep& sweep);
 
 // Change of the levels of `fine` from those of `coarse`, models of one sweep.
 LevelChange level_change(const RcsSweep& sweep, const RcsSweep::Model& fine, const RcsSweep::Model& coarse);
 
 // The columns of a converged sweep after those of every table, and their values: the level less that with patches of
-// twice the side (of larger bodies after one halving: their own), dB, within -60 and 60.
-std::string convergence_header();
+// twice the side (of larger bodies after one halving: their own), or rays twice as far apart, dB, within -60 and 60.
+std::string convergence_header(SolverMethod method);
 std::string convergence_cells(const RcsSweep& sweep, std::size_t view, std::size_t frequency);
 
 }  // namespace seaglint

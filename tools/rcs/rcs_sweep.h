@@ -41,7 +41,8 @@ struct RcsSweep {
   std::size_t estimated = 0;
   std::optional<Vec3>
       transmitter;  // look direction of a fixed transmitter; the sweep is then over the receiver's directions
-  std::optional<Model> coarser = {};  // the last model with patches of twice the side, of a converged sweep
+  std::optional<Model> coarser =
+      {};  // of a converged sweep: the last model with patches, or distances between rays, twice as large
 
   std::size_t views() const { return azimuth_deg.size() * elevation_deg.size(); }
   std::size_t rows() const { return views() * frequency_hz.size(); }

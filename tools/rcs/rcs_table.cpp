@@ -78,7 +78,8 @@ std::string rcs_table(const RcsRequest& request, const Scatterer& scatterer, con
       request.crease_deg ? fmt::format("{:.6g}", *request.crease_deg) : "auto", request.sheet_thickness_mm,
       request.range_m, request.min_patch_m > 0 ? request.min_patch_m : default_min_patch(scatterer),
       method_text(request, scatterer), cavity_line(request.cavities), transmitter_line(request.transmitter),
-      warning_lines(warnings), (sweep.flat ? uncertainty_header() : "") + (sweep.coarser ? convergence_header() : ""));
+      warning_lines(warnings),
+      (sweep.flat ? uncertainty_header() : "") + (sweep.coarser ? convergence_header(request.method) : ""));
   for (std::size_t q = 0; q < sweep.frequency_hz.size(); ++q) {
     for (std::size_t view = 0; view < sweep.views(); ++view) {
       const auto& s = sweep.models.back().matrices[view][q];

@@ -58,6 +58,28 @@ TEST_F(Convergence, EndsWithTwoSweepsOfEqualLevels) {
   }
 }
 
+// The physical optics of a flat plate does not depend on the distance between rays: the first halving is the last.
+TEST_F(Convergence, OfRaysHalvesTheDistanceBetweenThem) {
+  const std::string plate = folder_.path() / "plate.glb", converged = folder_.path() / "plate.csv";
+  ASSERT_EQ(run_program({"mesh", "make", "plate", "--length-m", "0.5", "--width-m", "0.3", "-o", plate}).code, 0);
+  const ProgramResult result = run_program({"rcs", "--target", plate, "--frequency-ghz", "10", "--azimuth-deg", "0:4:2",
+                                            "--edges", "off", "--method", "rays", "--ray-spacing-m", "0.02",
+                                            "--min-patch-m", "0.001", "--converge", "0.01", "-o", converged});
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_THAT(result.err, testing::AllOf(HasSubstr("rays 0.02 m apart: "), HasSubstr("rays 0.01 m apart: "),
+                                         testing::Not(HasSubstr("patches of"))));
+  EXPECT_THAT(read_file(converged), HasSubstr(", min_patch_m 0.001, method rays, ray_spacing_m 0.01\n"));
+  const CsvTable swept = read_table(converged);
+  EXPECT_THAT(swept.header, testing::EndsWith(",vv_dbsm,hh_spacing_change_db,vv_spacing_change_db"));
+  for (const std::vector<double>& row : swept.rows) EXPECT_LE(std::abs(row[13]), 0.01);
+}
+
+TEST_F(Convergence, OfAMethodThatIsLeftOpenIsRefused) {
+  const ProgramResult result = rcs("rcs.csv", {"--converge", "0.1", "--method", "auto"});
+  EXPECT_EQ(result.code, 2);
+  EXPECT_THAT(result.err, HasSubstr("needs --method beams or rays"));
+}
+
 TEST_F(Convergence, OfACavityIsRefused) {
   const ProgramResult result = rcs("rcs.csv", {"--converge", "0.1", "--cavity", "duct"});
   EXPECT_EQ(result.code, 2);

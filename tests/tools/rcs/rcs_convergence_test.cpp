@@ -2,6 +2,7 @@
 // Changes of a sweep's levels.
 #include "tools/rcs/rcs_convergence.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -29,6 +30,31 @@ TEST(LevelChange, IsThatOfLevelsAboveTheFloor) {
   sweep.models = {fine};
   sweep.coarser = coarse;
   EXPECT_EQ(convergence_cells(sweep, 1, 0), ",6.0206,-30.0063");
+}
+
+TEST(HalvedSize, IsThatOfTheSizeOfItsMethod) {
+  RcsRequest request;
+  request.min_patch_m = 0.001;
+  request.ray_spacing_m = 0.02;
+  const RcsRequest finer_beams = at_step(request, {0.0005, 0, {}});
+  EXPECT_EQ(finer_beams.min_patch_m, 0.0005);
+  EXPECT_EQ(finer_beams.ray_spacing_m, 0.02);
+  request.method = SolverMethod::kRays;
+  const RcsRequest finer_rays = at_step(request, {0.01, 0, {}});
+  EXPECT_EQ(finer_rays.min_patch_m, 0.001);
+  EXPECT_EQ(finer_rays.ray_spacing_m, 0.01);
+  EXPECT_EQ(convergence_header(SolverMethod::kBeams), ",hh_patch_change_db,vv_patch_change_db");
+  EXPECT_EQ(convergence_header(SolverMethod::kRays), ",hh_spacing_change_db,vv_spacing_change_db");
+}
+
+TEST(ConvergedSweep, WarnsOfTheChangeThatIsLeft) {
+  RcsRequest request;
+  ConvergedSweep sweep;
+  sweep.series.resize(kMostHalvings + 1);
+  sweep.series.back().change.largest_db = -0.25;
+  EXPECT_EQ(convergence_warning(request, sweep), "levels still change by 0.25 dB after 6 halvings of the patches");
+  request.method = SolverMethod::kRays;
+  EXPECT_THAT(convergence_warning(request, sweep), testing::EndsWith("6 halvings of the distance between rays"));
 }
 
 }  // namespace
