@@ -62,6 +62,10 @@ void bind_rcs(py::module_& module) {
       .def_readwrite("edges", &RcsRequest::edges)
       .def_readwrite("max_bounces", &RcsRequest::max_bounces)
       .def_readwrite("min_patch_m", &RcsRequest::min_patch_m)
+      .def_readwrite("ray_spacing_m", &RcsRequest::ray_spacing_m)
+      .def_property(
+          "method", [](const RcsRequest& request) { return kSolverMethodNames[static_cast<int>(request.method)]; },
+          [](RcsRequest& request, const std::string& name) { request.method = solver_method_of(name); })
       .def_readwrite("sheet_thickness_mm", &RcsRequest::sheet_thickness_mm)
       .def_readwrite("range_m", &RcsRequest::range_m)
       .def("set_materials",  // of parts, "" for all others

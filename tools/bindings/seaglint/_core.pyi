@@ -43,6 +43,8 @@ class RcsRequest:
     edges: bool
     max_bounces: int
     min_patch_m: float
+    ray_spacing_m: float
+    method: str
     sheet_thickness_mm: float
     range_m: float
     def set_materials(self, materials: Pairs) -> None: ...

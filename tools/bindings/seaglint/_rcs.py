@@ -14,7 +14,13 @@ from ._common import InputError, axis, count, number, threads_of, warn
 from ._mesh import Mesh
 
 
-def _request(unit, materials, crease_deg, edges, max_bounces, min_patch_m, sheet_thickness_mm):
+def _word(name, value):
+    if not isinstance(value, str):
+        raise InputError(f"{name}: must be a text, not {value!r}")
+    return value
+
+
+def _request(unit, materials, crease_deg, edges, max_bounces, min_patch_m, sheet_thickness_mm, method, ray_spacing_m):
     """What the mesh is made of and how it is solved."""
     request = _core.RcsRequest()
     request.unit, request.edges = unit, bool(edges)
@@ -23,6 +29,9 @@ def _request(unit, materials, crease_deg, edges, max_bounces, min_patch_m, sheet
     if not 1 <= max_bounces <= _core.max_bounces:
         raise InputError(f"max_bounces: value {max_bounces}: must be within 1 and {_core.max_bounces}")
     request.min_patch_m, request.sheet_thickness_mm = number("min_patch_m", min_patch_m, 0, 1e6), number("sheet_thickness_mm", sheet_thickness_mm, 0, 1000)
+    request.method, request.ray_spacing_m = _word("method", method), number("ray_spacing_m", ray_spacing_m, 0, 1e6)
+    if method == "beams" and request.ray_spacing_m != 0:
+        raise InputError(f"ray_spacing_m: value {ray_spacing_m}: valid only with method 'rays' or 'auto'; beams have min_patch_m")
     chosen = {"": materials} if isinstance(materials, str) else dict(materials or {})
     request.set_materials(sorted((str(part), str(material)) for part, material in chosen.items()))
     return request
@@ -35,7 +44,7 @@ def _target(target):
 def rcs(target: Mesh | str | os.PathLike, frequencies_hz: ArrayLike, azimuth_deg: ArrayLike = 0.0, elevation_deg: ArrayLike = 0.0, *, unit: str = "m",
         materials: str | Mapping[str, str] | None = None, crease_deg: float | None = None, edges: bool = True, max_bounces: int = 40, min_patch_m: float = 0.0,
         sheet_thickness_mm: float = 0.0, range_m: float = 0.0, transmitter_deg: tuple[float, float] | None = None, cavities: Sequence[str] = (), only: Sequence[str] = (),
-        without: Sequence[str] = (), threads: int = 0) -> NDArray[np.complex128]:
+        without: Sequence[str] = (), method: str = "beams", ray_spacing_m: float = 0.0, threads: int = 0) -> NDArray[np.complex128]:
     """Scattering matrices of a mesh at rest, complex [frequency, elevation, azimuth, received, transmitted], in metres.
 
     Polarisations in the order h, v; sigma = 4 pi |S|^2. e^{+jwt}, phase origin at the mesh's origin, basis of
@@ -45,10 +54,11 @@ def rcs(target: Mesh | str | os.PathLike, frequencies_hz: ArrayLike, azimuth_deg
     sequences; azimuth 0 = radar ahead of the bow, counter-clockwise from above.
     materials: "aluminium", a file, or {part: material}, "" for all other parts. crease_deg: None as the mesh says,
     0 = all facets flat. transmitter_deg: (azimuth, elevation) of a fixed transmitter; the angles are then those of the
-    receiver. only, without: contributions, "part=hull", "bounces=2", "mechanism=edge". The other settings are the
-    options of `seaglint rcs`.
+    receiver. only, without: contributions, "part=hull", "bounces=2", "mechanism=edge". method: how paths are found,
+    "beams", "rays" (ray_spacing_m apart; 0: from the size of the target) or "auto", that of the two which costs less.
+    The other settings are the options of `seaglint rcs`.
     """
-    request = _request(unit, materials, crease_deg, edges, max_bounces, min_patch_m, sheet_thickness_mm)
+    request = _request(unit, materials, crease_deg, edges, max_bounces, min_patch_m, sheet_thickness_mm, method, ray_spacing_m)
     request.frequency_hz, request.azimuth_deg, request.elevation_deg = axis("frequencies_hz", frequencies_hz), axis("azimuth_deg", azimuth_deg), axis("elevation_deg", elevation_deg)
     request.range_m = number("range_m", range_m, 0, 1e9)
     if transmitter_deg is not None:
@@ -68,12 +78,6 @@ def _per_export(name, value, text):
     return [text(name, one) for one in value] if isinstance(value, list) else [text(name, value)]
 
 
-def _word(name, value):
-    if not isinstance(value, str):
-        raise InputError(f"{name}: must be a text, not {value!r}")
-    return value
-
-
 def _numbers(name, value):
     return ",".join(repr(x) for x in axis(name, value))
 
@@ -82,7 +86,7 @@ def compare(export: str | os.PathLike | Sequence[str | os.PathLike], against: st
             materials: str | Mapping[str, str] | None = None, crease_deg: float | None = None, edges: bool = True, max_bounces: int = 40, min_patch_m: float = 0.0,
             sheet_thickness_mm: float = 0.0, polarisation: str | list[str] | None = None, incidence: str | tuple[float, float] | list | None = None,
             frequency_hz: float | list[float] | None = None, phi: tuple[float, float] | list | None = None, origin_m: tuple[float, float, float] | list | None = None,
-            floor_db: float = 80.0, as_is: bool = False, interpolate_m: float | None = None, threads: int = 0) -> dict:
+            floor_db: float = 80.0, as_is: bool = False, interpolate_m: float | None = None, method: str = "beams", ray_spacing_m: float = 0.0, threads: int = 0) -> dict:
     """Differences of exports (CST, FEKO, HFSS, PyAEDT, a chamber, a table of `seaglint rcs`) from a mesh or a file.
 
     target: a Mesh or a file in `unit`, solved at the exports' own angles and frequencies, with the settings of rcs();
@@ -112,7 +116,7 @@ def compare(export: str | os.PathLike | Sequence[str | os.PathLike], against: st
     if target is None:
         extent = None if interpolate_m is None else number("interpolate_m", interpolate_m, 1e-3, 1e4)
         return json.loads(_core.compare_tables(exports, os.fspath(against), bool(as_is), extent, threads_of(threads)))
-    request = _request(unit, materials, crease_deg, edges, max_bounces, min_patch_m, sheet_thickness_mm)
+    request = _request(unit, materials, crease_deg, edges, max_bounces, min_patch_m, sheet_thickness_mm, method, ray_spacing_m)
     figures, texts = _core.compare_target(exports, request, _target(target), bool(as_is), threads_of(threads))
     warn(texts)
     return json.loads(figures)
