@@ -40,6 +40,7 @@ complete_words() {
 [[ $(complete_words com) == compare ]] || fail "completion of com: $(complete_words com)"
 [[ $(complete_words rcs --max-b) == --max-bounces ]] || fail "completion of an option: $(complete_words rcs --max-b)"
 [[ $(complete_words rcs --edges o | sort | tr '\n' ' ') == "off on " ]] || fail "completion of a value: $(complete_words rcs --edges o)"
+[[ $(complete_words rcs --method r) == rays ]] || fail "completion of a method: $(complete_words rcs --method r)"
 [[ $(complete_words mesh sens) == sensitivity ]] || fail "completion below mesh: $(complete_words mesh sens)"
 
 # The Python package with the installed data.
