@@ -105,9 +105,17 @@ ConvergedSweep converge_rcs(const RcsRequest& request, const RcsTarget& target, 
   say(line_of(converged.series.back(), converged.result.sweep, request.method, true));
   std::optional<RcsSweep::Model> coarser;
   while (!converged.converged && converged.series.size() <= kMostHalvings) {
-    coarser = std::move(converged.result.sweep.models.back());
     size_m /= 2;
-    converged.result = compute_rcs(step, target, threads, stop);
+    RcsResult finer;
+    try {
+      finer = compute_rcs(step, target, threads, stop);
+    } catch (const InputError& error) {  // more rays than the method has
+      if (!coarser) throw;
+      converged.limit = error.what();
+      break;
+    }
+    coarser = std::move(converged.result.sweep.models.back());
+    converged.result = std::move(finer);
     const RcsSweep& sweep = converged.result.sweep;
     converged.series.push_back({size_m, converged.result.segments, level_change(sweep, sweep.models.back(), *coarser)});
     say(line_of(converged.series.back(), sweep, request.method, false));
@@ -125,9 +133,10 @@ RcsRequest at_step(RcsRequest request, const ConvergenceStep& step) {
 }
 
 std::string convergence_warning(const RcsRequest& request, const ConvergedSweep& sweep) {
-  return fmt::format("levels still change by {:.3g} dB after {} halvings of {}",
-                     std::abs(sweep.series.back().change.largest_db), sweep.series.size() - 1,
-                     halved_size(request.method).quantity);
+  const std::size_t halvings = sweep.series.size() - 1;
+  return fmt::format("levels still change by {:.3g} dB after {} halving{} of {}{}{}",
+                     std::abs(sweep.series.back().change.largest_db), halvings, halvings == 1 ? "" : "s",
+                     halved_size(request.method).quantity, sweep.limit.empty() ? "" : "; ", sweep.limit);
 }
 
 std::string convergence_header(SolverMethod method) {

@@ -33,15 +33,16 @@ struct ConvergedSweep {
   RcsResult result;                     // with the last size; its sweep has the result of the step before as `coarser`
   std::vector<ConvergenceStep> series;  // the last one's size is that of the result
   bool converged = false;               // the last change is at most the tolerance
+  std::string limit;                    // why the size was not halved once more; empty otherwise
 };
 
 inline constexpr int kMostHalvings = 6;
 
 // Halves a size until no level of the sweep changes by more than tolerance_db > 0, at most kMostHalvings times: by the
 // method of beams the smallest patch, from that of the smallest body, which all bodies get; by that of rays the
-// distance between them, with the smallest patch of the request. say() gets a line after each step. Throws InputError
-// for a request with cavities, whose walls have no patches of this kind, for one that leaves the method open, and what
-// compute_rcs() throws.
+// distance between them, with the smallest patch of the request, up to the largest number of rays. say() gets a line
+// after each step. Throws InputError for a request with cavities, whose walls have no patches of this kind, for one
+// that leaves the method open, and what compute_rcs() throws.
 ConvergedSweep converge_rcs(const RcsRequest& request, const RcsTarget& target, double tolerance_db, int threads,
                             const StopFlag* stop, const std::function<void(const std::string&)>& say);
 

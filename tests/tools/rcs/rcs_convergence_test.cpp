@@ -7,6 +7,11 @@
 
 #include <array>
 #include <cmath>
+#include <memory>
+
+#include "sim/core/process/error.h"
+#include "sim/geometry/mesh/triangle_mesh.h"
+#include "sim/geometry/shapes/generators.h"
 
 namespace seaglint {
 namespace {
@@ -55,6 +60,31 @@ TEST(ConvergedSweep, WarnsOfTheChangeThatIsLeft) {
   EXPECT_EQ(convergence_warning(request, sweep), "levels still change by 0.25 dB after 6 halvings of the patches");
   request.method = SolverMethod::kRays;
   EXPECT_THAT(convergence_warning(request, sweep), testing::EndsWith("6 halvings of the distance between rays"));
+}
+
+// Two plates 1 km apart: more than 10^10 rays 5 mm apart would fit over both. Every trace is divided into other tiles,
+// whose sums have other rounding.
+TEST(ConvergedSweep, EndsAtTheLargestNumberOfRays) {
+  TriangleMesh plates = make_plate(7, 3);
+  plates.append(transformed(plates, Mat3::Identity(), Vec3(0, 700, 700)));
+  RcsRequest request;
+  request.mesh = std::make_shared<const TriangleMesh>(plates);
+  request.frequency_hz = {1e9};
+  request.azimuth_deg = {1};
+  request.edges = false;
+  request.method = SolverMethod::kRays;
+  request.ray_spacing_m = 0.04;
+  const RcsTarget target = prepare_rcs_target(request);
+  const ConvergedSweep swept = converge_rcs(request, target, 1e-300, 1, nullptr, [](const std::string&) {});
+  EXPECT_FALSE(swept.converged);
+  ASSERT_EQ(swept.series.size(), 3u);
+  EXPECT_EQ(swept.series.back().size_m, 0.01);
+  EXPECT_TRUE(swept.result.sweep.coarser);
+  EXPECT_THAT(convergence_warning(request, swept),
+              testing::AllOf(testing::HasSubstr("after 2 halvings of the distance between rays; rays 0.005 m apart"),
+                             testing::HasSubstr("more than 1e+10")));
+  request.ray_spacing_m = 0.008;
+  EXPECT_THROW(converge_rcs(request, target, 1, 1, nullptr, [](const std::string&) {}), InputError);
 }
 
 }  // namespace
