@@ -44,4 +44,24 @@ struct DepthPlane {
 // Heights of the plane n . x = offset, given in image space; either sign of n; n . r^ must not vanish.
 DepthPlane depth_plane(const Vec3& n, double offset, const RadarBasis& basis);
 
+// Map of the points of one panel from the projection plane of a receiver to that of the transmitter after reflections,
+// affine: q -> origin + q1 first + q2 second, with heights as third component.
+class PanelMap {
+ public:
+  // own: heights of the panel over the receiver's projection plane; image_transform: of the reflectors before it.
+  PanelMap(const DepthPlane& own, const RadarBasis& receive, const ImageTransform& image_transform,
+           const RadarBasis& transmit);
+
+  // The polygon in the transmitter's projection plane, counter-clockwise. A vertex slides on the panel as it does in
+  // the receiver's plane.
+  MovingPolygon mapped(const MovingPolygon& polygon) const;
+  // Point in the receiver's projection plane.
+  Vec2 inverse(const Vec2& p) const;
+
+ private:
+  DepthPlane own_;
+  Vec3 origin_, first_, second_;  // in the axes h, v, r of the transmitter
+  double determinant_;
+};
+
 }  // namespace seaglint

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "sim/core/process/parallel.h"
-#include "sim/scattering/beams/panel_map.h"
 #include "sim/scattering/diffraction/tolerances.h"
 
 namespace seaglint {

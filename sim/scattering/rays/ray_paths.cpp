@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <numeric>
 
 #include "sim/scattering/diffraction/tolerances.h"
@@ -13,6 +14,13 @@ namespace {
 
 // Height above a panel at which rays start, in radii of the target: 30 times the rounding of Embree's coordinates.
 constexpr double kOffSurface = 2e-6;
+
+// Processor time of this thread, s.
+double thread_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
 
 // SplitMix64 (G. L. Steele, D. Lea and C. H. Flood, Proc. OOPSLA 2014, 453-472) of both numbers.
 std::uint64_t mixed(std::uint64_t signature, std::uint64_t next) {
@@ -87,11 +95,47 @@ void RayPaths::finish() {
   std::ranges::sort(obstacles_);
   const auto repeated = std::ranges::unique(obstacles_);
   obstacles_.erase(repeated.begin(), repeated.end());
+  const auto met = static_cast<std::int32_t>(paths_.size());
+  for (std::int32_t path = 0; path < met; ++path) add_neighbours(path);
+}
+
+// Adds the neighbours of the panels that rays met next: what is lit of them is too narrow for a ray, or nothing.
+void RayPaths::add_neighbours(std::int32_t path) {
+  const Panels& panels = scene_.scatterer.panels();
+  const Vec3 direction = paths_[static_cast<std::size_t>(path)].direction;
+  const std::int32_t first = paths_[static_cast<std::size_t>(path)].first_child;
+  const std::int32_t own = path > 0 ? paths_[static_cast<std::size_t>(path)].panel.facet : -1;
+  mark_children(path);
+  if (own >= 0) bundle_of_panel_[static_cast<std::size_t>(own)] = path;
+  for (std::int32_t i = first; i >= 0; i = paths_[static_cast<std::size_t>(i)].next_sibling) {
+    for (const int member : panels.members(paths_[static_cast<std::size_t>(i)].panel.facet)) {
+      for (const std::int32_t across : facets_[member].neighbour) {
+        if (across < 0) continue;
+        const int panel = panels.representative(across);
+        std::int32_t& marked = bundle_of_panel_[static_cast<std::size_t>(panel)];
+        if (marked == path || !is_lit(panel, direction)) continue;
+        marked = path;
+        path_after(path, panel);
+        paths_.back().met = false;
+      }
+    }
+  }
+}
+
+void RayPaths::mark_children(std::int32_t path) {
+  for (std::int32_t i = paths_[static_cast<std::size_t>(path)].first_child; i >= 0;
+       i = paths_[static_cast<std::size_t>(i)].next_sibling) {
+    const auto at = static_cast<std::size_t>(paths_[static_cast<std::size_t>(i)].panel.facet);
+    bundle_of_panel_[at] = path;
+    child_of_panel_[at] = i;
+  }
 }
 
 void RayPaths::first_hits() {
   hits_.resize(batch_.size());
+  const double start = thread_seconds();
   embree_.first_hits(batch_, hits_);
+  embree_s_ += thread_seconds() - start;
   queries_ += batch_.size();
 }
 
@@ -107,12 +151,7 @@ void RayPaths::reflect(int bounce, std::span<std::uint64_t> signatures) {
   for (const Bundle& bundle : bundles_) {
     child_.assign(bundle.count, -1);
     const Vec3 direction = paths_[static_cast<std::size_t>(bundle.path)].direction;
-    for (std::int32_t i = paths_[static_cast<std::size_t>(bundle.path)].first_child; i >= 0;
-         i = paths_[static_cast<std::size_t>(i)].next_sibling) {
-      const auto at = static_cast<std::size_t>(paths_[static_cast<std::size_t>(i)].panel.facet);
-      bundle_of_panel_[at] = bundle.path;
-      child_of_panel_[at] = i;
-    }
+    mark_children(bundle.path);
     for (std::size_t i = 0; i < bundle.count; ++i) {
       const int hit = hits_[bundle.first + i];
       if (hit == kNoFacet) continue;

@@ -19,6 +19,7 @@ struct RayPath {
   BvhPanel panel;           // the last reflector
   std::int32_t parent = 0;  // sequence without it
   std::uint8_t bounce = 0;  // number of reflections; 0: the transmitted rays
+  bool met = true;          // by a ray; false: the panel is next to one that was
   std::int32_t first_child = -1, next_sibling = -1;
   ImageTransform image_transform;  // of all reflectors, this one included
   Vec3 direction;                  // behind it, unit
@@ -55,7 +56,9 @@ class RayPaths {
   // Of the present tile; 0: the transmitted rays.
   const RayPath& path(int i) const { return paths_[static_cast<std::size_t>(i)]; }
   std::span<const Obstacle> obstacles(int path, std::size_t receiver) const;
-  std::size_t queries() const { return queries_; }  // rays that Embree traced, of all tiles
+  // Rays that Embree traced, of all tiles, and its processor time for them, s.
+  std::size_t queries() const { return queries_; }
+  double embree_seconds() const { return embree_s_; }
 
  private:
   // Rays of one sequence that go on: a range of rays_.
@@ -67,6 +70,8 @@ class RayPaths {
   void first_hits();
   void reflect(int bounce, std::span<std::uint64_t> signatures);
   void group_by_child(const Bundle& bundle);
+  void mark_children(std::int32_t path);
+  void add_neighbours(std::int32_t path);
   std::int32_t path_after(std::int32_t parent, int panel);
   void find_obstacles(std::span<const Vec2> rays, std::span<std::uint64_t> signatures);
   bool is_lit(int facet, const Vec3& direction) const;
@@ -86,6 +91,7 @@ class RayPaths {
   std::vector<std::int32_t> child_of_panel_;  // of the bundle `bundle_of_panel_`, by first facet
   std::vector<std::int32_t> bundle_of_panel_;
   std::size_t queries_ = 0;
+  double embree_s_ = 0;
 };
 
 }  // namespace seaglint

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/scattering/rays/ray_search.h"
 
-#include "sim/scattering/beams/panel_map.h"
-
 namespace seaglint {
 
 void RaySearch::find(const BeamSegment& segment, const PolygonSet&, std::vector<FoundPanel>& found) const {

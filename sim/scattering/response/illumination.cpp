@@ -98,7 +98,7 @@ Aspects aspects_of(const Scatterer& scatterer, const BistaticGeometry& geometry,
 
 Aspect::Aspect(const Scatterer& scatterer, const RadarBasis& direction, const TracingSettings& settings, int threads)
     : basis(perturbed_look_direction(scatterer, direction, settings.edges)) {
-  if (settings.edges || settings.method == SolverMethod::kBeams)
+  if (settings.edges || method_for(settings) == SolverMethod::kBeams)
     visible.emplace(scatterer.facets(), scatterer.panels(), scatterer.tree(), basis, SmallestAreas(scatterer, settings),
                     threads);
 }
@@ -115,7 +115,7 @@ Illumination::Illumination(const Scatterer& scatterer, Aspects aspects, const Tr
       receivers_.push_back({monostatic(transmitter.basis), surface_of(transmitter)});
     }
   }
-  if (settings_.method == SolverMethod::kRays) {
+  if (method_for(settings) == SolverMethod::kRays) {
     lattice_.emplace(scatterer, transmitter.basis, ray_spacing(scatterer, settings));
   } else {
     for (int facet = 0; facet < static_cast<int>(scatterer.facets().size()); ++facet) {

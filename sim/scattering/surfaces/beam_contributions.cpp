@@ -100,7 +100,7 @@ void BeamContributions::radiate_image(const BeamSegment& segment, const Candidat
   std::vector<MovingPolygon> by_reflector;
   if (segment.bounce > 2)
     visible_->visible_via_reflector(segment.first_reflector, facet, footprint.image_transform, visible, basis_,
-                                   by_reflector);
+                                    by_reflector);
   for (const MovingPolygon& piece :
        segment.bounce > 2 ? std::span<const MovingPolygon>(by_reflector) : candidate.illuminated.polygons()) {
     footprint.polygon = piece;
