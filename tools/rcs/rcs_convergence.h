@@ -33,7 +33,7 @@ struct ConvergedSweep {
   RcsResult result;                     // with the last size; its sweep has the result of the step before as `coarser`
   std::vector<ConvergenceStep> series;  // the last one's size is that of the result
   bool converged = false;               // the last change is at most the tolerance
-  std::string limit;                    // why the size was not halved once more; empty otherwise
+  std::string limit = {};               // why the size was not halved once more; empty otherwise
 };
 
 inline constexpr int kMostHalvings = 6;
