@@ -15,6 +15,7 @@
 #include "sim/geometry/files/mesh_io.h"
 #include "tools/cli/arguments.h"
 #include "tools/cli/command.h"
+#include "tools/cli/rcs_cross_check_run.h"
 #include "tools/figure/figure.h"
 #include "tools/options/rcs_arguments.h"
 #include "tools/page/plot_json.h"
@@ -166,7 +167,12 @@ void add_rcs(CommandOptions& program, CommandContext& context) {
     command.require_any_of("--figure", {"--reference", "--uncertainty"});
     command.require_any_of("--centre-cell-m", {"--export-scattering-centres"});
     command.require_any_of("--export-dynamic-range-db", {"--export-scattering-centres", "--export-hot-spots"});
-    context.work = [arguments, &context] { run_rcs(*arguments, context); };
+    command.require_one_of({"--output", "--cross-check"});
+    command.refuse_with("--cross-check", {"--method", "--cavity", "--converge", "--uncertainty", "--reference",
+                                          "--export-as", "--export-scattering-centres", "--export-hot-spots"});
+    context.work = [arguments, &context] {
+      arguments->cross_check ? run_rcs_cross_check(*arguments, context) : run_rcs(*arguments, context);
+    };
   });
 }
 

@@ -163,6 +163,18 @@ void CommandOptions::require_any_of(const std::string& option, const std::vector
     throw CLI::RequiresError(option, fmt::format("{}", fmt::join(others, " or ")));
 }
 
+void CommandOptions::require_one_of(const std::vector<std::string>& options) const {
+  if (std::none_of(options.begin(), options.end(),
+                   [this](const std::string& name) { return command_->count(name) > 0; }))
+    throw CLI::RequiredError(fmt::format("{}", fmt::join(options, " or ")));
+}
+
+void CommandOptions::refuse_with(const std::string& option, const std::vector<std::string>& others) const {
+  for (const std::string& other : others) {
+    if (command_->count(option) > 0 && command_->count(other) > 0) throw CLI::ExcludesError(option, other);
+  }
+}
+
 ProgramOptions::ProgramOptions(const std::string& name, const std::string& what)
     : CommandOptions(nullptr), program_(std::make_unique<CLI::App>(what, name)) {
   command_ = program_.get();

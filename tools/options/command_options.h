@@ -66,6 +66,9 @@ class CommandOptions {
 
   // For callbacks: refuses an option that is given without any of the others.
   void require_any_of(const std::string& option, const std::vector<std::string>& others) const;
+  // For callbacks: refuses a command line with none of the options, and one with the option and any of the others.
+  void require_one_of(const std::vector<std::string>& options) const;
+  void refuse_with(const std::string& option, const std::vector<std::string>& others) const;
 
  protected:
   CLI::App* command_;

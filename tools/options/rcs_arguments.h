@@ -18,6 +18,7 @@ struct RcsArguments {
   std::string target, frequency_ghz, azimuth_deg, elevation_deg = "0", edges = "on", crease_deg = "auto",
                                                   method = "beams", output;
   std::optional<double> transmit_azimuth_deg, transmit_elevation_deg, converge_db;
+  bool cross_check = false;
   std::vector<std::string> materials;  // NAME or PART=NAME
   std::vector<std::string> export_as;  // of kExportFormats
   std::string sea_surface = "sea_water", sea_paths = "all";

@@ -61,25 +61,32 @@ std::string method_text(const RcsRequest& request, const Scatterer& scatterer) {
                      ray_spacing(scatterer, settings));
 }
 
-std::string rcs_table(const RcsRequest& request, const Scatterer& scatterer, const RcsSweep& sweep,
-                      std::span<const std::string> warnings) {
-  std::string csv = fmt::format(
-      "# seaglint {} rcs\n# target {} unit {}: {} facets, radius {:.6g} m\n"
+std::string rcs_heading(const RcsRequest& request, const Scatterer& scatterer, const std::string& made_by,
+                        std::span<const std::string> warnings) {
+  return fmt::format(
+      "# seaglint {} {}\n# target {} unit {}: {} facets, radius {:.6g} m\n"
       "# material {}, contributions: {}\n{}"
       "# physical optics at every visible bounce, max_bounces {}, edges {}, crease_deg {}, sheet_thickness_mm "
       "{:.6g}, wavefront_range_m {:.9g} (0 = plane wave), min_patch_m {:.6g}{}\n{}{}\n"
       "# amplitudes in metres, e^{{+jwt}}, phase origin at the body's origin, S_pq: q transmitted, p received; basis "
       "of "
-      "CONVENTIONS.md\n{}"
-      "frequency_hz,azimuth_deg,elevation_deg,hh_re,hh_im,hv_re,hv_im,vh_re,vh_im,vv_re,vv_im,hh_dbsm,vv_dbsm{}\n",
-      kVersion, on_one_line(request.target.string()), on_one_line(request.unit), scatterer.facets().size(),
+      "CONVENTIONS.md\n{}",
+      kVersion, made_by, on_one_line(request.target.string()), on_one_line(request.unit), scatterer.facets().size(),
       scatterer.radius(), materials_text(request.materials), text_of(request.selection), sea_line(request.sea),
       request.max_bounces, request.edges ? "on" : "off",
       request.crease_deg ? fmt::format("{:.6g}", *request.crease_deg) : "auto", request.sheet_thickness_mm,
       request.range_m, request.min_patch_m > 0 ? request.min_patch_m : default_min_patch(scatterer),
       method_text(request, scatterer), cavity_line(request.cavities), transmitter_line(request.transmitter),
-      warning_lines(warnings),
-      (sweep.flat ? uncertainty_header() : "") + (sweep.coarser ? convergence_header(request.method) : ""));
+      warning_lines(warnings));
+}
+
+std::string rcs_table(const RcsRequest& request, const Scatterer& scatterer, const RcsSweep& sweep,
+                      std::span<const std::string> warnings) {
+  std::string csv =
+      rcs_heading(request, scatterer, "rcs", warnings) +
+      fmt::format(
+          "frequency_hz,azimuth_deg,elevation_deg,hh_re,hh_im,hv_re,hv_im,vh_re,vh_im,vv_re,vv_im,hh_dbsm,vv_dbsm{}\n",
+          (sweep.flat ? uncertainty_header() : "") + (sweep.coarser ? convergence_header(request.method) : ""));
   for (std::size_t q = 0; q < sweep.frequency_hz.size(); ++q) {
     for (std::size_t view = 0; view < sweep.views(); ++view) {
       const auto& s = sweep.models.back().matrices[view][q];

@@ -91,10 +91,10 @@ class SweepTracer {
       pairs.push_back(antennas_of(request_, basis_at(result.sweep.azimuth_of(view), result.sweep.elevation_of(view))));
     const bool requested = &model == &result.sweep.models.back();
     if (request_.exports.wanted() && requested) {
-      const double k = wavenumbers_.front();
-      AspectContributions view =
-          aspect_contributions(scatterer, pairs.front(), {k, default_aspect_change(scatterer, 2 * kPi / k)}, settings,
-                               threads, stop_, {request_.range_m});
+      AspectContributions view = view_contributions(
+          request_, target_,
+          {result.sweep.azimuth_of(first), result.sweep.elevation_of(first), request_.frequency_hz.front()}, threads,
+          stop_);
       model.matrices[first] = {view.matrix};
       set_uncertainty(first, view.estimate, result.sweep);
       result.contributions = std::move(view.points);
@@ -197,6 +197,15 @@ TracingSettings settings_of(const RcsRequest& request, const RcsTarget& target, 
   TracingSettings settings = settings_of(request, edge_diffraction);
   settings.filter = target.filter;
   return settings;
+}
+
+AspectContributions view_contributions(const RcsRequest& request, const RcsTarget& target, const RcsView& view,
+                                       int threads, const StopFlag* stop) {
+  const Scatterer& scatterer = *target.prepared.scatterer;
+  const double k = 2 * kPi * view.frequency_hz / kSpeedOfLight;
+  return aspect_contributions(scatterer, antennas_of(request, basis_at(view.azimuth_deg, view.elevation_deg)),
+                              {k, default_aspect_change(scatterer, 2 * kPi / k)},
+                              settings_of(request, target, request.edges), threads, stop, {request.range_m});
 }
 
 RcsResult compute_rcs(const RcsRequest& request, const RcsTarget& target, int threads, const StopFlag* stop) {

@@ -9,6 +9,7 @@
 
 #include "sim/core/process/parallel.h"
 #include "sim/scattering/beams/illumination_settings.h"
+#include "sim/scattering/response/scattering_matrix.h"
 #include "sim/scattering/surfaces/point_contributions.h"
 #include "tools/rcs/rcs_request.h"
 #include "tools/rcs/rcs_sweep.h"
@@ -24,6 +25,16 @@ RadarBasis basis_at(double azimuth_deg, double elevation_deg);
 // selects. With cavities, `auto` is the method of beams.
 TracingSettings settings_of(const RcsRequest& request, bool edge_diffraction);
 TracingSettings settings_of(const RcsRequest& request, const RcsTarget& target, bool edge_diffraction);
+
+// One view of a sweep at one frequency.
+struct RcsView {
+  double azimuth_deg = 0, elevation_deg = 0, frequency_hz = 0;
+};
+
+// Contributions of the target, without the sea and its cavities, to the requested model of one view. Throws Interrupted
+// when *stop becomes true.
+AspectContributions view_contributions(const RcsRequest& request, const RcsTarget& target, const RcsView& view,
+                                       int threads = 1, const StopFlag* stop = nullptr);
 
 struct RcsResult {
   RcsSweep sweep;                                // the requested model is the last

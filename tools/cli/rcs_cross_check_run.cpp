@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/cli/rcs_cross_check_run.h"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sim/core/process/error.h"
+#include "sim/core/process/file.h"
+#include "sim/core/process/standard_output.h"
+#include "tools/pipeline/output_files.h"
+#include "tools/pipeline/warnings.h"
+#include "tools/rcs/cross_check_table.h"
+#include "tools/rcs/rcs_cross_check.h"
+
+namespace seaglint {
+namespace {
+
+CrossCheck compute(const RcsArguments& arguments, const RcsRequest& request, const RcsTarget& target,
+                   const CommandContext& context) {
+  try {
+    return cross_check_rcs(request, target, context.threads, &context.stop);
+  } catch (const WorkError& error) {
+    if (arguments.output.empty()) throw;
+    throw WorkError(fmt::format("{}; {} is not written", error.what(), arguments.output));
+  }
+}
+
+}  // namespace
+
+void run_rcs_cross_check(const RcsArguments& arguments, const CommandContext& context) {
+  if (!arguments.output.empty()) require_outputs({arguments.output}, {arguments.target});
+  RcsRequest request = arguments.make_request();
+  request.method = SolverMethod::kRays;  // has the settings of both methods
+  std::vector<std::string> warnings = request_warnings(request);
+  PreparedTarget prepared = prepare_mesh(request);
+  warnings.insert(warnings.end(), prepared.warnings.begin(), prepared.warnings.end());
+  warn(warnings);
+  const RcsTarget target = select_echoes(request, std::move(prepared));
+  const CrossCheck check = compute(arguments, request, target, context);
+  if (!arguments.output.empty()) write_file(arguments.output, cross_check_table(request, target, check, warnings));
+  print_out("{}", cross_check_text(check, target));
+  if (!arguments.output.empty()) print_out("Table: {}\n", arguments.output);
+}
+
+}  // namespace seaglint
