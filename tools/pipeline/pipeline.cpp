@@ -160,15 +160,24 @@ Echo Pipeline::echo_of(std::size_t sample, const GeneratedSample& made, const Bo
   }
 }
 
+PulseTrain Pipeline::pulse_train(std::size_t sample) const {
+  return make_pulse_train(scenario_.radar, range_window_m_, scenario_.seed, sample);
+}
+
 GeneratedSample Pipeline::generate_sample(std::size_t sample, const StopFlag* stop) const {
+  const PulseTrain train = pulse_train(sample);
+  return received_sample(sample, train, response(plan_.address(sample), train, stop));
+}
+
+GeneratedSample Pipeline::received_sample(std::size_t sample, const PulseTrain& train,
+                                          const BodyResponse& response) const {
   GeneratedSample made;
   made.address = plan_.address(sample);
   const SampleAddress& at = made.address;
 
   // Sea and motion are common to both classes and all views; hop code, clutter and noise are specific to the sample.
   const std::shared_ptr<const Scene> moving = scene(at.sea_state, at.realisation);
-  made.train = make_pulse_train(scenario_.radar, range_window_m_, scenario_.seed, sample);
-  const BodyResponse response = this->response(at, made.train, stop);
+  made.train = train;
   const Echo echo = echo_of(sample, made, response, *moving);
   made.received =
       form_received_interval(echo, made.train, scenario_.clutter, scenario_.map, scenario_.radar.intra_pulse_motion);

@@ -47,6 +47,11 @@ class Pipeline {
   // its response is computed.
   GeneratedSample generate_sample(std::size_t sample, const StopFlag* stop = nullptr) const;
 
+  // Its two steps after one another: the pulses of a sample; and the sample whose target has this response at their
+  // times and frequencies. Throws InputError when the response has no power.
+  PulseTrain pulse_train(std::size_t sample) const;
+  GeneratedSample received_sample(std::size_t sample, const PulseTrain& train, const BodyResponse& response) const;
+
   double window_m() const { return range_window_m_; }  // full width of the range window of all its maps, m
 
   // Frequency response H of a sample's target with its companions, at the times and frequencies of `train`.
