@@ -31,6 +31,41 @@ TEST_F(DataSetVerification, AcceptsAValidDataSetAndItsRegeneratedSamples) {
   EXPECT_THAT(result.out, HasSubstr("no fault found"));
 }
 
+TEST_F(DataSetVerification, CrossChecksNoIdealPoints) {
+  const ProgramResult result = run_program({"verify", directory_, "--regenerate", "0", "--cross-check", "3"});
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("3 samples of ideal points left out, which have no solver"));
+  const ProgramResult bounded =
+      run_program({"verify", directory_, "--regenerate", "0", "--cross-check", "3", "--cross-check-db", "-20"});
+  EXPECT_EQ(bounded.code, 2);
+  EXPECT_THAT(bounded.err, HasSubstr("--cross-check-db: none of 3 samples has a solver"));
+  EXPECT_THAT(run_program({"verify", directory_, "--cross-check-db", "-20"}).err,
+              HasSubstr("--cross-check-db requires --cross-check"));
+}
+
+// Two samples of a reflector; -300 dB is below any difference of two methods, 20 dB above that of any that agree.
+TEST(CrossCheckedDataSet, ReportsDifferencesAndFailsOnlyAboveTheBound) {
+  const TemporaryFolder folder;
+  const std::string data = folder.path() / "data";
+  write_file(folder.path() / "reflector.yaml",
+             "seaglint: 1\nradar: {pulses: 16}\nview: {azimuth_deg: [10, 40], elevation_deg: 2}\ntargets:\n"
+             "  reflector: {label: 0, mesh: assets/icosahedral_reflector.glb, motion: {model: float}}\n"
+             "dataset: {maps_per_case: 1, realisations_per_case: 1}\n");
+  ASSERT_EQ(run_program({"generate", folder.path() / "reflector.yaml", "-o", data}).code, 0);
+  const auto verify = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"verify", data, "--regenerate", "0", "--cross-check", "9"});
+    return run_program(more);
+  };
+  const ProgramResult reported = verify({});
+  EXPECT_EQ(reported.code, 0) << reported.err;
+  EXPECT_THAT(reported.out, HasSubstr("  reflector  beams   rays "));
+  EXPECT_EQ(verify({"--cross-check-db", "20"}).code, 0);
+  const ProgramResult failed = verify({"--cross-check-db", "-300"});
+  EXPECT_EQ(failed.code, 1);
+  EXPECT_THAT(failed.err, HasSubstr("the median relative difference of the response, "));
+  EXPECT_EQ(failed.out, reported.out);
+}
+
 TEST_F(DataSetVerification, NeitherMergesOverItselfNorAcceptsItAsARun) {
   const std::string shard = read_file(directory_ / "shard_00000.h5"),
                     scenario = read_file(directory_ / "scenario.yaml");

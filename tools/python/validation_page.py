@@ -15,7 +15,7 @@ section, section pre { clear: both; }
 
 LEAD = """<p>{version}, edge diffraction on unless stated. <b>Errors</b> are mean of the magnitude / rms in dB against the reference, both sides clipped at 80 dB (box, almond, ship and grooves: 40 dB) below the reference's maximum, over all directions or
 frequencies of the cut; nothing is interpolated. <b>Measured</b> is the measurement against the same reference: the difference of two references. <b>Numerical</b>: mean change of our own levels in dB with patches of a quarter of the side (of a cavity: 8 in place of 6 per wavelength),
-80 bounces in place of 40 (rays in the duct: 24 of 12), and flat in place of smooth facets, over some of the directions. Where these are far below the error, the error is that of the physics in the model; finer meshes and more rays will not mend it.</p>"""
+80 bounces in place of 40 (rays in the duct: 24 of 12), and flat in place of smooth facets, over some of the directions. <b>Rays</b>: the same by shooting and bouncing rays, with edge diffraction as the case; "rays - beams" is the mean change of the levels from beams to rays. Where these are far below the error, the error is that of the physics in the model; finer meshes and more rays will not mend it.</p>"""
 
 
 def cell(pair):
@@ -41,13 +41,19 @@ def summary(results):
     for case, cuts in results:
         for i, cut in enumerate(cuts):
             title = f'<a href="#{case.name}">{html.escape(case.about)}</a>' if i == 0 else ""
-            rows.append([title, cut.name, cell(cut.differences.get("po+diffraction")), cell(cut.differences.get("po")), cell(cut.differences.get("measured")),
-                         cut.solver(cut.correlation) or "-", *(change(cut.changes.get(kind)) for kind in ("patches", "bounces", "flat")), html.escape(case.goal) if i == 0 else ""])
-    return table(["case", "cut", "with edge diffraction", "physical optics alone", "measured", "complex correlation", "patches", "bounces", "flat facets", "goal"], rows)
+            rows.append([title, cut.name, cell(cut.differences.get("po+diffraction")), cell(cut.differences.get("po")), cell(cut.differences.get("rays")), cell(cut.differences.get("measured")),
+                         cut.solver(cut.correlation) or "-", *(change(cut.changes.get(kind)) for kind in ("patches", "bounces", "flat", "rays")), html.escape(case.goal) if i == 0 else ""])
+    return table(["case", "cut", "with edge diffraction", "physical optics alone", "by rays", "measured", "complex correlation", "patches", "bounces", "flat facets", "rays - beams", "goal"], rows)
+
+
+def printed_table(file):
+    return "\n".join(line for line in file.read_text(encoding="utf-8").splitlines() if not line.startswith(("Figure", "Curves")))
 
 
 def section(case, out):
-    printed = "\n".join(line for line in (out / f"{case.name}.txt").read_text(encoding="utf-8").splitlines() if not line.startswith(("Figure", "Curves")))
+    printed = printed_table(out / f"{case.name}.txt")
+    if case.rays:
+        printed += "\n\nBy rays. " + printed_table(out / f"{case.name}_rays.txt")
     note = f"<p><b>Limits.</b> {case.note}</p>" if case.note else ""
     return f"""<section id="{case.name}"><h2>{html.escape(case.title)}</h2>
 <img class="mesh" alt="the mesh from azimuth {case.view[0]}, elevation {case.view[1]} deg" src="{picture(out / f'{case.name}_mesh.png')}">
@@ -121,7 +127,7 @@ def figures(results, commit, version):
         for cut in cuts:
             correlation = cut.solver(cut.correlation)
             cases.append({"name": case.name, "case": case.about, "cut": cut.name, "reference": case.source,
-                          "po_and_diffraction": difference(cut.differences.get("po+diffraction")), "physical_optics": difference(cut.differences.get("po")), "measured": difference(cut.differences.get("measured")),
+                          "po_and_diffraction": difference(cut.differences.get("po+diffraction")), "physical_optics": difference(cut.differences.get("po")), "rays": difference(cut.differences.get("rays")), "measured": difference(cut.differences.get("measured")),
                           "correlation": None if correlation is None else float(correlation),
-                          "change_db": {kind: None if kind not in cut.changes else round(cut.changes[kind], 4) for kind in ("patches", "bounces", "flat")}, "goal": case.goal})
+                          "change_db": {kind: None if kind not in cut.changes else round(cut.changes[kind], 4) for kind in ("patches", "bounces", "flat", "rays")}, "goal": case.goal})
     return json.dumps({"version": version, "commit": commit, "cases": cases}, indent=2) + "\n"

@@ -2,7 +2,9 @@
 """Solves the cases of tools/validation and takes from the output how far they are from the references."""
 import csv
 import dataclasses
+import json
 import math
+import pathlib
 import re
 import subprocess
 
@@ -27,9 +29,9 @@ def seaglint(*arguments):
 class Cut:
     """One element at one frequency (or over frequency): mean and rms in dB of what is compared with the reference."""
     name: str  # "HH, 5.12 GHz"
-    differences: dict = dataclasses.field(default_factory=dict)  # "po+diffraction", "po", "measured" -> (mean, rms)
+    differences: dict = dataclasses.field(default_factory=dict)  # "po+diffraction", "po", "rays" (with diffraction as the case), "measured" -> (mean, rms)
     correlation: dict = dataclasses.field(default_factory=dict)  # "po+diffraction", "po" -> magnitude
-    changes: dict = dataclasses.field(default_factory=dict)  # "patches", "bounces", "flat" -> mean change in dB
+    changes: dict = dataclasses.field(default_factory=dict)  # "patches", "bounces", "flat", "rays" -> mean change in dB
 
     def solver(self, of):
         """The value of the solver with edge diffraction, or without it where it is off."""
@@ -96,6 +98,18 @@ def without_references(words):
     return [word for word in words if not word.startswith("--reference")]
 
 
+def set_change(case, cuts, kind, base, changed):
+    """Mean change of the levels from `base` to `changed` in the elements and at the frequencies of the cuts."""
+    for cut in cuts:
+        element, _, ghz = cut.name.lower().partition(", ")
+        frequency = float(ghz.split()[0]) * 1e9 if ghz else None  # as printed, six digits
+        places = [p for p in changed if p in base and (frequency is None or abs(p[0] / frequency - 1) < 1e-5)]
+        if not places:
+            continue
+        floor = max(base[p][element] for p in places) - case.floor_db
+        cut.changes[kind] = sum(abs(max(changed[p][element], floor) - max(base[p][element], floor)) for p in places) / len(places)
+
+
 def solve_changes(case, cuts, out):
     """Fills in by how much the levels change with other numerical parameters."""
     base, patch = solved(out / f"{case.name}.csv")
@@ -105,15 +119,35 @@ def solve_changes(case, cuts, out):
         words = [word.format(quarter_patch=f"{patch / 4:.6g}") for word in options]
         file = out / f"{case.name}_{kind}.csv"
         seaglint("rcs", "--target", mesh_of(case, out), *replaced(without_references(thinned(case.sweep, case.every)), words), "-o", file)
-        changed, _ = solved(file)
-        for cut in cuts:
-            element, _, ghz = cut.name.lower().partition(", ")
-            frequency = float(ghz.split()[0]) * 1e9 if ghz else None  # as printed, six digits
-            places = [p for p in changed if p in base and (frequency is None or abs(p[0] / frequency - 1) < 1e-5)]
-            if not places:
-                continue
-            floor = max(base[p][element] for p in places) - case.floor_db
-            cut.changes[kind] = sum(abs(max(changed[p][element], floor) - max(base[p][element], floor)) for p in places) / len(places)
+        set_change(case, cuts, kind, base, solved(file)[0])
+
+
+def add_rays_curves(curves, rays):
+    """Adds to the panels of the beams' curves those of the same model by rays."""
+    for panel, other in zip(curves["panels"], rays["panels"]):
+        names = [series["name"] for series in other["series"]]
+        for model in ("po+diffraction", "po"):  # the model of the case is the last
+            own = [series for series in other["series"] if series["name"].split(" - ")[0] == model]
+            if own:
+                panel["series"] += [{**series, "name": series["name"].replace(model, "rays", 1)} for series in own]
+                break
+        else:
+            raise Failure(f"no curve of the solver among {', '.join(names)}")
+    return curves
+
+
+def solve_rays(case, cuts, arguments, out):
+    """Solves the case by rays: their differences from the references, their change from beams, their curves."""
+    stem = out / f"{case.name}_rays"
+    printed, _ = seaglint(*arguments, "--method", "rays", "--curves", f"{stem}_curves.json", "-o", f"{stem}.csv")
+    pathlib.Path(f"{stem}.txt").write_text(printed, encoding="utf-8")
+    by_rays = {cut.name: cut for cut in cuts_of(printed, case.against)}
+    for cut in cuts:
+        cut.differences["rays"] = cut.solver(by_rays[cut.name].differences)
+    set_change(case, cuts, "rays", solved(out / f"{case.name}.csv")[0], solved(f"{stem}.csv")[0])
+    beams = out / f"{case.name}_curves.json"
+    curves = add_rays_curves(json.loads(beams.read_text(encoding="utf-8")), json.loads(pathlib.Path(f"{stem}_curves.json").read_text(encoding="utf-8")))
+    beams.write_text(json.dumps(curves).replace("<", "\\u003c") + "\n", encoding="utf-8")
 
 
 def mesh_of(case, out):
@@ -121,7 +155,7 @@ def mesh_of(case, out):
 
 
 def solve(case, out):
-    """Writes NAME.csv, NAME.png, NAME.txt (as printed), NAME_mesh.png and the changed ones; returns the cuts."""
+    """Writes NAME.csv, NAME.png, NAME.txt (as printed), NAME_mesh.png, those of rays and the changed ones; returns the cuts."""
     for name, text in case.made.items():
         (out / name).write_text(text(), encoding="utf-8")
     if case.make:
@@ -130,11 +164,14 @@ def solve(case, out):
     for file, polarisation in case.references:
         references += ["--reference", file if "/" in file else out / file]
         references += ["--reference-polarisation", polarisation] if polarisation else []
-    printed, _ = seaglint("rcs", "--target", mesh_of(case, out), *case.sweep, "--floor-db", case.floor_db, *references, "--curves", out / f"{case.name}_curves.json", "-o", out / f"{case.name}.csv")
+    arguments = ["rcs", "--target", mesh_of(case, out), *case.sweep, "--floor-db", case.floor_db, *references]
+    printed, _ = seaglint(*arguments, "--curves", out / f"{case.name}_curves.json", "-o", out / f"{case.name}.csv")
     (out / f"{case.name}.txt").write_text(printed, encoding="utf-8")
     seaglint("mesh", "info", mesh_of(case, out), "--picture", out / f"{case.name}_mesh.png", "--width", 480, "--azimuth-deg", case.view[0], "--elevation-deg", case.view[1])
     cuts = cuts_of(printed, case.against)
     if not cuts:
         raise Failure(f"{case.name}: no reference in\n{printed}")
     solve_changes(case, cuts, out)
+    if case.rays:
+        solve_rays(case, cuts, arguments, out)
     return cuts
