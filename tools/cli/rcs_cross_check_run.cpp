@@ -10,10 +10,10 @@
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/core/process/standard_output.h"
+#include "tools/cross_check/cross_check_table.h"
+#include "tools/cross_check/rcs_cross_check.h"
 #include "tools/pipeline/output_files.h"
 #include "tools/pipeline/warnings.h"
-#include "tools/rcs/cross_check_table.h"
-#include "tools/rcs/rcs_cross_check.h"
 
 namespace seaglint {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/dbsm.h"
-#include "tools/rcs/contribution_groups.h"
+#include "tools/cross_check/contribution_groups.h"
 #include "tools/rcs/rcs_views.h"
 
 namespace seaglint {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Differences of two solutions of one sweep and the contributions that they are ascribed to.
-#include "tools/rcs/rcs_cross_check.h"
+#include "tools/cross_check/rcs_cross_check.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 #include "sim/core/numbers/dbsm.h"
 #include "sim/core/process/error.h"
 #include "sim/geometry/shapes/generators.h"
-#include "tools/rcs/cross_check_table.h"
+#include "tools/cross_check/cross_check_table.h"
 #include "tools/rcs/rcs_views.h"
 
 namespace seaglint {

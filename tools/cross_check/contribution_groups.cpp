@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/rcs/contribution_groups.h"
+#include "tools/cross_check/contribution_groups.h"
 
 #include <fmt/format.h>
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "sim/core/process/parallel.h"
-#include "tools/rcs/contribution_groups.h"
+#include "tools/cross_check/contribution_groups.h"
 #include "tools/rcs/rcs_request.h"
 #include "tools/rcs/rcs_target.h"
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "tools/rcs/rcs_cross_check.h"
+#include "tools/cross_check/rcs_cross_check.h"
 
 namespace seaglint {
 

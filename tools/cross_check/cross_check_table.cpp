@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/rcs/cross_check_table.h"
+#include "tools/cross_check/cross_check_table.h"
 
 #include <fmt/format.h>
 

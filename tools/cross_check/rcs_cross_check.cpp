@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/rcs/rcs_cross_check.h"
+#include "tools/cross_check/rcs_cross_check.h"
 
 #include <fmt/format.h>
 
