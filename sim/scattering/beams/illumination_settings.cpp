@@ -11,8 +11,8 @@ namespace {
 // Side of the smallest illuminated patch in radii of the body: 5 mm on the 144 m ship.
 constexpr double kMinPatchSide = 0.7e-4;
 
-// Distance between rays in radii of the target: 22 mm on the 144 m ship.
-constexpr double kRaySpacing = 3e-4;
+// Distance between rays in radii of the target: 11 mm on the 144 m ship.
+constexpr double kRaySpacing = 1.5e-4;
 
 // Side of the smallest patch on a body of this radius, m.
 double patch_side(double radius, const TracingSettings& settings) {

@@ -31,7 +31,7 @@ TracingSettings tracing_settings(const SolverSpec& solver);
 // (rays/README.md, "Cost").
 SolverMethod method_for(const TracingSettings& settings);
 
-// Distance between rays by default, m: 3e-4 of the radius of the target's bounding sphere, 22 mm on the 144 m ship.
+// Distance between rays by default, m: 1.5e-4 of the radius of the target's bounding sphere, 11 mm on the 144 m ship.
 double default_ray_spacing(const Scatterer& scatterer);
 double ray_spacing(const Scatterer& scatterer, const TracingSettings& settings);  // of the settings, or the default
 
