@@ -180,7 +180,7 @@ void RcsArguments::add_detail_to(CommandOptions& command) {
       .show_default();
   command
       .add_option("--ray-spacing-m", request.ray_spacing_m,
-                  "Distance between rays, with --method rays or auto; 0 = 3e-4 of the target's radius")
+                  "Distance between rays, with --method rays or auto; 0 = 1.5e-4 of the target's radius")
       .number_within(0.0, 1e6);
   command
       .add_option(
