@@ -130,7 +130,7 @@ TEST_F(PlateRequest, HeadsItsTableWithAMethodOtherThanBeams) {
   const auto head = [&] { return rcs_table(request_, *target.prepared.scatterer, sweep); };
   EXPECT_THAT(head(), testing::AllOf(HasSubstr(", min_patch_m 2.04083e-05\n"), testing::Not(HasSubstr("method"))));
   request_.method = SolverMethod::kRays;
-  EXPECT_THAT(head(), HasSubstr(", min_patch_m 2.04083e-05, method rays, ray_spacing_m 8.74643e-05\n"));
+  EXPECT_THAT(head(), HasSubstr(", min_patch_m 2.04083e-05, method rays, ray_spacing_m 4.37321e-05\n"));
   EXPECT_EQ(read_again(sweep, *target.prepared.scatterer).values.size(), 1u);
   request_.method = SolverMethod::kAuto;
   request_.ray_spacing_m = 0.002;

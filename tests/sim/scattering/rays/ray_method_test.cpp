@@ -98,13 +98,13 @@ TEST(Rays, TwoAntennasCoatingsAndAFiniteRangeGiveTheEchoOfBeams) {
   const Scatterer target(mesh, {MaterialSpec{}, coat});
   const double k = wavenumber(10e9);
   const BistaticGeometry pair = bistatic(radar_basis(direction(35, 25)), radar_basis(direction(48, 15)));
-  // At a finite range amplitudes are frozen over each footprint (surfaces/finite_range.h), and tiles divide footprints:
-  // 0.018 at 40 m, in proportion to 1 / range.
+  // Slivers at the borders of tiles as above. At a finite range amplitudes are frozen over each footprint
+  // (surfaces/finite_range.h), and tiles divide footprints: 0.018 at 40 m, in proportion to 1 / range.
   for (const double range_m : {0.0, 400.0}) {
     const auto of = [&](const TracingSettings& settings) {
       return scattering_matrices(target, pair, std::array{k}, settings, 1, nullptr, nullptr, {range_m})[0];
     };
-    EXPECT_LT(relative_difference(of(kByRays), of(kByBeams)), range_m > 0 ? 3e-3 : 1e-6) << range_m;
+    EXPECT_LT(relative_difference(of(kByRays), of(kByBeams)), range_m > 0 ? 3e-3 : 3e-5) << range_m;
   }
 }
 
