@@ -27,7 +27,7 @@ struct TracingSettings {
 // Tracing settings of a target of a scenario.
 TracingSettings tracing_settings(const SolverSpec& solver);
 
-// The method of the settings; for auto the one that costs less at the same error: beams, on every target measured
+// The method of the settings; for auto the one that costs less at the same error: beams, on the targets measured
 // (rays/README.md, "Cost").
 SolverMethod method_for(const TracingSettings& settings);
 

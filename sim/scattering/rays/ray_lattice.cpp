@@ -16,6 +16,8 @@ namespace {
 
 // Aimed rays meet a panel inside its border by this fraction of the way to its middle.
 constexpr double kInset = 0.02;
+// Most aimed rays along one side, so that their number follows that of panels for any spacing.
+constexpr double kMostAlongSide = 64;
 
 Box projected_box(const Facet& facet, const RadarBasis& basis) {
   Box box{Vec2::Constant(std::numeric_limits<double>::infinity()),
@@ -83,7 +85,7 @@ void RayLattice::aim_at_panels(const Scatterer& scatterer, const RadarBasis& bas
     if (scatterer.surface().curved(f)) continue;
     for (std::size_t i = 0; i < outline.size(); ++i) {
       const Vec3 &a = outline[i], along = outline[(i + 1) % outline.size()] - a;
-      const int points = 1 + static_cast<int>(along.norm() / cell_side(0));
+      const int points = 1 + static_cast<int>(std::min(along.norm() / cell_side(0), kMostAlongSide - 1));
       for (int n = 0; n < points; ++n) aim(middle + (1 - kInset) * (a + (n + 0.5) / points * along - middle));
     }
   }

@@ -12,7 +12,7 @@
 namespace seaglint {
 namespace {
 
-// Height above a panel at which rays start, in radii of the target: 30 times the rounding of Embree's coordinates.
+// Displacement from a panel at which rays start, in radii of the target: 30 times the rounding of Embree's coordinates.
 constexpr double kOffSurface = 2e-6;
 
 // Processor time of this thread, s.
@@ -73,7 +73,7 @@ void RayPaths::trace(std::span<const Vec2> rays, std::span<std::uint64_t> signat
         batch_.add(path.leaves_at(rays[rays_[i]]), path.direction);
     }
     first_hits();
-    reflect(bounce, signatures);
+    reflect(signatures);
     find_obstacles(rays, signatures);
     // Rays end in water and at the walls of cavities.
     std::erase_if(bundles_, [&](const Bundle& bundle) {
@@ -116,7 +116,6 @@ void RayPaths::add_neighbours(std::int32_t path) {
         if (marked == path || !is_lit(panel, direction)) continue;
         marked = path;
         path_after(path, panel);
-        paths_.back().met = false;
       }
     }
   }
@@ -145,7 +144,7 @@ bool RayPaths::is_lit(int facet, const Vec3& direction) const {
 }
 
 // Divides every bundle by the panels that its rays hit.
-void RayPaths::reflect(int bounce, std::span<std::uint64_t> signatures) {
+void RayPaths::reflect(std::span<std::uint64_t> signatures) {
   next_bundles_.clear();
   next_rays_.clear();
   for (const Bundle& bundle : bundles_) {
@@ -161,7 +160,6 @@ void RayPaths::reflect(int bounce, std::span<std::uint64_t> signatures) {
         if (!is_lit(panel, direction)) continue;
         bundle_of_panel_[at] = bundle.path;
         child_of_panel_[at] = path_after(bundle.path, panel);
-        paths_.back().bounce = static_cast<std::uint8_t>(bounce);
       }
       child_[i] = child_of_panel_[at];
       std::uint64_t& signature = signatures[rays_[bundle.first + i]];
@@ -209,6 +207,7 @@ std::int32_t RayPaths::path_after(std::int32_t parent, int panel) {
   RayPath path;
   path.panel = bvh_panel(facets_, scene_.scatterer.panels(), panel);
   path.parent = parent;
+  path.bounce = static_cast<std::uint8_t>(before.bounce + 1);
   path.next_sibling = before.first_child;
   const Facet& facet = facets_[panel];
   const Vec3 n = facet.normal.dot(before.direction) < 0 ? facet.normal : Vec3(-facet.normal);
@@ -230,7 +229,7 @@ std::int32_t RayPaths::path_after(std::int32_t parent, int panel) {
 void RayPaths::find_obstacles(std::span<const Vec2> rays, std::span<std::uint64_t> signatures) {
   for (std::size_t receiver = 0; receiver < scene_.receivers.size(); ++receiver) {
     const BistaticGeometry& geometry = scene_.receivers[receiver].geometry;
-    // The first reflector is seen where it is lit by the same antenna.
+    // A receiver at the transmitter sees exactly the illuminated part of the first reflector.
     const auto is_asked = [&](const Bundle& bundle) {
       const RayPath& path = paths_[static_cast<std::size_t>(bundle.path)];
       if (path.bounce == 1 && geometry.monostatic) return false;

@@ -19,12 +19,11 @@ struct RayPath {
   BvhPanel panel;           // the last reflector
   std::int32_t parent = 0;  // sequence without it
   std::uint8_t bounce = 0;  // number of reflections; 0: the transmitted rays
-  bool met = true;          // by a ray; false: the panel is next to one that was
   std::int32_t first_child = -1, next_sibling = -1;
   ImageTransform image_transform;  // of all reflectors, this one included
   Vec3 direction;                  // behind it, unit
-  // The ray that crosses the projection plane at p leaves the panel at start + p.x per_h + p.y per_v, m; slightly
-  // above the panel, where no ray meets it again.
+  // The ray that crosses the projection plane at p leaves the panel at start + p.x per_h + p.y per_v, m, displaced
+  // along the normal so far that Embree does not return the same panel.
   Vec3 start, per_h, per_v;
 
   Vec3 leaves_at(const Vec2& p) const { return start + p.x() * per_h + p.y() * per_v; }
@@ -50,7 +49,7 @@ class RayPaths {
   // from every reflector towards all receivers that may see it. signatures[i]: equal for rays that meet the same
   // reflectors and obstacles, different for others (but for 2^-64).
   void trace(std::span<const Vec2> rays, std::span<std::uint64_t> signatures);
-  // To be called once after the last batch.
+  // To be called once after the last batch. Adds the neighbours of all panels met, with paths of no rays.
   void finish();
 
   // Of the present tile; 0: the transmitted rays.
@@ -68,7 +67,7 @@ class RayPaths {
   };
 
   void first_hits();
-  void reflect(int bounce, std::span<std::uint64_t> signatures);
+  void reflect(std::span<std::uint64_t> signatures);
   void group_by_child(const Bundle& bundle);
   void mark_children(std::int32_t path);
   void add_neighbours(std::int32_t path);
@@ -79,7 +78,7 @@ class RayPaths {
   const TracingContext& scene_;
   std::span<const Facet> facets_;
   const RayScene& embree_;
-  double off_surface_;  // height of a ray's start above the panel, m
+  double off_surface_;  // displacement of a ray's start from the panel, m
   std::vector<RayPath> paths_;
   std::vector<Obstacle> obstacles_;  // ascending
   std::vector<std::uint32_t> rays_, next_rays_;

@@ -4,7 +4,6 @@
 namespace seaglint {
 
 void RaySearch::find(const BeamSegment& segment, const PolygonSet&, std::vector<FoundPanel>& found) const {
-  if (segment.path < 0) return;
   for (int child = paths_.path(segment.path).first_child; child >= 0; child = paths_.path(child).next_sibling)
     found.push_back({&paths_.path(child).panel, child});
 }
@@ -12,8 +11,7 @@ void RaySearch::find(const BeamSegment& segment, const PolygonSet&, std::vector<
 void RaySearch::find_visible(const BeamSegment& segment, const CandidatePanel& candidate, std::size_t receiver,
                              std::vector<MovingPolygon>& visible) const {
   const std::span<const MovingPolygon> illuminated = candidate.illuminated.polygons();
-  const std::span<const Obstacle> obstacles =
-      candidate.path < 0 ? std::span<const Obstacle>() : paths_.obstacles(candidate.path, receiver);
+  const std::span<const Obstacle> obstacles = paths_.obstacles(candidate.path, receiver);
   if (obstacles.empty()) {
     visible.insert(visible.end(), illuminated.begin(), illuminated.end());
     return;

@@ -6,19 +6,18 @@
 
 namespace seaglint {
 
-RayCount trace_rays(const TracingContext& scene, const RayLattice& lattice, std::size_t first, std::size_t last,
-                    BeamVisitor& visitor, const std::function<void()>& after_each) {
-  RayCount count;
+std::size_t trace_rays(const TracingContext& scene, const RayLattice& lattice, std::size_t first, std::size_t last,
+                       BeamVisitor& visitor, const std::function<void()>& after_each) {
+  std::size_t segments = 0;
   RayPaths paths(scene);
   const RaySearch search(scene, paths);
   RayRefinement refinement(lattice, paths);
   for (std::size_t tile = first; tile < last; ++tile) {
     refinement.trace(tile);
-    count.segments += trace_window(scene, search, lattice.window(tile), 0, visitor);
+    segments += trace_window(scene, search, lattice.window(tile), 0, visitor);
     after_each();
   }
-  count.queries = paths.queries();
-  return count;
+  return segments;
 }
 
 }  // namespace seaglint

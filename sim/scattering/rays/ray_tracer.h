@@ -12,14 +12,9 @@
 
 namespace seaglint {
 
-struct RayCount {
-  std::size_t segments = 0;  // of tubes
-  std::size_t queries = 0;   // rays that Embree traced
-};
-
-// Traces the tiles first <= i < last of the lattice, whose projection plane is that of the scene's transmitter. Calls
-// after_each() when the tubes of one tile are complete.
-RayCount trace_rays(
+// Traces the tiles first <= i < last of the lattice, whose projection plane is that of the scene's transmitter, and
+// returns the number of segments of tubes. Calls after_each() when the tubes of one tile are complete.
+std::size_t trace_rays(
     const TracingContext& scene, const RayLattice& lattice, std::size_t first, std::size_t last, BeamVisitor& visitor,
     const std::function<void()>& after_each = [] {});
 

@@ -175,7 +175,7 @@ TraceSummary Illumination::trace_all(int threads, const Visit& visit, const Stop
             boundary_terms.clear();
           }
         };
-        segments[chunk] = lattice_ ? trace_rays(of_chunk, *lattice_, first, last, recorder, pass_on).segments
+        segments[chunk] = lattice_ ? trace_rays(of_chunk, *lattice_, first, last, recorder, pass_on)
                                    : trace_beams(of_chunk, PrismSearch(of_chunk),
                                                  visible_panels().subspan(first, last - first), recorder, pass_on);
         illuminations[chunk] = std::move(traced.edge_illuminations);

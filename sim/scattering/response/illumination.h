@@ -89,7 +89,7 @@ class Illumination {
                          const std::function<void(std::size_t chunk)>& complete = {}) const;
 
   // Appends the contributions of all beams whose first reflector is the panel of one of these facets, its direct
-  // illumination included; returns the number of beam segments traced.
+  // illumination included; returns the number of beam segments traced. By the method of beams only.
   std::size_t trace_from(int facet, TracedContributions& traced) const { return trace_from({&facet, 1}, traced); }
   std::size_t trace_from(std::span<const int> facets, TracedContributions& traced) const;
 
