@@ -66,7 +66,8 @@ class Views {
   // Matrices per view, elevation slowest, in the axes and about the origin of the request's mesh.
   std::vector<Matrices> matrices(const ChangedMesh& of, std::optional<double> crease_deg) {
     const std::optional<double> crease = crease_deg ? std::optional(radians(*crease_deg)) : std::nullopt;
-    const Scatterer scatterer(of.mesh, target_.materials, crease, 1e-3 * request_.sheet_thickness_mm);
+    const Scatterer scatterer(of.mesh, target_.materials, crease, 1e-3 * request_.sheet_thickness_mm,
+                              merging_tolerance(*std::ranges::max_element(request_.frequency_hz)));
     const TracingSettings settings = settings_of(request_, request_.edges);
     std::vector<Matrices> all(count());
     const int side_by_side = static_cast<int>(std::min(all.size(), static_cast<std::size_t>(threads_)));

@@ -65,7 +65,8 @@ PreparedTarget prepare_target(SolverMesh mesh, const ScattererSettings& settings
   PreparedTarget target{std::move(mesh.mesh), std::move(mesh.materials), std::move(mesh.warnings), nullptr};
   if (settings.waterline_m) cut_at_sea_level(target.mesh, target.materials, *settings.waterline_m);
   target.scatterer =
-      std::make_shared<const Scatterer>(target.mesh, target.materials, settings.crease_rad, settings.sheet_thickness_m);
+      std::make_shared<const Scatterer>(target.mesh, target.materials, settings.crease_rad, settings.sheet_thickness_m,
+                                        merging_tolerance(settings.highest_hz));
   append(target.warnings, check_edges(*target.scatterer, settings.edges, settings.lowest_hz, settings.highest_hz,
                                       target.mesh.part_names));
   append(target.warnings, check_bars(*target.scatterer, settings.lowest_hz, target.mesh.part_names));

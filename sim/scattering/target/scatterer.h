@@ -13,6 +13,7 @@
 #include "sim/scattering/target/bodies.h"
 #include "sim/scattering/target/embree_scene.h"
 #include "sim/scattering/target/facets.h"
+#include "sim/scattering/target/merged_facets.h"
 #include "sim/scattering/target/panel_bvh.h"
 #include "sim/scattering/target/panels.h"
 #include "sim/scattering/target/sharp_edges.h"
@@ -29,9 +30,12 @@ class Scatterer {
   // materials[i]: material of mesh.materials[i]; empty: perfect conductor. crease_rad: adjacent facets whose normals
   // differ by less form one smooth surface, 0..pi; 0: all facets flat; absent: planar faces are triangulated anew and
   // the shape determines which facets form a smooth surface (smooth_sides_by_shape()). sheet_thickness_m: thickness of
-  // open surfaces at their free edges, m. Throws InputError when every triangle is degenerate.
+  // open surfaces at their free edges, m. merging_m: tolerance to which facets of smooth surfaces are merged
+  // (merged_facets.h), m; 0, and with crease_rad: they stay as meshed. Throws InputError when every triangle is
+  // degenerate.
   explicit Scatterer(const TriangleMesh& mesh, std::vector<MaterialSpec> materials = {},
-                     std::optional<double> crease_rad = std::nullopt, double sheet_thickness_m = 0);
+                     std::optional<double> crease_rad = std::nullopt, double sheet_thickness_m = 0,
+                     double merging_m = 0);
 
   // Movable only: surface and panels refer to the facets.
   Scatterer(Scatterer&&) = default;
@@ -63,6 +67,10 @@ class Scatterer {
   BodySizes bodies_;
   std::vector<MaterialSpec> materials_;
   struct RaySceneOnDemand;
+
+  Scatterer(const Vec3& centre, MergedFacets surface, std::vector<MaterialSpec> materials,
+            std::optional<double> crease_rad, double sheet_thickness_m);
+
   std::shared_ptr<RaySceneOnDemand> ray_scene_;
 };
 
