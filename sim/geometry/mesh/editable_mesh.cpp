@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numeric>
 #include <tuple>
+
+#include "sim/geometry/mesh/topology.h"
 
 namespace seaglint {
 namespace {
@@ -47,6 +48,11 @@ EditableMesh::EditableMesh(const TriangleMesh& mesh, std::vector<std::uint32_t> 
       face_(std::move(face)),
       at_(mesh.vertices.size()),
       kept_(mesh.vertices.size(), 0) {
+  std::vector<std::uint32_t> uses(vertices_.size(), 0);
+  for (const Triangle& triangle : triangles_) {
+    for (const std::uint32_t v : triangle) ++uses[v];
+  }
+  for (std::size_t v = 0; v < vertices_.size(); ++v) at_[v].reserve(uses[v]);
   face_normal_.assign(triangles_.size(), Vec3::Zero());
   for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
     Triangle& triangle = triangles_[t];
@@ -80,10 +86,36 @@ std::vector<std::uint32_t> EditableMesh::neighbours(std::uint32_t v) const {
   return found;
 }
 
+std::optional<std::array<std::uint32_t, 2>> EditableMesh::two_triangles_at(std::uint32_t a, std::uint32_t b) const {
+  std::array<std::uint32_t, 2> found{};
+  std::size_t count = 0;
+  for (const std::uint32_t t : at_[a]) {
+    if (!has(triangles_[t], b)) continue;
+    if (count == 2) return std::nullopt;
+    found[count++] = t;
+  }
+  return count == 2 ? std::optional(found) : std::nullopt;
+}
+
 bool EditableMesh::is_boundary(std::uint32_t a, std::uint32_t b) const {
-  const std::vector<std::uint32_t> sides = triangles_at(a, b);
-  return sides.size() != 2 || face_[sides[0]] != face_[sides[1]] ||
-         runs(triangles_[sides[0]], a, b) == runs(triangles_[sides[1]], a, b);
+  const auto sides = two_triangles_at(a, b);
+  if (!sides) return true;
+  const auto [t, g] = *sides;
+  return face_[t] != face_[g] || runs(triangles_[t], a, b) == runs(triangles_[g], a, b);
+}
+
+bool EditableMesh::is_corner(std::uint32_t v) const {
+  std::array<std::uint32_t, 2> ends{};
+  std::size_t count = 0;
+  for (const std::uint32_t t : at_[v]) {
+    if (std::ranges::any_of(at_[v], [&](std::uint32_t g) { return g != t && face_[g] == face_[t]; })) continue;
+    for (const std::uint32_t u : triangles_[t]) {
+      if (u == v || std::find(ends.begin(), ends.begin() + count, u) != ends.begin() + count) continue;
+      if (count == 2) return true;
+      ends[count++] = u;
+    }
+  }
+  return false;
 }
 
 bool EditableMesh::is_before(std::uint32_t a, std::uint32_t b) const {
@@ -92,12 +124,15 @@ bool EditableMesh::is_before(std::uint32_t a, std::uint32_t b) const {
 }
 
 void EditableMesh::remove_flat_vertices(double tolerance) {
-  std::vector<std::uint32_t> order(vertices_.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) { return is_before(a, b); });
+  std::vector<std::uint32_t> order;
   for (bool changed = true; changed;) {
+    order.clear();
+    for (std::uint32_t v = 0; v < vertices_.size(); ++v) {
+      if (!kept_[v] && !at_[v].empty() && !is_corner(v)) order.push_back(v);
+    }
+    std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) { return is_before(a, b); });
     changed = false;
-    for (const std::uint32_t v : order) changed |= !kept_[v] && !at_[v].empty() && remove_vertex(v, tolerance);
+    for (const std::uint32_t v : order) changed |= !at_[v].empty() && remove_vertex(v, tolerance);
     if (changed) make_delaunay();
   }
 }
@@ -162,9 +197,11 @@ bool EditableMesh::collapse(std::uint32_t v, std::uint32_t u) {
 }
 
 void EditableMesh::make_delaunay() {
+  std::vector<std::uint32_t> triangles_of_face(triangles_.size(), 0);
+  for (std::uint32_t t = 0; t < triangles_.size(); ++t) triangles_of_face[face_[t]] += is_alive(t);
   std::vector<Edge> open;
   for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
-    if (!is_alive(t)) continue;
+    if (!is_alive(t) || triangles_of_face[face_[t]] == 1) continue;
     for (int i = 0; i < 3; ++i) open.push_back(std::minmax(triangles_[t][i], triangles_[t][(i + 1) % 3]));
   }
   std::ranges::sort(open);
@@ -178,12 +215,13 @@ void EditableMesh::make_delaunay() {
 }
 
 bool EditableMesh::flip_if_needed(std::uint32_t a, std::uint32_t b, std::vector<Edge>& around) {
-  std::vector<std::uint32_t> sides = triangles_at(a, b);
-  if (sides.size() != 2 || face_[sides[0]] != face_[sides[1]]) return false;
+  const auto both = two_triangles_at(a, b);
+  if (!both || face_[both->front()] != face_[both->back()]) return false;
+  std::array<std::uint32_t, 2> sides = *both;
   if (!runs(triangles_[sides[0]], a, b)) std::swap(sides[0], sides[1]);
   if (!runs(triangles_[sides[0]], a, b) || !runs(triangles_[sides[1]], b, a)) return false;
   const std::uint32_t c = apex_of(triangles_[sides[0]], a, b), d = apex_of(triangles_[sides[1]], a, b);
-  if (c == d || !triangles_at(c, d).empty()) return false;
+  if (c == d || std::ranges::any_of(at_[c], [&](std::uint32_t t) { return has(triangles_[t], d); })) return false;
   const Vec3 &A = vertices_[a], &B = vertices_[b], &C = vertices_[c], &D = vertices_[d];
   // The new triangles c, a, d and d, b, c must have the face's sense.
   const Vec3& n = face_normal_[face_[sides[0]]];
@@ -213,25 +251,27 @@ bool EditableMesh::flip_if_needed(std::uint32_t a, std::uint32_t b, std::vector<
 }
 
 void EditableMesh::store(TriangleMesh& mesh, std::vector<std::uint32_t>& face) const {
-  TriangleMesh result = mesh;
-  result.triangles.clear();
-  result.triangle_part.clear();
-  result.triangle_material.clear();
-  result.corner_normals.clear();
-  std::map<std::uint32_t, std::uint32_t> number;
-  face.clear();
+  std::vector<std::uint32_t> number(triangles_.size(), kNoIndex);
+  std::uint32_t faces = 0, count = 0;
+  face.resize(triangles_.size());
   for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
     if (!is_alive(t)) continue;
-    result.triangles.push_back(triangles_[t]);
-    result.triangle_part.push_back(mesh.triangle_part[t]);
-    result.triangle_material.push_back(mesh.triangle_material[t]);
-    if (!mesh.corner_normals.empty())
-      result.corner_normals.push_back(triangles_[t] == mesh.triangles[t]
-                                          ? mesh.corner_normals[t]
-                                          : std::array{Vec3(Vec3::Zero()), Vec3(Vec3::Zero()), Vec3(Vec3::Zero())});
-    face.push_back(number.try_emplace(face_[t], static_cast<std::uint32_t>(number.size())).first->second);
+    if (!mesh.corner_normals.empty()) {
+      mesh.corner_normals[count] = triangles_[t] == mesh.triangles[t]
+                                       ? mesh.corner_normals[t]
+                                       : std::array{Vec3(Vec3::Zero()), Vec3(Vec3::Zero()), Vec3(Vec3::Zero())};
+    }
+    mesh.triangles[count] = triangles_[t];
+    mesh.triangle_part[count] = mesh.triangle_part[t];
+    mesh.triangle_material[count] = mesh.triangle_material[t];
+    if (number[face_[t]] == kNoIndex) number[face_[t]] = faces++;
+    face[count++] = number[face_[t]];
   }
-  mesh = std::move(result);
+  face.resize(count);
+  mesh.triangles.resize(count);
+  mesh.triangle_part.resize(count);
+  mesh.triangle_material.resize(count);
+  if (!mesh.corner_normals.empty()) mesh.corner_normals.resize(count);
 }
 
 }  // namespace seaglint

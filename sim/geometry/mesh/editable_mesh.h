@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -15,7 +16,8 @@ namespace seaglint {
 
 class EditableMesh {
  public:
-  // `face`: planar face of every triangle, any numbers. Vertices at one position must be one vertex.
+  // `face`: planar face of every triangle, numbers below the count of triangles. Vertices at one position must be one
+  // vertex.
   EditableMesh(const TriangleMesh& mesh, std::vector<std::uint32_t> face);
 
   // The vertices of this triangle will not be removed.
@@ -40,10 +42,14 @@ class EditableMesh {
 
   bool is_alive(std::uint32_t t) const { return triangles_[t][0] != triangles_[t][1]; }
   std::vector<std::uint32_t> triangles_at(std::uint32_t a, std::uint32_t b) const;
+  // The two triangles of an edge; none where it has one or more than two.
+  std::optional<std::array<std::uint32_t, 2>> two_triangles_at(std::uint32_t a, std::uint32_t b) const;
   // Vertices joined to v, ascending.
   std::vector<std::uint32_t> neighbours(std::uint32_t v) const;
   // True unless exactly two triangles of one face and of opposite sense share the edge.
   bool is_boundary(std::uint32_t a, std::uint32_t b) const;
+  // True where triangles that are alone in their face at v have more than two edges there: all are boundaries.
+  bool is_corner(std::uint32_t v) const;
   bool remove_vertex(std::uint32_t v, double tolerance);
   // Moves v to u, where no other triangle turns over or loses its area and the surface keeps its topology.
   bool collapse(std::uint32_t v, std::uint32_t u);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "sim/geometry/mesh/disjoint_sets.h"
+#include "sim/geometry/mesh/index_groups.h"
 
 namespace seaglint {
 namespace {
@@ -44,14 +45,19 @@ struct Diagnosis {
 // Marks copies of triangles. Returns pairs (front, back) of coinciding triangles of opposite orientation and different
 // material.
 std::vector<std::array<std::uint32_t, 2>> find_copies(const TriangleMesh& mesh, Diagnosis& d) {
+  const IndexGroups at_vertex(mesh.triangles.size(), mesh.vertices.size(),
+                              [&](std::uint32_t t) { return std::ranges::min(mesh.triangles[t]); });
   std::vector<Corners> all;
   all.reserve(mesh.triangles.size());
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (!d.drop[t]) all.push_back(corners_of(mesh, t));
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const auto first = static_cast<std::ptrdiff_t>(all.size());
+    for (const std::uint32_t t : at_vertex[v]) {
+      if (!d.drop[t]) all.push_back(corners_of(mesh, t));
+    }
+    std::sort(all.begin() + first, all.end(), [](const Corners& a, const Corners& b) {
+      return a.sorted != b.sorted ? a.sorted < b.sorted : a.triangle < b.triangle;
+    });
   }
-  std::sort(all.begin(), all.end(), [](const Corners& a, const Corners& b) {
-    return a.sorted != b.sorted ? a.sorted < b.sorted : a.triangle < b.triangle;
-  });
   std::vector<std::array<std::uint32_t, 2>> backs;
   for (std::size_t i = 0; i < all.size();) {
     // The first is kept; triangles of the same orientation are copies, those of opposite orientation are its back.
@@ -77,6 +83,7 @@ std::vector<std::array<std::uint32_t, 2>> find_copies(const TriangleMesh& mesh, 
 
 // Topology after the removal of dropped triangles.
 Topology remaining(Topology topology, const std::vector<char>& drop) {
+  if (std::ranges::count(drop, 1) == 0) return topology;
   std::vector<HalfEdge> uses;
   for (MeshEdge& edge : topology.edges) {
     const auto first = static_cast<std::uint32_t>(uses.size());
@@ -99,6 +106,8 @@ std::vector<char> unclosed(const Topology& topology, std::size_t triangles, Disj
   std::vector<HalfEdge> uses;
   for (const MeshEdge& edge : topology.edges) {
     const auto all = uses_of(topology, edge);
+    if (all.size() == 2 && all[0].forward != all[1].forward && sets.find(all[0].triangle) == sets.find(all[1].triangle))
+      continue;
     uses.assign(all.begin(), all.end());
     std::sort(uses.begin(), uses.end(),
               [&](const HalfEdge& a, const HalfEdge& b) { return sets.find(a.triangle) < sets.find(b.triangle); });
@@ -143,6 +152,7 @@ Diagnosis find_defects(const TriangleMesh& mesh) {
   d.drop.assign(count, 0);
   d.turn.assign(count, 0);
   d.health.triangles = count;
+  d.health.of_file = mesh.findings;
   for (const auto& normals : mesh.corner_normals)
     d.health.corners_without_normal += static_cast<std::size_t>(std::ranges::count(normals, Vec3(Vec3::Zero())));
   Topology topology = topology_of(mesh);
@@ -188,6 +198,7 @@ Diagnosis find_defects(const TriangleMesh& mesh) {
   std::vector<Surface> surfaces(count);  // stored at the root
   // Volumes about a point of the mesh: far from the origin the terms of the divergence theorem cancel.
   const Bounds box = bounds(mesh);
+  d.health.size = box.upper - box.lower;
   const Vec3 centre = (box.lower + box.upper) / 2;
   for (std::uint32_t t = 0; t < count; ++t) {
     if (d.drop[t]) continue;
@@ -200,7 +211,7 @@ Diagnosis find_defects(const TriangleMesh& mesh) {
   }
   // Below this the enclosed volume is rounding.
   constexpr double kMinVolume = 1e-9;  // of size times area
-  const double size = (box.upper - box.lower).norm();
+  const double size = d.health.size.norm();
   const auto inverted = [&](const Surface& s) { return !s.open && s.volume < -kMinVolume * size * s.area; };
   for (std::uint32_t root = 0; root < count; ++root) {
     const Surface& surface = surfaces[root];
@@ -222,13 +233,7 @@ std::string counted(std::size_t n, const char* one, const char* many) {
 
 }  // namespace
 
-MeshDiagnostics diagnose(const TriangleMesh& mesh) {
-  MeshDiagnostics health = find_defects(mesh).health;
-  health.of_file = mesh.findings;
-  const Bounds box = bounds(mesh);
-  health.size = box.upper - box.lower;
-  return health;
-}
+MeshDiagnostics diagnose(const TriangleMesh& mesh) { return find_defects(mesh).health; }
 
 namespace {
 
@@ -293,26 +298,31 @@ std::vector<std::string> diagnostic_messages(const MeshDiagnostics& h) {
   return found;
 }
 
-TriangleMesh repair(const TriangleMesh& mesh) {
-  const Diagnosis d = find_defects(mesh);
-  TriangleMesh result = mesh;
-  result.triangles.clear();
-  result.triangle_part.clear();
-  result.triangle_material.clear();
-  result.corner_normals.clear();
+RepairedMesh diagnose_and_repair(const TriangleMesh& mesh) {
+  Diagnosis d = find_defects(mesh);
+  RepairedMesh repaired{mesh, std::move(d.health)};
+  TriangleMesh& result = repaired.mesh;
+  std::size_t count = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (d.drop[t]) continue;
     auto triangle = mesh.triangles[t];
     if (d.turn[t]) std::swap(triangle[1], triangle[2]);
-    result.triangles.push_back(triangle);
-    result.triangle_part.push_back(mesh.triangle_part[t]);
-    result.triangle_material.push_back(mesh.triangle_material[t]);
-    if (mesh.corner_normals.empty()) continue;
-    auto normals = mesh.corner_normals[t];
-    if (d.turn[t]) normals = {-normals[0], -normals[2], -normals[1]};
-    result.corner_normals.push_back(normals);
+    result.triangles[count] = triangle;
+    result.triangle_part[count] = mesh.triangle_part[t];
+    result.triangle_material[count] = mesh.triangle_material[t];
+    if (!mesh.corner_normals.empty()) {
+      const auto& n = mesh.corner_normals[t];
+      result.corner_normals[count] = d.turn[t] ? std::array{Vec3(-n[0]), Vec3(-n[2]), Vec3(-n[1])} : n;
+    }
+    ++count;
   }
-  return result;
+  result.triangles.resize(count);
+  result.triangle_part.resize(count);
+  result.triangle_material.resize(count);
+  if (!mesh.corner_normals.empty()) result.corner_normals.resize(count);
+  return repaired;
 }
+
+TriangleMesh repair(const TriangleMesh& mesh) { return diagnose_and_repair(mesh).mesh; }
 
 }  // namespace seaglint

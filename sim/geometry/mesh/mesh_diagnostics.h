@@ -51,4 +51,12 @@ std::vector<std::string> diagnostic_messages(const MeshDiagnostics& health);
 // is also oriented outwards; it is never visible.
 TriangleMesh repair(const TriangleMesh& mesh);
 
+struct RepairedMesh {
+  TriangleMesh mesh;
+  MeshDiagnostics health;  // before the repair
+};
+
+// Both at once, in the time of one.
+RepairedMesh diagnose_and_repair(const TriangleMesh& mesh);
+
 }  // namespace seaglint

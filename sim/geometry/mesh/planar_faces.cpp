@@ -2,13 +2,13 @@
 #include "sim/geometry/mesh/planar_faces.h"
 
 #include <algorithm>
-#include <set>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "sim/geometry/mesh/disjoint_sets.h"
 #include "sim/geometry/mesh/editable_mesh.h"
+#include "sim/geometry/mesh/index_groups.h"
 #include "sim/geometry/mesh/topology.h"
 
 namespace seaglint {
@@ -25,12 +25,11 @@ struct Plane {
   Vec3 area = Vec3::Zero(), moment = Vec3::Zero();  // sums of area vectors, m^2, and of area times centroid, m^3
   double total = 0;                                 // m^2
 
-  void add(const TriangleMesh& mesh, std::uint32_t t) {
-    const Vec3 a = area_vector(mesh, t);
+  void add(const TriangleMesh& mesh, std::uint32_t t, const Vec3& area_of_t) {
     const auto& [i, j, k] = mesh.triangles[t];
-    area += a;
-    total += a.norm();
-    moment += a.norm() / 3 * (mesh.vertices[i] + mesh.vertices[j] + mesh.vertices[k]);
+    area += area_of_t;
+    total += area_of_t.norm();
+    moment += area_of_t.norm() / 3 * (mesh.vertices[i] + mesh.vertices[j] + mesh.vertices[k]);
   }
   void add(const Plane& other) {
     area += other.area;
@@ -38,86 +37,134 @@ struct Plane {
     total += other.total;
   }
   Vec3 normal() const { return area.normalized(); }
+  Vec3 centroid() const { return moment / total; }
 };
 
 // True for a sample of a curved surface.
 bool is_curved(const TriangleMesh& mesh, std::uint32_t t) { return normal_deviation(mesh, t) > kNormalDigits; }
 
-bool alike(const TriangleMesh& mesh, std::uint32_t a, std::uint32_t b) {
-  return !is_curved(mesh, a) && !is_curved(mesh, b) && mesh.triangle_part[a] == mesh.triangle_part[b] &&
-         mesh.triangle_material[a] == mesh.triangle_material[b];
-}
-
-// True where the smaller of two neighbouring triangles lies in the plane of the larger one.
-bool coplanar(const TriangleMesh& mesh, std::uint32_t a, std::uint32_t b, double tolerance) {
-  const Vec3 na = area_vector(mesh, a), nb = area_vector(mesh, b);
-  if (na.dot(nb) <= kSameSide * na.norm() * nb.norm()) return false;
-  const bool swap = na.squaredNorm() < nb.squaredNorm();
-  const std::uint32_t large = swap ? b : a, small = swap ? a : b;
-  const Vec3 n = (swap ? nb : na).normalized();
-  const Vec3& origin = mesh.vertices[mesh.triangles[large][0]];
-  return std::ranges::all_of(mesh.triangles[small],
-                             [&](std::uint32_t v) { return std::abs(n.dot(mesh.vertices[v] - origin)) <= tolerance; });
-}
-
 std::tuple<double, double, double> position_key(const Vec3& x) { return {x.x(), x.y(), x.z()}; }
 
-// Exactly planar regions of triangles, joined to faces.
+// Exactly planar regions of triangles, joined to faces. A region has the number of one of its triangles.
 class FaceFinder {
  public:
   FaceFinder(const TriangleMesh& mesh, double tolerance, double exact)
       : mesh_(mesh),
         tolerance_(tolerance),
-        topology_(topology_of(mesh)),
-        regions_(mesh.triangles.size()),
-        plane_(mesh.triangles.size()),
-        members_(mesh.triangles.size()),
-        face_(mesh.triangles.size(), kNoIndex) {
-    for (std::uint32_t t = 0; t < count(); ++t) {
-      for (const std::uint32_t g : topology_.neighbours[t]) {
-        if (g != kNoIndex && g > t && alike(mesh, t, g) && coplanar(mesh, t, g, exact)) regions_.unite(t, g);
-      }
-    }
-    for (std::uint32_t t = 0; t < count(); ++t) {
-      const std::uint32_t region = regions_.find(t);
-      members_[region].push_back(t);
-      plane_[region].add(mesh, t);
-    }
+        neighbours_(topology_of(mesh).neighbours),
+        area_(count()),
+        curved_(count()),
+        region_(find_regions(exact)),
+        members_(count(), count(), [&](std::uint32_t t) { return region_[t]; }),
+        plane_(count()),
+        face_(count(), kNoIndex),
+        found_in_(count(), 0) {
+    for (std::uint32_t t = 0; t < count(); ++t) plane_[region_[t]].add(mesh, t, area_[t]);
   }
 
   // Face of every triangle. The largest region comes first; of equal ones that with the smallest vertex.
   std::vector<std::uint32_t> run() {
+    std::vector<char> alone(count());  // by region: none beside it lies in its plane
+    for (std::uint32_t region = 0; region < count(); ++region) alone[region] = is_alone(region);
     for (const std::uint32_t seed : regions_by_size()) {
-      if (face_[members_[seed].front()] != kNoIndex || !(plane_[seed].total > 0)) continue;
-      for (const std::uint32_t region : regions_of_face(seed)) {
-        for (const std::uint32_t t : members_[region]) face_[t] = seed;
-      }
+      if (face_[seed] != kNoIndex || !(plane_[seed].total > 0)) continue;
+      face_[seed] = seed;
+      if (alone[seed]) continue;
+      for (const std::uint32_t region : regions_of_face(seed)) face_[region] = seed;
     }
-    for (std::uint32_t t = 0; t < count(); ++t) {
-      if (face_[t] == kNoIndex) face_[t] = t;
-    }
-    return face_;
+    std::vector<std::uint32_t> face(count());
+    for (std::uint32_t t = 0; t < count(); ++t) face[t] = face_[region_[t]] == kNoIndex ? t : face_[region_[t]];
+    return face;
   }
 
  private:
   std::uint32_t count() const { return static_cast<std::uint32_t>(mesh_.triangles.size()); }
 
+  bool alike(std::uint32_t a, std::uint32_t b) const {
+    return !curved_[a] && !curved_[b] && mesh_.triangle_part[a] == mesh_.triangle_part[b] &&
+           mesh_.triangle_material[a] == mesh_.triangle_material[b];
+  }
+
+  // True where the smaller of two neighbouring triangles lies in the plane of the larger one.
+  bool coplanar(std::uint32_t a, std::uint32_t b, double tolerance) const {
+    const Vec3 &na = area_[a], &nb = area_[b];
+    if (na.dot(nb) <= kSameSide * na.norm() * nb.norm()) return false;
+    const bool swap = na.squaredNorm() < nb.squaredNorm();
+    const std::uint32_t large = swap ? b : a, small = swap ? a : b;
+    const Vec3 n = (swap ? nb : na).normalized();
+    const Vec3& origin = mesh_.vertices[mesh_.triangles[large][0]];
+    return std::ranges::all_of(mesh_.triangles[small], [&](std::uint32_t v) {
+      return std::abs(n.dot(mesh_.vertices[v] - origin)) <= tolerance;
+    });
+  }
+
+  // Exactly planar region of every triangle.
+  std::vector<std::uint32_t> find_regions(double exact) {
+    for (std::uint32_t t = 0; t < count(); ++t) {
+      area_[t] = area_vector(mesh_, t);
+      curved_[t] = is_curved(mesh_, t);
+    }
+    DisjointSets regions(count());
+    for (std::uint32_t t = 0; t < count(); ++t) {
+      for (const std::uint32_t g : neighbours_[t]) {
+        if (g != kNoIndex && g > t && alike(t, g) && coplanar(t, g, exact)) regions.unite(t, g);
+      }
+    }
+    std::vector<std::uint32_t> region(count());
+    for (std::uint32_t t = 0; t < count(); ++t) region[t] = regions.find(t);
+    return region;
+  }
+
+  // Place of every vertex in the order of their positions.
+  std::vector<std::uint32_t> vertex_ranks() const {
+    std::vector<std::pair<double, std::uint32_t>> sorted(mesh_.vertices.size());
+    for (std::uint32_t v = 0; v < sorted.size(); ++v) sorted[v] = {mesh_.vertices[v].x(), v};
+    std::ranges::sort(sorted, [&](const auto& a, const auto& b) {
+      return a.first != b.first ? a.first < b.first
+                                : position_key(mesh_.vertices[a.second]) < position_key(mesh_.vertices[b.second]);
+    });
+    std::vector<std::uint32_t> rank(sorted.size());
+    for (std::uint32_t i = 0; i < sorted.size(); ++i) rank[sorted[i].second] = i;
+    return rank;
+  }
+
   std::vector<std::uint32_t> regions_by_size() const {
-    std::vector<std::uint32_t> seeds;
-    std::vector<std::tuple<double, double, double, double>> key(count());  // minus the area, smallest vertex
+    struct Sized {
+      double area = 0;
+      std::uint32_t smallest_vertex = kNoIndex, region = 0;
+    };
+    const std::vector<std::uint32_t> rank = vertex_ranks();
+    std::vector<Sized> sized;
     for (std::uint32_t region = 0; region < count(); ++region) {
       if (members_[region].empty()) continue;
-      seeds.push_back(region);
-      Vec3 first = mesh_.vertices[mesh_.triangles[members_[region].front()][0]];
+      sized.push_back({plane_[region].total, kNoIndex, region});
       for (const std::uint32_t t : members_[region]) {
-        for (const std::uint32_t v : mesh_.triangles[t]) {
-          if (position_key(mesh_.vertices[v]) < position_key(first)) first = mesh_.vertices[v];
-        }
+        for (const std::uint32_t v : mesh_.triangles[t])
+          sized.back().smallest_vertex = std::min(sized.back().smallest_vertex, rank[v]);
       }
-      key[region] = std::tuple_cat(std::tuple(-plane_[region].total), position_key(first));
     }
-    std::ranges::sort(seeds, {}, [&](std::uint32_t region) { return key[region]; });
+    std::ranges::sort(sized, [](const Sized& a, const Sized& b) {
+      return a.area != b.area ? a.area > b.area : a.smallest_vertex < b.smallest_vertex;
+    });
+    std::vector<std::uint32_t> seeds;
+    for (const Sized& each : sized) seeds.push_back(each.region);
     return seeds;
+  }
+
+  // Calls use(region) for every region beside this one that may be part of the same face, until it returns true; true
+  // where it did.
+  template <typename Use>
+  bool any_beside(std::uint32_t region, const Use& use) const {
+    return std::ranges::any_of(members_[region], [&](std::uint32_t t) {
+      return std::ranges::any_of(neighbours_[t], [&](std::uint32_t g) {
+        return g != kNoIndex && region_[g] != region && face_[region_[g]] == kNoIndex && alike(g, t) && use(region_[g]);
+      });
+    });
+  }
+
+  bool is_alone(std::uint32_t region) const {
+    const Vec3 n = plane_[region].normal(), centroid = plane_[region].centroid();
+    return !any_beside(region, [&](std::uint32_t other) { return lies_in_plane(other, n, centroid); });
   }
 
   // Regions in the plane of the regions found so far, until no further one lies in it.
@@ -135,27 +182,26 @@ class FaceFinder {
 
   // Regions without a face that are connected to the seed and lie in a plane, the seed first.
   std::vector<std::uint32_t> regions_in_plane(std::uint32_t seed, const Plane& plane) {
-    const Vec3 n = plane.normal(), centroid = plane.moment / plane.total;
+    const Vec3 n = plane.normal(), centroid = plane.centroid();
     std::vector<std::uint32_t> found{seed};
-    std::set<std::uint32_t> known{seed};
+    ++search_;
+    found_in_[seed] = search_;
     for (std::size_t i = 0; i < found.size(); ++i) {
-      for (const std::uint32_t t : members_[found[i]]) {
-        for (const std::uint32_t g : topology_.neighbours[t]) {
-          if (g == kNoIndex || face_[g] != kNoIndex || !alike(mesh_, g, t)) continue;
-          const std::uint32_t region = regions_.find(g);
-          if (known.contains(region) || !lies_in_plane(region, n, centroid)) continue;
-          known.insert(region);
+      any_beside(found[i], [&](std::uint32_t region) {
+        if (found_in_[region] != search_ && lies_in_plane(region, n, centroid)) {
+          found_in_[region] = search_;
           found.push_back(region);
         }
-      }
+        return false;
+      });
     }
     return found;
   }
 
   bool lies_in_plane(std::uint32_t region, const Vec3& n, const Vec3& centroid) const {
     return std::ranges::all_of(members_[region], [&](std::uint32_t t) {
-      const Vec3 area = area_vector(mesh_, t);
-      return area.dot(n) > kSameSide * area.norm() && std::ranges::all_of(mesh_.triangles[t], [&](std::uint32_t v) {
+      return area_[t].dot(n) > kSameSide * area_[t].norm() &&
+             std::ranges::all_of(mesh_.triangles[t], [&](std::uint32_t v) {
                return std::abs(n.dot(mesh_.vertices[v] - centroid)) <= tolerance_;
              });
     });
@@ -163,11 +209,15 @@ class FaceFinder {
 
   const TriangleMesh& mesh_;
   double tolerance_;
-  Topology topology_;
-  DisjointSets regions_;
-  std::vector<Plane> plane_;                         // of every region
-  std::vector<std::vector<std::uint32_t>> members_;  // triangles of every region
-  std::vector<std::uint32_t> face_;                  // of every triangle; kNoIndex: none yet
+  std::vector<std::array<std::uint32_t, 3>> neighbours_;
+  std::vector<Vec3> area_;               // area vectors of the triangles, m^2
+  std::vector<char> curved_;             // by triangle
+  std::vector<std::uint32_t> region_;    // of every triangle
+  IndexGroups members_;                  // triangles of every region
+  std::vector<Plane> plane_;             // of every region
+  std::vector<std::uint32_t> face_;      // of every region; kNoIndex: none yet
+  std::vector<std::uint32_t> found_in_;  // last search that found the region
+  std::uint32_t search_ = 0;
 };
 
 }  // namespace

@@ -5,19 +5,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
+#include "sim/geometry/mesh/index_groups.h"
 
 namespace seaglint {
 namespace {
 
 constexpr double kMinHeightRatio = 1e-9;  // height over longest side; float32 positions of a 100 m target resolve 1e-7
-
-struct Side {
-  std::array<std::uint32_t, 2> vertices;
-  HalfEdge use;
-};
 
 bool is_degenerate(const TriangleMesh& mesh, std::size_t triangle) {
   const auto& [a, b, c] = mesh.triangles[triangle];
@@ -25,21 +22,6 @@ bool is_degenerate(const TriangleMesh& mesh, std::size_t triangle) {
   const Vec3 &p = mesh.vertices[a], &q = mesh.vertices[b], &r = mesh.vertices[c];
   const double longest2 = std::max({(q - p).squaredNorm(), (r - q).squaredNorm(), (p - r).squaredNorm()});
   return !(2.0 * area_vector(mesh, triangle).norm() > kMinHeightRatio * longest2);
-}
-
-std::vector<Side> sides_in_edge_order(const TriangleMesh& mesh) {
-  std::vector<Side> sides;
-  sides.reserve(3 * mesh.triangles.size());
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (std::uint8_t i = 0; i < 3; ++i) {
-      const std::uint32_t from = mesh.triangles[t][i], to = mesh.triangles[t][(i + 1) % 3];
-      SEAGLINT_CHECK(from < mesh.vertices.size(), fmt::format("triangle {} names vertex {}", t, from));
-      if (from == to) continue;
-      sides.push_back({{std::min(from, to), std::max(from, to)}, {t, i, from < to}});
-    }
-  }
-  std::stable_sort(sides.begin(), sides.end(), [](const Side& l, const Side& r) { return l.vertices < r.vertices; });
-  return sides;
 }
 
 EdgeKind kind_of(const std::vector<HalfEdge>& uses, const MeshEdge& edge) {
@@ -72,6 +54,34 @@ std::vector<bool> closed_parts(const TriangleMesh& mesh, const Topology& topolog
 
 }  // namespace
 
+std::vector<EdgeUse> sides_by_edge(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertex_count) {
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    for (const std::uint32_t v : triangles[t])
+      SEAGLINT_CHECK(v < vertex_count, fmt::format("triangle {} names vertex {}", t, v));
+  }
+  // Side i of triangle t has the number 3 t + i.
+  const auto ends = [&](std::uint32_t side) {
+    const auto& triangle = triangles[side / 3];
+    return std::pair(triangle[side % 3], triangle[(side + 1) % 3]);
+  };
+  const IndexGroups by_lower_vertex(3 * triangles.size(), vertex_count,
+                                    [&](std::uint32_t side) { return std::min(ends(side).first, ends(side).second); });
+  std::vector<EdgeUse> sides;
+  sides.reserve(3 * triangles.size());
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> of_vertex;  // other vertex, side
+  for (std::uint32_t low = 0; low < vertex_count; ++low) {
+    of_vertex.clear();
+    for (const std::uint32_t side : by_lower_vertex[low]) {
+      const auto [from, to] = ends(side);
+      if (from != to) of_vertex.push_back({std::max(from, to), side});
+    }
+    std::ranges::sort(of_vertex);
+    for (const auto& [high, side] : of_vertex)
+      sides.push_back({{low, high}, {side / 3, static_cast<std::uint8_t>(side % 3), ends(side).first == low}});
+  }
+  return sides;
+}
+
 std::size_t Topology::count(EdgeKind kind) const {
   return static_cast<std::size_t>(
       std::count_if(edges.begin(), edges.end(), [&](const MeshEdge& edge) { return edge.kind == kind; }));
@@ -83,14 +93,14 @@ Topology topology_of(const TriangleMesh& mesh) {
   topology.neighbours.assign(mesh.triangles.size(), {kNoIndex, kNoIndex, kNoIndex});
 
   // Sides with the same two vertices are one edge.
-  for (const Side& side : sides_in_edge_order(mesh)) {
-    if (topology.edges.empty() || topology.edges.back().vertices != side.vertices) {
-      topology.edges.push_back(
-          {side.vertices, EdgeKind::kManifold, static_cast<std::uint32_t>(topology.uses.size()), 0});
-    }
+  topology.uses.reserve(3 * mesh.triangles.size());
+  topology.edges.reserve(2 * mesh.triangles.size());
+  for (const auto& [vertices, side] : sides_by_edge(mesh.triangles, mesh.vertices.size())) {
+    if (topology.edges.empty() || topology.edges.back().vertices != vertices)
+      topology.edges.push_back({vertices, EdgeKind::kManifold, static_cast<std::uint32_t>(topology.uses.size()), 0});
     ++topology.edges.back().use_count;
-    topology.uses.push_back(side.use);
-    topology.triangle_edges[side.use.triangle][side.use.side] = static_cast<std::uint32_t>(topology.edges.size() - 1);
+    topology.uses.push_back(side);
+    topology.triangle_edges[side.triangle][side.side] = static_cast<std::uint32_t>(topology.edges.size() - 1);
   }
 
   for (MeshEdge& edge : topology.edges) {

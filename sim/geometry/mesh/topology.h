@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "sim/geometry/mesh/triangle_mesh.h"
@@ -27,6 +28,15 @@ struct HalfEdge {
   std::uint8_t side = 0;
   bool forward = true;  // runs from MeshEdge::vertices[0] to vertices[1]
 };
+
+struct EdgeUse {
+  std::array<std::uint32_t, 2> vertices{};  // of the edge, ascending
+  HalfEdge side;
+};
+
+// The sides of all triangles by the vertices of their edges, those of one edge by triangle. Sides whose two vertices
+// coincide are left out. Throws where a triangle names a vertex beyond vertex_count.
+std::vector<EdgeUse> sides_by_edge(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertex_count);
 
 struct MeshEdge {
   std::array<std::uint32_t, 2> vertices{};  // ascending

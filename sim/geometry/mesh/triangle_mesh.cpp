@@ -5,7 +5,6 @@
 
 #include <bit>
 #include <limits>
-#include <unordered_map>
 
 #include "sim/core/process/error.h"
 
@@ -26,16 +25,14 @@ std::uint16_t matched(std::vector<Item>& items, const Item& item, NameOf name_of
   return static_cast<std::uint16_t>(items.size() - 1);
 }
 
-struct PositionHash {
-  std::size_t operator()(const std::array<std::uint64_t, 3>& bits) const {
-    std::uint64_t hash = 0x9e3779b97f4a7c15u;
-    for (std::uint64_t word : bits) {
-      hash = (hash ^ word) * 0xff51afd7ed558ccdu;
-      hash ^= hash >> 32;
-    }
-    return static_cast<std::size_t>(hash);
+std::size_t hash_of(const std::array<std::uint64_t, 3>& bits) {
+  std::uint64_t hash = 0x9e3779b97f4a7c15u;
+  for (std::uint64_t word : bits) {
+    hash = (hash ^ word) * 0xff51afd7ed558ccdu;
+    hash ^= hash >> 32;
   }
-};
+  return static_cast<std::size_t>(hash);
+}
 
 // Adding zero turns -0 into +0, so that both are one position.
 std::array<std::uint64_t, 3> position_bits(const Vec3& p) {
@@ -128,18 +125,33 @@ TriangleMesh transformed(const TriangleMesh& mesh, const Mat3& rotation, const V
   return moved;
 }
 
+std::vector<std::uint32_t> first_at_position(std::span<const Vec3> vertices) {
+  // Hash table with linear probing, at most half full.
+  std::vector<std::uint32_t> table(std::bit_ceil(2 * vertices.size() + 1), kUnused), first(vertices.size());
+  for (std::uint32_t v = 0; v < vertices.size(); ++v) {
+    const std::array<std::uint64_t, 3> bits = position_bits(vertices[v]);
+    std::size_t place = hash_of(bits) & (table.size() - 1);
+    while (table[place] != kUnused && position_bits(vertices[table[place]]) != bits)
+      place = (place + 1) & (table.size() - 1);
+    if (table[place] == kUnused) table[place] = v;
+    first[v] = table[place];
+  }
+  return first;
+}
+
 TriangleMesh welded(const TriangleMesh& mesh) {
+  const std::vector<std::uint32_t> first = first_at_position(mesh.vertices);
+  std::vector<std::uint32_t> number(mesh.vertices.size(), kUnused);
   TriangleMesh result = mesh;
   result.vertices.clear();
-  std::unordered_map<std::array<std::uint64_t, 3>, std::uint32_t, PositionHash> index;
-  index.reserve(mesh.vertices.size());
   for (auto& triangle : result.triangles) {
     for (std::uint32_t& v : triangle) {
-      const Vec3& p = mesh.vertices[v];
-      const auto [place, is_new] =
-          index.try_emplace(position_bits(p), static_cast<std::uint32_t>(result.vertices.size()));
-      if (is_new) result.vertices.push_back(p);
-      v = place->second;
+      std::uint32_t& merged = number[first[v]];
+      if (merged == kUnused) {
+        merged = static_cast<std::uint32_t>(result.vertices.size());
+        result.vertices.push_back(mesh.vertices[v]);
+      }
+      v = merged;
     }
   }
   return result;

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -61,6 +62,9 @@ double enclosed_volume(const TriangleMesh& mesh);
 
 // The mesh moved by p -> R p + t, R a rotation.
 TriangleMesh transformed(const TriangleMesh& mesh, const Mat3& rotation, const Vec3& translation);
+
+// Index of the first vertex at the same position, for every vertex; -0 and +0 are one coordinate.
+std::vector<std::uint32_t> first_at_position(std::span<const Vec3> vertices);
 
 // The same triangles with vertices at identical positions merged (and unused ones dropped), vertices in order of first
 // use. Files repeat a vertex per triangle (STL) or per normal (glTF); topology_of() needs it once.

@@ -53,8 +53,9 @@ SolverMesh load_solver_mesh(const TargetSource& source) {
   SolverMesh target{source.loaded ? *source.loaded : read_mesh(source.mesh, source.unit), {}, {}};
   target.materials = choose_materials(source, target.mesh);
   at_place(source.mesh_place, [&] {
-    target.warnings = diagnostic_messages(diagnose(target.mesh));
-    target.mesh = repair(target.mesh);
+    RepairedMesh repaired = diagnose_and_repair(target.mesh);
+    target.warnings = diagnostic_messages(repaired.health);
+    target.mesh = std::move(repaired.mesh);
     if (target.mesh.triangles.empty()) throw InputError("no triangle has an area: nothing scatters");
     append(target.warnings, check_target(target.mesh, source.lowest_hz));
   });

@@ -34,6 +34,18 @@ TEST(MeshDiagnostics, AreEmptyForAClosedMesh) {
   }
 }
 
+TEST(MeshDiagnostics, AndRepairAreTheSameAtOnce) {
+  TriangleMesh mesh = make_sphere(1, 2);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) flip(mesh, t);
+  add(mesh, mesh.triangles[5]);
+  add(mesh, {7, 7, 8});
+  const RepairedMesh repaired = diagnose_and_repair(mesh);
+  EXPECT_EQ(diagnostic_messages(repaired.health), diagnostic_messages(diagnose(mesh)));
+  EXPECT_EQ(diagnostic_messages(repaired.health).size(), 3u);
+  EXPECT_EQ(repaired.mesh.triangles, repair(mesh).triangles);
+  EXPECT_EQ(repaired.mesh.triangles, make_sphere(1, 2).triangles);
+}
+
 TEST(MeshDiagnostics, InvertAClosedSurfaceThatIsInsideOut) {
   const TriangleMesh sphere = make_sphere(1, 1);
   TriangleMesh inverted = transformed(sphere, Mat3::Identity(), Vec3(0, 0, 50));

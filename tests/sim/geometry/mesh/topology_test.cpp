@@ -4,9 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <random>
+#include <vector>
 
 #include "sim/core/numbers/constants.h"
+#include "sim/geometry/mesh/index_groups.h"
 #include "sim/geometry/mesh/mesh_builder.h"
 #include "sim/geometry/shapes/generators.h"
 
@@ -147,6 +151,59 @@ TEST(TriangleMesh, BoundsIgnoreVerticesWithoutTriangles) {
   mesh.vertices.push_back({100, 0, 0});
   EXPECT_EQ(bounds(mesh).upper.x(), 1.0);
   EXPECT_EQ(bounds(TriangleMesh{}).upper.x(), 0.0);
+}
+
+// Triangles of 20 vertices, some of which coincide.
+std::vector<std::array<std::uint32_t, 3>> random_triangles(std::size_t count) {
+  std::minstd_rand random(1);
+  std::vector<std::array<std::uint32_t, 3>> triangles(count);
+  for (auto& triangle : triangles) {
+    for (std::uint32_t& v : triangle) v = static_cast<std::uint32_t>(random() % 20);
+  }
+  return triangles;
+}
+
+TEST(IndexGroups, HoldEveryIndexInItsGroupInAscendingOrder) {
+  const auto triangles = random_triangles(200);
+  const IndexGroups groups(triangles.size(), 25, [&](std::uint32_t t) { return triangles[t][0]; });
+  ASSERT_EQ(groups.size(), 25u);
+  for (std::size_t group = 0; group < groups.size(); ++group) {
+    std::vector<std::uint32_t> expected;
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+      if (triangles[t][0] == group) expected.push_back(t);
+    }
+    EXPECT_TRUE(std::ranges::equal(groups[group], expected)) << group;
+  }
+}
+
+TEST(Topology, SidesAreSortedByEdgeThenTriangle) {
+  const auto triangles = random_triangles(200);
+  std::vector<std::array<std::uint32_t, 4>> expected, found;  // vertices, triangle, side
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      const auto [low, high] = std::minmax(triangles[t][i], triangles[t][(i + 1) % 3]);
+      if (low != high) expected.push_back({low, high, t, i});
+    }
+  }
+  std::ranges::sort(expected);
+  for (const auto& [vertices, side] : sides_by_edge(triangles, 20)) {
+    found.push_back({vertices[0], vertices[1], side.triangle, side.side});
+    EXPECT_EQ(side.forward, triangles[side.triangle][side.side] == vertices[0]);
+  }
+  EXPECT_EQ(found, expected);
+}
+
+TEST(Welding, VerticesAtOnePositionHaveTheIndexOfTheFirst) {
+  std::minstd_rand random(2);
+  std::vector<Vec3> vertices;
+  for (int i = 0; i < 300; ++i) {
+    Vec3 x;
+    for (double& coordinate : x) coordinate = static_cast<double>(random() % 4);
+    vertices.push_back(i % 2 == 0 ? x : Vec3(-0.0 - x.x(), x.y(), x.z()));
+  }
+  const std::vector<std::uint32_t> first = first_at_position(vertices);
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+    EXPECT_EQ(first[i], std::ranges::find(vertices, vertices[i]) - vertices.begin()) << i;
 }
 
 }  // namespace
