@@ -12,7 +12,7 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
-#include "sim/scattering/target/smooth_surface.h"
+#include "sim/scattering/target/smooth_vertices.h"
 
 namespace seaglint {
 namespace {
@@ -28,6 +28,10 @@ constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
 using Triangle = std::array<std::uint32_t, 3>;
 
+struct SurfacePoint {
+  Vec3 position, normal;
+};
+
 // Triangle of vertices of the smooth surface, with the height of the surface above it as SmoothSurface has it.
 struct CurvedTriangle {
   Vec3 a, normal;     // first corner, unit normal
@@ -36,15 +40,17 @@ struct CurvedTriangle {
   double shape;       // 4 sqrt(3) area / sum of squared sides: 1 for an equilateral one
   std::array<Vec3, 3> corner_normal;
 
-  CurvedTriangle(const std::array<Vec3, 3>& x, const std::array<Vec3, 3>& n) : a(x[0]), corner_normal(n) {
-    const Vec3 e1 = x[1] - x[0], e2 = x[2] - x[0], e3 = x[2] - x[1], across = e1.cross(e2);
+  CurvedTriangle(const SurfacePoint& A, const SurfacePoint& B, const SurfacePoint& C)
+      : a(A.position), corner_normal{A.normal, B.normal, C.normal} {
+    const Vec3 e1 = B.position - A.position, e2 = C.position - A.position, e3 = C.position - B.position,
+               across = e1.cross(e2);
     const double twice_area = across.norm();
     normal = across / twice_area;
     to_b = e2.cross(across) / (twice_area * twice_area);
     to_c = across.cross(e1) / (twice_area * twice_area);
-    ab = (n[1] - n[0]).dot(e1) / 8;
-    bc = (n[2] - n[1]).dot(e3) / 8;
-    ca = (n[0] - n[2]).dot(-e2) / 8;
+    ab = (B.normal - A.normal).dot(e1) / 8;
+    bc = (C.normal - B.normal).dot(e3) / 8;
+    ca = (A.normal - C.normal).dot(-e2) / 8;
     shape = 2 * std::sqrt(3.0) * twice_area / (e1.squaredNorm() + e2.squaredNorm() + e3.squaredNorm());
   }
 
@@ -56,12 +62,12 @@ struct CurvedTriangle {
     const double b = to_b.dot(x - a), c = to_c.dot(x - a);
     return {1 - b - c, b, c};
   }
-  bool replaces(const Vec3& x, const Vec3& n, const std::array<double, 3>& at, double tolerance) const {
+  bool replaces(const SurfacePoint& point, const std::array<double, 3>& at, double tolerance) const {
     const auto& [la, lb, lc] = at;
     const double height = 4 * (ab * la * lb + bc * lb * lc + ca * lc * la);
-    if (!(std::abs(normal.dot(x - a) - height) <= tolerance)) return false;
+    if (!(std::abs(normal.dot(point.position - a) - height) <= tolerance)) return false;
     const Vec3 interpolated = la * corner_normal[0] + lb * corner_normal[1] + lc * corner_normal[2];
-    return (interpolated.normalized() - n).squaredNorm() <= kMaxNormalError * kMaxNormalError;
+    return (interpolated.normalized() - point.normal).squaredNorm() <= kMaxNormalError * kMaxNormalError;
   }
 };
 
@@ -69,42 +75,39 @@ class FacetMerger {
  public:
   FacetMerger(std::span<const Facet> facets, const SmoothSides& smooth, double tolerance)
       : facets_(facets),
-        surface_(facets, smooth, -1),
         tolerance_(tolerance),
         triangles_(facets.size()),
         changed_(facets.size(), 0),
         first_removed_(facets.size(), kNone) {
-    std::uint32_t vertices = 0;
-    for (std::size_t f = 0; f < facets.size(); ++f) {
-      for (std::size_t i = 0; i < 3; ++i) {
-        triangles_[f][i] = static_cast<std::uint32_t>(surface_.curved(static_cast<int>(f))->vertex[i]);
-        vertices = std::max(vertices, triangles_[f][i] + 1);
-      }
-    }
-    position_.resize(vertices);
+    const SmoothVertices surface = smooth_vertices(facets, smooth);
+    const std::size_t vertices = surface.normal.size();
+    points_.resize(vertices);
     at_.resize(vertices);
     next_removed_.assign(vertices, kNone);
     open_.assign(vertices, 1);
     kept_.assign(vertices, 0);
     changed_in_.assign(vertices, 0);
+    for (std::size_t v = 0; v < vertices; ++v) {
+      points_[v].normal = surface.normal[v];
+      at_[v].reserve(static_cast<std::size_t>(surface.first[v + 1] - surface.first[v]));
+    }
+    for (std::size_t f = 0; f < facets.size(); ++f) {
+      for (std::size_t i = 0; i < 3; ++i) triangles_[f][i] = static_cast<std::uint32_t>(surface.of_facet[f][i]);
+    }
     for (std::size_t f = 0; f < facets.size(); ++f) {
       for (std::size_t i = 0; i < 3; ++i) {
         const std::uint32_t v = triangles_[f][i], w = triangles_[f][(i + 1) % 3];
-        position_[v] = facets[f].corner[i];
+        points_[v].position = facets[f].corner[i];
         at_[v].push_back(static_cast<std::uint32_t>(f));
+        // Parts and materials keep their borders.
+        const Facet& first = facets[at_[v].front()];
+        if (facets[f].part != first.part || facets[f].material != first.material) kept_[v] = 1;
         if (smooth[f][i] >= 0) continue;
         kept_[v] = kept_[w] = 1;
         not_smooth_.push_back(std::minmax(v, w));
       }
     }
     std::ranges::sort(not_smooth_);
-    // Parts and materials keep their borders.
-    for (std::uint32_t v = 0; v < vertices; ++v) {
-      const Facet& first = facets[at_[v].front()];
-      for (const std::uint32_t t : at_[v]) {
-        if (facets[t].part != first.part || facets[t].material != first.material) kept_[v] = 1;
-      }
-    }
   }
 
   // Removes vertices until none can be removed; false where none could. In one round no two of neighbouring vertices
@@ -124,14 +127,14 @@ class FacetMerger {
   }
 
   MergedFacets result() const {
-    std::vector<char> touched(position_.size(), 0);
+    std::vector<char> touched(points_.size(), 0);
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
       if (changed_[t] && is_alive(t))
         for (const std::uint32_t v : triangles_[t]) touched[v] = 1;
     }
     TriangleMesh mesh;
-    mesh.vertices = position_;
-    std::vector<std::uint32_t> face, source;
+    for (const SurfacePoint& point : points_) mesh.vertices.push_back(point.position);
+    std::vector<std::uint32_t> face;
     for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
       if (!is_alive(t)) continue;
       mesh.triangles.push_back(triangles_[t]);
@@ -139,7 +142,7 @@ class FacetMerger {
       mesh.triangle_material.push_back(facets_[t].material);
       std::array<Vec3, 3> normal = facets_[t].corner_normal;
       for (std::size_t i = 0; i < 3; ++i) {
-        if (touched[triangles_[t][i]]) normal[i] = normal_at(triangles_[t][i]);
+        if (touched[triangles_[t][i]]) normal[i] = points_[triangles_[t][i]].normal;
       }
       mesh.corner_normals.push_back(normal);
       face.push_back(changed_[t] ? kNone : static_cast<std::uint32_t>(facets_[t].face));
@@ -160,10 +163,9 @@ class FacetMerger {
 
  private:
   bool is_alive(std::size_t t) const { return triangles_[t][0] != triangles_[t][1]; }
-  const Vec3& normal_at(std::uint32_t v) const { return surface_.vertex(static_cast<int>(v)).normal; }
 
   CurvedTriangle curved(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
-    return {{position_[a], position_[b], position_[c]}, {normal_at(a), normal_at(b), normal_at(c)}};
+    return {points_[a], points_[b], points_[c]};
   }
 
   // Neighbours of v in the order of its triangles, counter-clockwise; false where they are not one ring.
@@ -246,7 +248,7 @@ class FacetMerger {
       std::size_t best = fan_.size();
       std::array<double, 3> at{};
       for (std::size_t j = 0; j < fan_.size(); ++j) {
-        const std::array<double, 3> lambda = fan_[j].barycentric(position_[x]);
+        const std::array<double, 3> lambda = fan_[j].barycentric(points_[x].position);
         const double least = *std::ranges::min_element(lambda);
         if (least > most) {
           most = least;
@@ -254,7 +256,7 @@ class FacetMerger {
           at = lambda;
         }
       }
-      if (best == fan_.size() || !fan_[best].replaces(position_[x], normal_at(x), at, tolerance_)) return false;
+      if (best == fan_.size() || !fan_[best].replaces(points_[x], at, tolerance_)) return false;
       in_.push_back(best);
     }
     const std::vector<std::uint32_t> old = std::exchange(at_[v], {});
@@ -280,16 +282,15 @@ class FacetMerger {
   }
 
   std::span<const Facet> facets_;
-  SmoothSurface surface_;
   double tolerance_;
   std::vector<Triangle> triangles_;  // of vertices of the surface; removed ones have equal vertices
   std::vector<char> changed_;        // by triangle
   std::vector<std::uint32_t> first_removed_, next_removed_;  // removed vertices, a list by triangle
-  std::vector<Vec3> position_;
-  std::vector<std::vector<std::uint32_t>> at_;  // triangles by vertex
-  std::vector<char> kept_;                      // by vertex; removed ones too
-  std::vector<char> open_;                      // by vertex: its neighbourhood changed since it was tried
-  std::vector<std::uint32_t> changed_in_;       // last round that changed the vertex's triangles
+  std::vector<SurfacePoint> points_;                         // by vertex
+  std::vector<std::vector<std::uint32_t>> at_;               // triangles by vertex
+  std::vector<char> kept_;                                   // by vertex; removed ones too
+  std::vector<char> open_;                                   // by vertex: its neighbourhood changed since it was tried
+  std::vector<std::uint32_t> changed_in_;                    // last round that changed the vertex's triangles
   std::vector<std::pair<std::uint32_t, std::uint32_t>> not_smooth_;  // sides, ascending
   // Work memory.
   std::vector<std::uint32_t> ring_, removed_;

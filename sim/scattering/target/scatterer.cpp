@@ -23,9 +23,11 @@ constexpr double kPlanar = 6e-8;
 // its radius, so that the origin of a symmetric body stays in place.
 Vec3 centre_of(const TriangleMesh& mesh) {
   std::vector<Vec3> points;
-  points.reserve(3 * mesh.triangles.size());
+  std::vector<char> used(mesh.vertices.size(), 0);
   for (const auto& triangle : mesh.triangles) {
-    for (const std::uint32_t v : triangle) points.push_back(mesh.vertices[v]);
+    for (const std::uint32_t v : triangle) {
+      if (!std::exchange(used[v], 1)) points.push_back(mesh.vertices[v]);
+    }
   }
   const Sphere sphere = bounding_sphere(points);
   if (!(sphere.radius > 0)) return Vec3::Zero();

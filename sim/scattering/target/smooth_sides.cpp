@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -22,35 +23,51 @@ constexpr double kMajority = 0.7;
 // Largest turn of a side that does not itself continue, relative to the mean of those nearby that do.
 constexpr double kAlikeTurn = 3;
 
-// Facet across the side, if it is the only one there, of the same orientation, and turns by less than the crease angle;
-// else -1.
-int smooth_neighbour(std::span<const Facet> facets, int f, int edge, double cos_crease) {
+// Side of the facet across a side, if that is the only one there, of the same orientation, and turns by less than the
+// crease angle; else -1.
+int smooth_side(std::span<const Facet> facets, int f, int edge, double cos_crease) {
   const int g = facets[f].neighbour[edge];
   if (g < 0 || facets[f].normal.dot(facets[g].normal) < cos_crease) return -1;
   const int from = corner_at(facets[g], facets[f].corner[(edge + 1) % 3]);
   if (from < 0 || facets[g].corner[(from + 1) % 3] != facets[f].corner[edge]) return -1;
-  return facets[g].neighbour[from] == f ? g : -1;
+  return facets[g].neighbour[from] == f ? from : -1;
 }
 
 class ShapeTest {
  public:
   ShapeTest(std::span<const Facet> facets, const SmoothSides& candidates)
-      : facets_(facets), candidates_(candidates), turn_(facets.size()), continues_(facets.size()) {
+      : facets_(facets),
+        candidates_(candidates),
+        length_(facets.size()),
+        turn_(facets.size(), {0, 0, 0}),
+        continues_(facets.size(), {false, false, false}) {
     for (int f = 0; f < size(); ++f) {
-      for (int e = 0; e < 3; ++e) turn_[f][e] = candidates[f][e] < 0 ? 0 : turn(f, e);
+      for (int e = 0; e < 3; ++e) length_[f][e] = (facets[f].corner[(e + 1) % 3] - facets[f].corner[e]).norm();
+    }
+    // Both facets of a side have the same values there.
+    for (int f = 0; f < size(); ++f) {
+      for (int e = 0; e < 3; ++e) {
+        const int g = candidates[f][e];
+        if (g > f) turn_[f][e] = turn_[g][side_towards(g, f)] = turn(f, e);
+      }
     }
     for (int f = 0; f < size(); ++f) {
       for (int e = 0; e < 3; ++e) {
         const int g = candidates[f][e];
-        if (g < 0 || turn_[f][e] == 0) continue;
-        continues_[f][e] = turn_continues(f, e) || turn_continues(g, side_towards(g, f));
+        if (g < f || turn_[f][e] == 0) continue;
+        const int back = side_towards(g, f);
+        continues_[f][e] = continues_[g][back] = turn_continues(f, e) || turn_continues(g, back);
       }
     }
   }
 
   SmoothSides run() const {
     std::vector<Neighbourhood> around(facets_.size());
-    for (int f = 0; f < size(); ++f) around[f] = neighbourhood(f);
+    std::vector<int> fan;
+    for (int f = 0; f < size(); ++f) {
+      find_fan(f, fan);
+      around[f] = neighbourhood(fan);
+    }
     SmoothSides smooth = candidates_;
     for (int f = 0; f < size(); ++f) {
       for (int e = 0; e < 3; ++e) {
@@ -86,7 +103,7 @@ class ShapeTest {
   double turn(int f, int e) const {
     const Facet &here = facets_[f], &there = facets_[candidates_[f][e]];
     if (here.face >= 0 && here.face == there.face) return 0;
-    const Vec3 along = (here.corner[(e + 1) % 3] - here.corner[e]).normalized();
+    const Vec3 along = (here.corner[(e + 1) % 3] - here.corner[e]) / length_[f][e];
     return std::atan2(here.normal.cross(there.normal).dot(along), here.normal.dot(there.normal));
   }
 
@@ -121,7 +138,7 @@ class ShapeTest {
       at += nearest * direction;
       const Vec3 normal = facets_[f].normal;
       // Of the turn, its part about the axis square to the line counts.
-      const Vec3 along = (facets_[f].corner[(exit + 1) % 3] - facets_[f].corner[exit]).normalized();
+      const Vec3 along = (facets_[f].corner[(exit + 1) % 3] - facets_[f].corner[exit]) / length_[f][exit];
       sum += turn_[f][exit] * std::abs(along.cross(direction).dot(normal));
       direction = Eigen::Quaterniond::FromTwoVectors(normal, facets_[g].normal) * direction;
       if (std::abs(sum) > kStripTurn * std::abs(start)) reach = std::min(reach, kReach * length);
@@ -133,27 +150,28 @@ class ShapeTest {
     return false;
   }
 
-  // Sides of a facet and of those that share a corner with it by candidate sides.
-  Neighbourhood neighbourhood(int f) const {
-    std::vector<int> fan{f};
+  // A facet and those that share a corner with it by candidate sides.
+  void find_fan(int f, std::vector<int>& fan) const {
+    fan.assign(1, f);
     for (int corner = 0; corner < 3; ++corner) {
-      const Vec3& x = facets_[f].corner[corner];
+      // Around the corner, by the sides that start there and, unless that is a full turn, by those that end there.
       for (const int first : {corner, (corner + 2) % 3}) {
-        int from = f;
-        for (int next = candidates_[f][first]; next >= 0 && next != f;) {
+        int from = f, next = candidates_[f][first];
+        while (next >= 0 && next != f) {
           if (std::ranges::find(fan, next) == fan.end()) fan.push_back(next);
-          const int here = corner_at(facets_[next], x);
-          if (here < 0) break;
-          const int back = side_towards(next, from), on = back == here ? (here + 2) % 3 : here;
-          from = next;
-          next = candidates_[next][on];
+          const int on = (side_towards(next, from) + (first == corner ? 1 : 2)) % 3;
+          from = std::exchange(next, candidates_[next][on]);
         }
+        if (next == f) break;
       }
     }
+  }
+
+  Neighbourhood neighbourhood(std::span<const int> fan) const {
     Neighbourhood sum;
     for (const int g : fan) {
       for (int e = 0; e < 3; ++e) {
-        const double length = (facets_[g].corner[(e + 1) % 3] - facets_[g].corner[e]).norm();
+        const double length = length_[g][e];
         sum.turn += length * std::abs(turn_[g][e]);
         if (!continues_[g][e]) continue;
         sum.continuing_turn += length * std::abs(turn_[g][e]);
@@ -165,7 +183,8 @@ class ShapeTest {
 
   std::span<const Facet> facets_;
   const SmoothSides& candidates_;
-  std::vector<std::array<double, 3>> turn_;
+  // By facet and side.
+  std::vector<std::array<double, 3>> length_, turn_;
   std::vector<std::array<bool, 3>> continues_;
 };
 
@@ -174,8 +193,14 @@ class ShapeTest {
 SmoothSides smooth_sides_by_angle(std::span<const Facet> facets, double crease) {
   SmoothSides sides(facets.size(), {-1, -1, -1});
   if (crease <= 0) return sides;
+  const double cos_crease = std::cos(crease);
   for (int f = 0; f < static_cast<int>(facets.size()); ++f) {
-    for (int e = 0; e < 3; ++e) sides[f][e] = smooth_neighbour(facets, f, e, std::cos(crease));
+    for (int e = 0; e < 3; ++e) {
+      const int g = facets[f].neighbour[e], back = g < f ? -1 : smooth_side(facets, f, e, cos_crease);
+      if (back < 0) continue;
+      sides[f][e] = g;
+      sides[g][back] = f;
+    }
   }
   return sides;
 }
