@@ -76,6 +76,7 @@ std::vector<std::uint32_t> EditableMesh::triangles_at(std::uint32_t a, std::uint
 
 std::vector<std::uint32_t> EditableMesh::neighbours(std::uint32_t v) const {
   std::vector<std::uint32_t> found;
+  found.reserve(2 * at_[v].size());
   for (const std::uint32_t t : at_[v]) {
     for (const std::uint32_t u : triangles_[t]) {
       if (u != v) found.push_back(u);
