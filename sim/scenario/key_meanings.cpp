@@ -154,7 +154,7 @@ constexpr Meaning kMeanings[] = {
      "Change of aspect that one trace serves, deg; 0: from wavelength and size."},
     {"targets.NAME.solver.crease_deg",
      "Adjacent facets whose normals differ by less form a smooth surface, deg; 0: all flat; auto: from the mesh's "
-     "normals or its shape."},
+     "normals or its shape, finer facets than its curvature requires merged."},
     {"targets.NAME.solver.edges", "Edge diffraction."},
     {"targets.NAME.solver.wavefront_range_m", "Range of the curvature of the wavefront, m; 0: plane wave."},
     {"targets.NAME.companions.N.target", "Another target in the same sea and maps; its label is ignored there."},

@@ -153,9 +153,11 @@ void RcsArguments::add_detail_to(CommandOptions& command) {
       .one_of({"on", "off"})
       .show_default();
   command
-      .add_option("--crease-deg", crease_deg,
-                  "Facets that form a smooth surface: auto = as the mesh's normals or its shape say; a crease angle "
-                  "within 0 and 60 = adjacent ones whose normals differ by less; 0 = all facets flat")
+      .add_option(
+          "--crease-deg", crease_deg,
+          "Facets that form a smooth surface: auto = as the mesh's normals or its shape say, finer ones than its "
+          "curvature requires merged; a crease angle within 0 and 60 = adjacent ones whose normals differ by "
+          "less, as meshed; 0 = all facets flat")
       .check(crease_error)
       .show_default();
   command
