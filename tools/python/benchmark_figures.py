@@ -110,6 +110,15 @@ RAYS = {
                                     each("beams_{}_db", median("beams_dB", 0)),
                                     each("matrix_over_rays_{}_{}mm", median("matrix/embree", 2), of_fine_rays),
                                     each("interval_over_rays_{}_{}mm", median("interval/embree", 2), of_fine_rays))),
+    "ShipByRays/": (3, joined(each("ship_by_rays_{}_{}_db", median("rays_dB", 0)),
+                              each("ship_by_beams_{}_{}_db", median("beams_dB", 0)),
+                              each("ship_by_rays_{}_{}_over_beams", median("rays/beams", 2)),
+                              each("ship_by_rays_{}_{}_over_embree", median("rays/embree", 1)),
+                              each("matrix_by_rays_{}_{}_over_embree", median("matrix/embree", 1)),
+                              each("search_by_rays_{}_{}_over_embree", median("search/embree", 2)))),
+    "SphereByRays/": (3, joined(each("sphere_by_rays_{}_facets", median("facets", 0)),
+                                each("sphere_by_rays_{}_s", median("rays_s", 2)),
+                                each("sphere_by_rays_{}_over_beams", median("rays/beams", 1)))),
 }
 BENCHMARKS = {
     "ShipAspect/": (4, each("ship_aspect_{1}_s", fastest_s)),
