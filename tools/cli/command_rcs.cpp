@@ -139,7 +139,7 @@ void run_rcs(const RcsArguments& arguments, const CommandContext& context) {
   }
   const double million_segments = 1e-6 * static_cast<double>(result.segments),
                views = static_cast<double>(sweep.views());
-  print_error(fmt::format("{}: {} rows, {} views in {:.2f} s ({:.3g} views/s, {:.2f} M beam segments, {:.2f} M/s)\n",
+  print_error(fmt::format("{}: {} rows, {} views in {:.2f} s ({:.3g} views/s, {:.2f} M segments, {:.2f} M/s)\n",
                           arguments.output, sweep.rows(), sweep.views(), seconds, views / seconds, million_segments,
                           million_segments / seconds));
   if (request.exports.wanted()) print_out("{}", export_view(request, target, result.contributions));

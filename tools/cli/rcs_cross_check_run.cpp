@@ -3,15 +3,19 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "seaglint_version.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/core/process/standard_output.h"
+#include "tools/cross_check/cross_check_figure.h"
 #include "tools/cross_check/cross_check_table.h"
 #include "tools/cross_check/rcs_cross_check.h"
+#include "tools/figure/figure.h"
 #include "tools/pipeline/output_files.h"
 #include "tools/pipeline/warnings.h"
 
@@ -31,7 +35,12 @@ CrossCheck compute(const RcsArguments& arguments, const RcsRequest& request, con
 }  // namespace
 
 void run_rcs_cross_check(const RcsArguments& arguments, const CommandContext& context) {
-  if (!arguments.output.empty()) require_outputs({arguments.output}, {arguments.target});
+  const std::filesystem::path figure =
+      arguments.output.empty() ? "" : std::filesystem::path(arguments.output).replace_extension(".png");
+  if (!arguments.output.empty()) {
+    require_figure(figure);
+    require_outputs({arguments.output, figure.string()}, {arguments.target});
+  }
   RcsRequest request = arguments.make_request();
   request.method = SolverMethod::kRays;  // has the settings of both methods
   std::vector<std::string> warnings = request_warnings(request);
@@ -42,7 +51,13 @@ void run_rcs_cross_check(const RcsArguments& arguments, const CommandContext& co
   const CrossCheck check = compute(arguments, request, target, context);
   if (!arguments.output.empty()) write_file(arguments.output, cross_check_table(request, target, check, warnings));
   print_out("{}", cross_check_text(check, target));
-  if (!arguments.output.empty()) print_out("Table: {}\n", arguments.output);
+  if (arguments.output.empty()) return;
+  print_out("Table: {}\n", arguments.output);
+  const PlotPanels panels = cross_check_plots(check);
+  if (panels.plots.empty()) return;
+  write_figure(fmt::format("{}, seaglint {}", std::filesystem::path(arguments.target).filename().string(), kVersion),
+               panels, figure);
+  print_out("Figure: {}\n", figure.string());
 }
 
 }  // namespace seaglint

@@ -52,7 +52,7 @@ bool is_plain(const RcsRequest& request) {
 
 std::string line_of(const ConvergenceStep& step, const RcsSweep& sweep, SolverMethod method, bool first) {
   const std::string traced =
-      fmt::format("{}: {:.3g} M beam segments", fmt::format(fmt::runtime(halved_size(method).step), step.size_m),
+      fmt::format("{}: {:.3g} M segments", fmt::format(fmt::runtime(halved_size(method).step), step.size_m),
                   1e-6 * static_cast<double>(step.segments));
   if (first) return traced + "\n";
   const LevelChange& change = step.change;

@@ -22,10 +22,10 @@ constexpr double kLongestTarget_m = 5e3;  // ten times the longest ships
 // meant.
 constexpr double kFarOrigin = 10, kTooFarOrigin = 300;
 constexpr std::size_t kManyTriangles = 1'000'000;
-// Memory and time per million triangles on two cores, measured on a wavy sheet of 10 million and on a mesh of 2 million
-// with all edges sharp.
-constexpr double kGigabytesOfSmooth = 0.9, kGigabytesOfSharp = 2;
-constexpr double kSecondsToBuild = 8, kSecondsOfSmooth = 5, kSecondsOfSharp = 22;
+// Memory and time per million triangles on two cores: of a sphere, whose facets are merged, and of one with noise of
+// half a side, whose edges are all sharp.
+constexpr double kGigabytesOfSmooth = 0.4, kGigabytesOfSharp = 2;
+constexpr double kSecondsToBuild = 8, kSecondsOfSmooth = 0.1, kSecondsOfSharp = 22;
 
 constexpr double kNarrow = 1.0 / 3, kThinBar = 0.7;  // wavelengths
 // wavelengths: error 0.2 dB (soft) and 0.8 dB (hard) of a strip's echo (sim/scattering/diffraction/README.md, "Thick

@@ -12,6 +12,7 @@
 #include "sim/core/numbers/dbsm.h"
 #include "sim/core/process/error.h"
 #include "sim/geometry/shapes/generators.h"
+#include "tools/cross_check/cross_check_figure.h"
 #include "tools/cross_check/cross_check_table.h"
 #include "tools/rcs/rcs_views.h"
 
@@ -142,6 +143,24 @@ TEST(CrossCheckSummary, CountsLargeDifferencesAtHighLevelsOnly) {
   EXPECT_EQ(summary.worst, (std::vector<std::size_t>{2, 0, 4}));
   EXPECT_EQ(summary.median_relative_db, -3);
   EXPECT_NEAR(summary.p90_relative_db, -1 + 0.6 * 301, 1e-9);  // between ranks 3 and 4, at 3.6
+}
+
+TEST_F(DihedralCrossCheck, HasCurvesOfBothMethodsAlongTheOneAxisThatVaries) {
+  EXPECT_TRUE(
+      cross_check_plots(compare_solutions(request_, one_bounce(), prepare_rcs_target(request_), 2)).plots.empty());
+  request_.elevation_deg = {3};
+  const CrossCheck check = compare_solutions(request_, one_bounce(), prepare_rcs_target(request_), 2);
+  const std::vector<LinePlot> plots = cross_check_plots(check).plots;
+  ASSERT_EQ(plots.size(), 4u);
+  EXPECT_EQ(plots[1].title, "vv");
+  EXPECT_EQ(plots[1].x.label, "azimuth (deg)");
+  for (std::size_t view = 0; view < 3; ++view) {
+    const CrossCheckRow& vv = check.rows[2 * view + 1];
+    EXPECT_EQ(plots[1].series[0].x[view], request_.azimuth_deg[view]);
+    EXPECT_EQ(plots[1].series[0].y[view], vv.beams_dbsm);
+    EXPECT_EQ(plots[1].series[1].y[view], vv.rays_dbsm);
+    EXPECT_EQ(plots[3].series[0].y[view], vv.relative_db);
+  }
 }
 
 }  // namespace

@@ -101,38 +101,43 @@ TEST(MergedFacets, FormAClosedSmoothSurfaceOfVerticesOfTheMesh) {
     for (std::size_t i = 0; i < 3; ++i) {
       const Vec3& x = facet.corner[i];
       EXPECT_EQ(vertices.count({x.x(), x.y(), x.z()}), 1u);
-      // Gradient of the ellipsoid's equation; the normals are those of the fine mesh.
+      // Gradient of the ellipsoid's equation; the normals are means over facets of the fine mesh, stretched by 3.
       const Vec3 normal = x.cwiseQuotient(Vec3(4, 1, 0.49)).normalized();
       EXPECT_GE(facet.normal.dot(normal), std::cos(1.2 * kMaxFacetTilt));
-      if (!facet.corner_normal[i].isZero(0)) EXPECT_LT((facet.corner_normal[i] - normal).norm(), 2e-3);
+      if (!facet.corner_normal[i].isZero(0)) EXPECT_LT((facet.corner_normal[i] - normal).norm(), 5e-3);
       EXPECT_GE(surface.smooth[f][i], 0);
     }
   }
 }
 
 // Independent of the merging: points on merged facets, raised by the height of the surface over them, against the
-// sphere itself.
+// sphere itself. Away from the rim the error is that of quadratic facets, 45 mm to the fourth / 128 = 3e-8 m, and of
+// the normals of the fine mesh; at the rim those are one-sided, and the tolerance limits it.
 TEST(MergedFacets, AreAsHighAsTheSurfaceThatTheyReplace) {
   const MergedFacets surface = merged(cap(7));
   const SmoothSurface smooth(surface.facets, surface.smooth, 0);
-  double largest = 0, flat = 0;
+  double largest = 0, inside = 0, flat = 0;
   for (int f = 0; f < static_cast<int>(surface.facets.size()); ++f) {
     const Facet& facet = surface.facets[static_cast<std::size_t>(f)];
-    const bool at_rim = std::ranges::any_of(surface.smooth[static_cast<std::size_t>(f)], [](int g) { return g < 0; });
-    if (at_rim) continue;  // where the fine mesh has normals of one side only
+    const bool at_rim = std::ranges::any_of(facet.corner, [](const Vec3& x) { return x.z() < 0.82; });
     const std::array<double, 3>& s = smooth.curved(f)->sagitta;
     for (int i = 0; i <= 8; ++i) {
       for (int j = 0; i + j <= 8; ++j) {
         const double b = i / 8.0, c = j / 8.0, a = 1 - b - c;
         const double height = 4 * (s[0] * a * b + s[1] * b * c + s[2] * c * a);
         const Vec3 x = a * facet.corner[0] + b * facet.corner[1] + c * facet.corner[2];
-        largest = std::max(largest, std::abs((x + height * facet.normal).norm() - 1));
+        const double error = std::abs((x + height * facet.normal).norm() - 1);
+        largest = std::max(largest, error);
+        if (at_rim) continue;
+        inside = std::max(inside, error);
         flat = std::max(flat, 1 - x.norm());
       }
     }
   }
-  std::printf("largest distance from the sphere %.2f um, of flat facets %.0f um\n", 1e6 * largest, 1e6 * flat);
-  EXPECT_LE(largest, 1e-6);  // a facet of 45 mm errs by edge^4 / 128 = 3e-8 m, normals of the rim's neighbours add
+  std::printf("largest distance from the sphere %.2f um, at the rim %.1f um, of flat facets %.0f um\n", 1e6 * inside,
+              1e6 * largest, 1e6 * flat);
+  EXPECT_LE(inside, 1e-6);
+  EXPECT_LE(largest, kTolerance);
   EXPECT_GE(flat, 1e-4);
 }
 
