@@ -50,7 +50,7 @@ std::span<const Obstacle> RayPaths::obstacles(int path, std::size_t receiver) co
 void RayPaths::start() {
   const RadarBasis& basis = scene_.transmit;
   for (const RayPath& path : paths_) {
-    if (path.panel.facet >= 0) bundle_of_panel_[static_cast<std::size_t>(path.panel.facet)] = -1;
+    if (path.facet >= 0) bundle_of_panel_[static_cast<std::size_t>(path.facet)] = -1;
   }
   paths_.assign(1, {});
   paths_.front().direction = -basis.r;
@@ -77,7 +77,7 @@ void RayPaths::trace(std::span<const Vec2> rays, std::span<std::uint64_t> signat
     find_obstacles(rays, signatures);
     // Rays end in water and at the walls of cavities.
     std::erase_if(bundles_, [&](const Bundle& bundle) {
-      const int facet = paths_[static_cast<std::size_t>(bundle.path)].panel.facet;
+      const int facet = paths_[static_cast<std::size_t>(bundle.path)].facet;
       return scene_.is_submerged(facet) || scene_.settings.filter.is_cavity(facets_[facet].part);
     });
     std::size_t kept = 0;
@@ -95,36 +95,12 @@ void RayPaths::finish() {
   std::ranges::sort(obstacles_);
   const auto repeated = std::ranges::unique(obstacles_);
   obstacles_.erase(repeated.begin(), repeated.end());
-  const auto met = static_cast<std::int32_t>(paths_.size());
-  for (std::int32_t path = 0; path < met; ++path) add_neighbours(path);
-}
-
-// Adds the neighbours of the panels that rays met next: what is lit of them is too narrow for a ray, or nothing.
-void RayPaths::add_neighbours(std::int32_t path) {
-  const Panels& panels = scene_.scatterer.panels();
-  const Vec3 direction = paths_[static_cast<std::size_t>(path)].direction;
-  const std::int32_t first = paths_[static_cast<std::size_t>(path)].first_child;
-  const std::int32_t own = path > 0 ? paths_[static_cast<std::size_t>(path)].panel.facet : -1;
-  mark_children(path);
-  if (own >= 0) bundle_of_panel_[static_cast<std::size_t>(own)] = path;
-  for (std::int32_t i = first; i >= 0; i = paths_[static_cast<std::size_t>(i)].next_sibling) {
-    for (const int member : panels.members(paths_[static_cast<std::size_t>(i)].panel.facet)) {
-      for (const std::int32_t across : facets_[member].neighbour) {
-        if (across < 0) continue;
-        const int panel = panels.representative(across);
-        std::int32_t& marked = bundle_of_panel_[static_cast<std::size_t>(panel)];
-        if (marked == path || !is_lit(panel, direction)) continue;
-        marked = path;
-        path_after(path, panel);
-      }
-    }
-  }
 }
 
 void RayPaths::mark_children(std::int32_t path) {
   for (std::int32_t i = paths_[static_cast<std::size_t>(path)].first_child; i >= 0;
        i = paths_[static_cast<std::size_t>(i)].next_sibling) {
-    const auto at = static_cast<std::size_t>(paths_[static_cast<std::size_t>(i)].panel.facet);
+    const auto at = static_cast<std::size_t>(paths_[static_cast<std::size_t>(i)].facet);
     bundle_of_panel_[at] = path;
     child_of_panel_[at] = i;
   }
@@ -205,7 +181,7 @@ std::int32_t RayPaths::path_after(std::int32_t parent, int panel) {
   const RayPath before = paths_[static_cast<std::size_t>(parent)];
   const RadarBasis& basis = scene_.transmit;
   RayPath path;
-  path.panel = bvh_panel(facets_, scene_.scatterer.panels(), panel);
+  path.facet = panel;
   path.parent = parent;
   path.bounce = static_cast<std::uint8_t>(before.bounce + 1);
   path.next_sibling = before.first_child;
@@ -233,7 +209,7 @@ void RayPaths::find_obstacles(std::span<const Vec2> rays, std::span<std::uint64_
     const auto is_asked = [&](const Bundle& bundle) {
       const RayPath& path = paths_[static_cast<std::size_t>(bundle.path)];
       if (path.bounce == 1 && geometry.monostatic) return false;
-      const Facet& facet = facets_[path.panel.facet];
+      const Facet& facet = facets_[path.facet];
       const Vec3& before = paths_[static_cast<std::size_t>(path.parent)].direction;
       const double side = facet.normal.dot(before) < 0 ? 1 : -1;
       return side * facet.normal.dot(geometry.receive.r) > kEdgeOn;

@@ -16,7 +16,7 @@ namespace seaglint {
 // All rays of the tile with the same sequence of reflectors, up to this one. They are parallel before and behind it, as
 // flat reflectors leave them.
 struct RayPath {
-  BvhPanel panel;           // the last reflector
+  std::int32_t facet = -1;  // first facet of the last reflector
   std::int32_t parent = 0;  // sequence without it
   std::uint8_t bounce = 0;  // number of reflections; 0: the transmitted rays
   std::int32_t first_child = -1, next_sibling = -1;
@@ -49,8 +49,10 @@ class RayPaths {
   // from every reflector towards all receivers that may see it. signatures[i]: equal for rays that meet the same
   // reflectors and obstacles, different for others (but for 2^-64).
   void trace(std::span<const Vec2> rays, std::span<std::uint64_t> signatures);
-  // To be called once after the last batch. Adds the neighbours of all panels met, with paths of no rays.
+  // To be called once after the last batch.
   void finish();
+  // True where rays of this direction illuminate the panel, unless another is before it.
+  bool is_lit(int facet, const Vec3& direction) const;
 
   // Of the present tile; 0: the transmitted rays.
   const RayPath& path(int i) const { return paths_[static_cast<std::size_t>(i)]; }
@@ -70,10 +72,8 @@ class RayPaths {
   void reflect(std::span<std::uint64_t> signatures);
   void group_by_child(const Bundle& bundle);
   void mark_children(std::int32_t path);
-  void add_neighbours(std::int32_t path);
   std::int32_t path_after(std::int32_t parent, int panel);
   void find_obstacles(std::span<const Vec2> rays, std::span<std::uint64_t> signatures);
-  bool is_lit(int facet, const Vec3& direction) const;
 
   const TracingContext& scene_;
   std::span<const Facet> facets_;

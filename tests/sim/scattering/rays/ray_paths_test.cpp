@@ -37,7 +37,7 @@ std::vector<Vec2> points(const Scene& scene, int count, double radius) {
   return p;
 }
 
-// The sequences that random rays meet, before finish() adds neighbours.
+// The sequences that random rays meet.
 struct TracedScene : Scene {
   RayPaths paths{context};
   std::vector<Vec2> rays;
