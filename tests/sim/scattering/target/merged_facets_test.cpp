@@ -106,7 +106,9 @@ TEST(MergedFacets, FormAClosedSurfaceOfVerticesOfTheMesh) {
       // Gradient of the ellipsoid's equation; the normals are means over facets of the fine mesh, stretched by 3.
       const Vec3 normal = x.cwiseQuotient(Vec3(4, 1, 0.49)).normalized();
       EXPECT_GE(facet.normal.dot(normal), std::cos(1.2 * kMaxFacetTilt));
-      if (!facet.corner_normal[i].isZero(0)) EXPECT_LT((facet.corner_normal[i] - normal).norm(), 5e-3);
+      if (!facet.corner_normal[i].isZero(0)) {
+        EXPECT_LT((facet.corner_normal[i] - normal).norm(), 5e-3);
+      }
       EXPECT_GE(facet.neighbour[i], 0);
     }
   }
