@@ -68,14 +68,6 @@ SmoothSides smooth_sides(std::span<const Facet> facets, std::optional<double> cr
   return given ? smooth_sides_by_normals(facets) : smooth_sides_by_shape(facets, radians(kDefaultCreaseDeg));
 }
 
-MergedFacets surface_of(const TriangleMesh& mesh, const Vec3& centre, std::optional<double> crease_rad,
-                        double merging_m) {
-  std::vector<Facet> facets = facets_of(transformed(mesh, Mat3::Identity(), -centre), crease_rad.has_value());
-  SmoothSides smooth = smooth_sides(facets, crease_rad);
-  if (crease_rad) return {std::move(facets), std::move(smooth)};
-  return merge_smooth_facets(std::move(facets), std::move(smooth), merging_m);
-}
-
 bool is_air_backed(const MaterialSpec& material) {
   return material.kind == SurfaceKind::kLayers && material.backing == Backing::kAir;
 }
@@ -109,18 +101,26 @@ const RayScene& Scatterer::ray_scene() const {
 
 Scatterer::Scatterer(const TriangleMesh& mesh, std::vector<MaterialSpec> materials, std::optional<double> crease_rad,
                      double sheet_thickness_m, double merging_m)
-    : Scatterer(centre_of(mesh), surface_of(mesh, centre_of(mesh), crease_rad, merging_m), std::move(materials),
-                crease_rad, sheet_thickness_m) {}
+    : Scatterer(centred(mesh, crease_rad, merging_m), std::move(materials), crease_rad, sheet_thickness_m) {}
+
+Scatterer::CentredSurface Scatterer::centred(const TriangleMesh& mesh, std::optional<double> crease_rad,
+                                             double merging_m) {
+  const Vec3 centre = centre_of(mesh);
+  std::vector<Facet> facets = facets_of(transformed(mesh, Mat3::Identity(), -centre), crease_rad.has_value());
+  SmoothSides smooth = smooth_sides(facets, crease_rad);
+  if (crease_rad) merging_m = 0;
+  return {centre, merge_smooth_facets(std::move(facets), std::move(smooth), merging_m)};
+}
 
 // Surfaces that rise above their facets by less than 1e-7 of the radius count as flat: it is the rounding of
 // single-precision coordinates, 7 um on the 144 m ship, 0.3 deg of phase at 16 GHz.
-Scatterer::Scatterer(const Vec3& centre, MergedFacets surface, std::vector<MaterialSpec> materials,
-                     std::optional<double> crease_rad, double sheet_thickness_m)
-    : centre_(centre),
-      facets_(std::move(surface.facets)),
+Scatterer::Scatterer(CentredSurface of, std::vector<MaterialSpec> materials, std::optional<double> crease_rad,
+                     double sheet_thickness_m)
+    : centre_(of.centre),
+      facets_(std::move(of.surface.facets)),
       radius_(radius_of(facets_)),
       sheet_thickness_(sheet_thickness_m),
-      surface_(facets_, surface.smooth, 1e-7 * radius_),
+      surface_(facets_, of.surface.smooth, 1e-7 * radius_),
       panels_(facets_, surface_),
       edges_(find_sharp_edges(facets_, crease_rad.value_or(0) > 0 ? *crease_rad : radians(kDefaultCreaseDeg),
                               sheet_thickness_)),

@@ -68,8 +68,14 @@ class Scatterer {
   std::vector<MaterialSpec> materials_;
   struct RaySceneOnDemand;
 
-  Scatterer(const Vec3& centre, MergedFacets surface, std::vector<MaterialSpec> materials,
-            std::optional<double> crease_rad, double sheet_thickness_m);
+  // A mesh about its centre.
+  struct CentredSurface {
+    Vec3 centre;
+    MergedFacets surface;
+  };
+  static CentredSurface centred(const TriangleMesh& mesh, std::optional<double> crease_rad, double merging_m);
+  Scatterer(CentredSurface of, std::vector<MaterialSpec> materials, std::optional<double> crease_rad,
+            double sheet_thickness_m);
 
   std::shared_ptr<RaySceneOnDemand> ray_scene_;
 };
