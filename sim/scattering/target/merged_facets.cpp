@@ -17,12 +17,9 @@
 namespace seaglint {
 namespace {
 
-constexpr double kMaxNormalError = 0.01;  // of a removed vertex, rad
-// Smallest shape factor of a merged facet, unless those that it replaces are narrower.
+// Smallest shape factor of a merged facet, unless those that it replaces are narrower: excludes triangles of nearly
+// collinear vertices, whose normals are rounding.
 constexpr double kMinShape = 0.3;
-// Distance outside the merged facets at which a removed vertex may lie, in barycentric coordinates: the surface is
-// curved.
-constexpr double kOutside = 0.1;
 constexpr std::size_t kMaxRing = 32;
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
@@ -62,12 +59,10 @@ struct CurvedTriangle {
     const double b = to_b.dot(x - a), c = to_c.dot(x - a);
     return {1 - b - c, b, c};
   }
-  bool replaces(const SurfacePoint& point, const std::array<double, 3>& at, double tolerance) const {
+  // Height of the point over the surface, m. at: its barycentric coordinates.
+  double height_of(const Vec3& x, const std::array<double, 3>& at) const {
     const auto& [la, lb, lc] = at;
-    const double height = 4 * (ab * la * lb + bc * lb * lc + ca * lc * la);
-    if (!(std::abs(normal.dot(point.position - a) - height) <= tolerance)) return false;
-    const Vec3 interpolated = la * corner_normal[0] + lb * corner_normal[1] + lc * corner_normal[2];
-    return (interpolated.normalized() - point.normal).squaredNorm() <= kMaxNormalError * kMaxNormalError;
+    return normal.dot(x - a) - 4 * (ab * la * lb + bc * lb * lc + ca * lc * la);
   }
 };
 
@@ -244,20 +239,11 @@ class FacetMerger {
     }
     in_.clear();
     for (const std::uint32_t x : removed_) {
-      double most = -kOutside;
-      std::size_t best = fan_.size();
-      std::array<double, 3> at{};
-      for (std::size_t j = 0; j < fan_.size(); ++j) {
-        const std::array<double, 3> lambda = fan_[j].barycentric(points_[x].position);
-        const double least = *std::ranges::min_element(lambda);
-        if (least > most) {
-          most = least;
-          best = j;
-          at = lambda;
-        }
-      }
-      if (best == fan_.size() || !fan_[best].replaces(points_[x], at, tolerance_)) return false;
-      in_.push_back(best);
+      const Vec3& position = points_[x].position;
+      const auto inside = [&](const CurvedTriangle& t) { return std::ranges::min(t.barycentric(position)); };
+      const auto best = std::ranges::max_element(fan_, {}, inside);
+      if (!(std::abs(best->height_of(position, best->barycentric(position))) <= tolerance_)) return false;
+      in_.push_back(static_cast<std::size_t>(best - fan_.begin()));
     }
     const std::vector<std::uint32_t> old = std::exchange(at_[v], {});
     for (const std::uint32_t w : ring_) {
@@ -312,7 +298,7 @@ MergedFacets merge_smooth_facets(std::vector<Facet> facets, SmoothSides smooth, 
 }
 
 double merging_tolerance(double highest_hz) {
-  return std::exp2(std::floor(std::log2(kSpeedOfLight / highest_hz / 500)));
+  return std::exp2(std::floor(std::log2(kSpeedOfLight / highest_hz / 2000)));
 }
 
 }  // namespace seaglint

@@ -53,7 +53,7 @@ struct ScattererSettings {
   std::optional<double> crease_rad;   // crease angle of Scatterer; absent: as the mesh's normals or its shape say
   double sheet_thickness_m = 0;       // thickness of open surfaces
   bool edges = true;                  // edge diffraction is used
-  double lowest_hz = 1e9, highest_hz = 1e9;
+  double lowest_hz = 1e9, highest_hz = 1e9;  // the highest determines which facets are merged (merging_tolerance())
 };
 
 // Target ready for illumination.

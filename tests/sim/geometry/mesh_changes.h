@@ -20,4 +20,9 @@ inline TriangleMesh split_vertices(const TriangleMesh& mesh) {
   return split;
 }
 
+inline TriangleMesh scaled(TriangleMesh mesh, const Vec3& factor) {
+  for (Vec3& x : mesh.vertices) x = x.cwiseProduct(factor);
+  return mesh;
+}
+
 }  // namespace seaglint::testing_meshes

@@ -21,17 +21,12 @@ namespace {
 using namespace testing_echoes;
 using namespace testing_meshes;
 
-constexpr double kTolerance = 3e-5;  // m: merging_tolerance() from 5 to 10 GHz
+const double kTolerance = merging_tolerance(10e9);
 
-MergedFacets merged(const TriangleMesh& mesh, double tolerance = kTolerance) {
+MergedFacets merged(const TriangleMesh& mesh) {
   std::vector<Facet> facets = make_facets(mesh);
   SmoothSides smooth = smooth_sides_by_shape(facets, radians(kDefaultCreaseDeg));
-  return merge_smooth_facets(std::move(facets), std::move(smooth), tolerance);
-}
-
-TriangleMesh scaled(TriangleMesh mesh, const Vec3& factor) {
-  for (Vec3& x : mesh.vertices) x = x.cwiseProduct(factor);
-  return mesh;
+  return merge_smooth_facets(std::move(facets), std::move(smooth), kTolerance);
 }
 
 // Of the unit sphere of 20 x 4^n facets, the part above z = 0.8.
@@ -67,8 +62,7 @@ double change_db(const TriangleMesh& mesh, const Vec3& r_hat, int bounces) {
   const TracingSettings settings{0, bounces};
   const BistaticGeometry geometry = monostatic(radar_basis(r_hat));
   const auto fine = scattering_matrices(Scatterer(mesh), geometry, k, settings);
-  const auto coarse =
-      scattering_matrices(Scatterer(mesh, {}, std::nullopt, 0, merging_tolerance(10e9)), geometry, k, settings);
+  const auto coarse = scattering_matrices(Scatterer(mesh, {}, std::nullopt, 0, kTolerance), geometry, k, settings);
   double error = 0, power = 0;
   for (std::size_t q = 0; q < k.size(); ++q) {
     for (const int channel : {kHhChannel, kVvChannel}) {
@@ -114,13 +108,14 @@ TEST(MergedFacets, FormAClosedSurfaceOfVerticesOfTheMesh) {
   }
 }
 
-// Independent of the merging: points on merged facets, raised by the height of the surface over them, against the
-// sphere itself. Away from the rim the error is that of quadratic facets, 45 mm to the fourth / 128 = 3e-8 m, and of
-// the normals of the fine mesh; at the rim those are one-sided, and the tolerance limits it.
-TEST(MergedFacets, AreAsHighAsTheSurfaceThatTheyReplace) {
-  const MergedFacets surface = merged(cap(7));
+// Largest distances from the unit sphere, m: of points on the facets raised by the height of the surface over them, at
+// all facets and above z = 0.82, and of the facets themselves there.
+struct Distances {
+  double all = 0, inside = 0, flat = 0;
+};
+Distances distances_from_sphere(const MergedFacets& surface) {
   const SmoothSurface smooth(surface.facets, surface.smooth, 0);
-  double largest = 0, inside = 0, flat = 0;
+  Distances largest;
   for (int f = 0; f < static_cast<int>(surface.facets.size()); ++f) {
     const Facet& facet = surface.facets[static_cast<std::size_t>(f)];
     const bool at_rim = std::ranges::any_of(facet.corner, [](const Vec3& x) { return x.z() < 0.82; });
@@ -131,18 +126,29 @@ TEST(MergedFacets, AreAsHighAsTheSurfaceThatTheyReplace) {
         const double height = 4 * (s[0] * a * b + s[1] * b * c + s[2] * c * a);
         const Vec3 x = a * facet.corner[0] + b * facet.corner[1] + c * facet.corner[2];
         const double error = std::abs((x + height * facet.normal).norm() - 1);
-        largest = std::max(largest, error);
+        largest.all = std::max(largest.all, error);
         if (at_rim) continue;
-        inside = std::max(inside, error);
-        flat = std::max(flat, 1 - x.norm());
+        largest.inside = std::max(largest.inside, error);
+        largest.flat = std::max(largest.flat, 1 - x.norm());
       }
     }
   }
-  std::printf("largest distance from the sphere %.2f um, at the rim %.1f um, of flat facets %.0f um\n", 1e6 * inside,
-              1e6 * largest, 1e6 * flat);
-  EXPECT_LE(inside, 1e-6);
-  EXPECT_LE(largest, kTolerance);
-  EXPECT_GE(flat, 1e-4);
+  return largest;
+}
+
+// Independent of the merging, against the sphere itself. Away from the rim the error is that of quadratic facets, 45 mm
+// to the fourth / 128 = 3e-8 m, and of the normals of the fine mesh; at the rim those are one-sided, so that the fine
+// mesh has an error of its own there, to which merging adds the tolerance.
+TEST(MergedFacets, AreAsHighAsTheSurfaceThatTheyReplace) {
+  const std::vector<Facet> facets = make_facets(cap(7));
+  const SmoothSides smooth = smooth_sides_by_shape(facets, radians(kDefaultCreaseDeg));
+  const Distances fine = distances_from_sphere({facets, smooth}),
+                  coarse = distances_from_sphere(merge_smooth_facets(facets, smooth, kTolerance));
+  std::printf("largest distance from the sphere %.2f um, at the rim %.1f (fine mesh %.1f) um, of flat facets %.0f um\n",
+              1e6 * coarse.inside, 1e6 * coarse.all, 1e6 * fine.all, 1e6 * coarse.flat);
+  EXPECT_LE(coarse.inside, 1e-6);
+  EXPECT_LE(coarse.all, fine.all + kTolerance);
+  EXPECT_GE(coarse.flat, 1e-4);
 }
 
 TEST(MergedFacets, LeaveFlatBodiesKnucklesAndFreeEdgesAsTheyAre) {
@@ -201,13 +207,21 @@ TEST(MergedFacets, HaveTheEchoOfTheFineMesh) {
   TriangleMesh over_plate = body;
   over_plate.append(
       transformed(make_plate(2, 2), Eigen::AngleAxisd(-kPi / 2, Vec3::UnitY()).toRotationMatrix(), Vec3(0.9, 0, -0.8)));
+  // A cylinder of 1 m with round ends.
+  TriangleMesh capsule = make_sphere(0.5, 6);
+  for (Vec3& x : capsule.vertices) {
+    if (std::abs(x.x()) > 1e-9) x.x() += std::copysign(0.5, x.x());
+  }
+  const double broadside_db = change_db(capsule, direction(88, 3), 1);
   const double alone_db = change_db(body, direction(20, 25), 1),
                over_plate_db = change_db(over_plate, direction(20, 25), 2);
-  std::printf("relative to the echo of 81,920 facets: ellipsoid %.1f dB, over a plate %.1f dB\n", alone_db,
-              over_plate_db);
+  std::printf("relative to the echo of 81,920 facets: ellipsoid %.1f dB, over a plate %.1f dB, capsule %.1f dB\n",
+              alone_db, over_plate_db, broadside_db);
   RecordProperty("alone_db", std::to_string(alone_db));
   RecordProperty("over_plate_db", std::to_string(over_plate_db));
-  EXPECT_LT(alone_db, -48);
+  RecordProperty("broadside_db", std::to_string(broadside_db));
+  EXPECT_LT(broadside_db, -52);
+  EXPECT_LT(alone_db, -55);
   EXPECT_LT(over_plate_db, -30);
 }
 
@@ -222,8 +236,8 @@ TEST(MergedFacets, AreTheSameForNeighbouringBands) {
   EXPECT_EQ(merging_tolerance(10e9), merging_tolerance(12e9));
   for (const double hz : {1e9, 3e9, 9.4e9, 16e9, 35e9, 94e9}) {
     const double fraction = kSpeedOfLight / hz / merging_tolerance(hz);
-    EXPECT_GE(fraction, 500);
-    EXPECT_LT(fraction, 1000);
+    EXPECT_GE(fraction, 2000);
+    EXPECT_LT(fraction, 4000);
   }
 }
 

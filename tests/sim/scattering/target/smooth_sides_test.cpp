@@ -39,11 +39,6 @@ double smooth_fraction(const TriangleMesh& mesh) {
   return all > 0 ? found / all : 0;
 }
 
-TriangleMesh scaled(TriangleMesh mesh, const Vec3& factor) {
-  for (Vec3& x : mesh.vertices) x = x.cwiseProduct(factor);
-  return mesh;
-}
-
 // Vertices displaced along the surface of a unit sphere by up to a third of a side: facets of irregular shape.
 TriangleMesh irregular_sphere(int subdivisions) {
   TriangleMesh sphere = make_sphere(1, subdivisions);
