@@ -221,7 +221,7 @@ void RcsArguments::add_to(CommandOptions& command) {
   command.add_flag("--cross-check", cross_check,
                    "Compute the sweep by beams and by rays and print, by view, the levels, their difference, that of "
                    "the fields relative to the beams', and the part and bounces that differ most; the CSV file is then "
-                   "this table and may be left out");
+                   "this table, with a figure beside it (.png), and may be left out");
   command.add_option("-o,--output", output, "CSV file to write");
   add_export_as_to(command).group("Selection and export");
   add_selection_options(command, request.selection);

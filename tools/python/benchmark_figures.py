@@ -115,7 +115,7 @@ RAYS = {
                                     each("matrix_over_rays_{}_{}mm", median("matrix/embree", 2), of_fine_rays),
                                     each("interval_over_rays_{}_{}mm", median("interval/embree", 2), of_fine_rays))),
 }
-# The two methods of the solver, ten minutes.
+# The two methods of the solver, three minutes.
 METHODS = {
     "ShipByRays/": (1, joined(each("ship_by_rays_{}_{}_db", median("rays_dB", 0)),
                               each("ship_by_beams_{}_{}_db", median("beams_dB", 0), by_default),
