@@ -19,6 +19,9 @@ constexpr double kMaxSlope = 2;
 // Facets whose taper is below this at all vertices are omitted.
 constexpr double kNegligibleTaper = 2e-3;
 
+// Two lengths whose ratio is less are equal but for rounding: the first is taken, so that a moved target is cut alike.
+constexpr double kUnlikeRounding = 1 + 1e-6;
+
 // Largest error of linear interpolation of a function with second derivative 1 between the vertices of a triangle and
 // between the ends of a side, of unit length (circle of radius 1 / sqrt(3)).
 constexpr double kTriangleError = 1.0 / 6, kSideError = 1.0 / 8;
@@ -65,8 +68,10 @@ class CurvedDecomposer {
   }
 
   void run() {
-    if (std::max({fade_[0], fade_[1], fade_[2]}) > kNegligibleTaper)
-      part(footprint_.polygon, {corner_at(c_.corner[0]), corner_at(c_.corner[1]), corner_at(c_.corner[2])});
+    if (std::max({fade_[0], fade_[1], fade_[2]}) <= kNegligibleTaper) return;
+    Cell triangle;
+    for (const Vec2& corner : c_.corner) triangle.add(corner_at(corner));
+    part(footprint_.polygon, triangle);
   }
 
  private:
@@ -112,7 +117,6 @@ class CurvedDecomposer {
     return c_.flat_panel ? psi_slope(p) : between(c_.w, of_p);
   }
 
-  // Vertex of a triangle of the facet.
   struct Corner {
     Vec2 p, w;   // m; gradient of psi
     Vec2 slope;  // of psi along the surface
@@ -121,29 +125,40 @@ class CurvedDecomposer {
     const Vec2 w = psi_slope(p);
     return {p, w, c_.flat_panel ? Vec2(along_surface_ * w) : between(slope_, barycentric(p))};
   }
+  Corner middle_of(const Corner& a, const Corner& b) const { return corner_at(0.5 * (a.p + b.p)); }
 
-  // Decomposes the illuminated polygon inside a triangle of the facet; the triangle determines the form.
-  void part(const MovingPolygon& polygon, const std::array<Corner, 3>& triangle) {
-    double size = 0, largest = 0;
-    int longest = 0;
-    for (int i = 0; i < 3; ++i) {
-      const int j = (i + 1) % 3;
-      const Vec2 along = triangle[j].p - triangle[i].p;
-      const double length = footprint_.surface_length(along);
-      const double run_i = triangle[i].w.dot(along), run_j = triangle[j].w.dot(along);
-      const double steepest = std::min(std::max(std::abs(run_i), std::abs(run_j)), kMaxSlope * length);
-      const double run = std::max(steepest, kMaxAmplitudeError * min_slope_ * length);
-      size = std::max(size, length);
-      if (run > largest) {
-        largest = run;
-        longest = i;
+  // Convex part of the facet with three or four corners.
+  struct Cell {
+    std::array<Corner, 4> corner;
+    std::size_t corners = 0;
+
+    void add(const Corner& c) { corner[corners++] = c; }
+    const Corner& at(std::size_t i) const { return corner[i % corners]; }
+  };
+
+  // Largest change of psi between two corners, by the slopes at both.
+  double path_change(const Corner& a, const Corner& b) const {
+    const Vec2 along = b.p - a.p;
+    const double length = footprint_.surface_length(along);
+    const double steepest = std::max(std::abs(a.w.dot(along)), std::abs(b.w.dot(along)));
+    return std::max(std::min(steepest, kMaxSlope * length), kMaxAmplitudeError * min_slope_ * length);
+  }
+
+  // Decomposes the illuminated polygon inside a cell of the facet; the cell determines the form.
+  void part(const MovingPolygon& polygon, const Cell& cell) {
+    double size = 0, largest = 0, difference = 0;
+    Vec2 mean = Vec2::Zero();
+    for (std::size_t i = 0; i < cell.corners; ++i) {
+      mean += cell.at(i).slope / static_cast<double>(cell.corners);
+      for (std::size_t j = 0; j < i; ++j) {
+        size = std::max(size, footprint_.surface_length(cell.at(i).p - cell.at(j).p));
+        largest = std::max(largest, path_change(cell.at(i), cell.at(j)));
       }
     }
-    // The slope is linear over the triangle, but for the further path: at least that at the centre less the largest
-    // difference from it and less the error of linear interpolation.
-    const Vec2 mean = (triangle[0].slope + triangle[1].slope + triangle[2].slope) / 3;
-    double difference = 0;
-    for (const Corner& corner : triangle) difference = std::max(difference, (corner.slope - mean).squaredNorm());
+    // The slope is linear over the cell, but for the further path: at least the mean less the largest difference from
+    // it and less the error of linear interpolation.
+    for (std::size_t i = 0; i < cell.corners; ++i)
+      difference = std::max(difference, (cell.at(i).slope - mean).squaredNorm());
     const double min = mean.norm() - std::sqrt(difference) - kTriangleError * slope_change_ * size * size;
     const double k = band_.form().centre();
     if (min > min_slope_ && k * min * size / 2 > kMaxHalfPhase && k * min * min > kContourRatio * curvature_) {
@@ -154,41 +169,75 @@ class CurvedDecomposer {
       point(polygon);
       return;
     }
+    const std::array<Cell, 2> halves = halved(cell.corners == 3 ? rectangle_around(cell) : cell);
+    const Corner &from = halves[0].at(0), &inside = halves[0].at(1), &to = halves[1].at(0);
     // The cut is fixed in the body, whose points at height z move by -z d_i when the look direction changes by d_i: at
     // rest in the projection plane it would slide on the facet.
-    const Corner &a = triangle[longest], &b = triangle[(longest + 1) % 3], &far = triangle[(longest + 2) % 3];
-    const Corner middle = corner_at(0.5 * (a.p + b.p));
-    const Vec2 along = far.p - middle.p;
+    const Vec2 along = to.p - from.p;
     MovingLine line;
     line.gradient = Vec2(-along.y(), along.x()).normalized();
-    line.value = -line.gradient.dot(middle.p);
+    line.value = -line.gradient.dot(from.p);
     const DepthPlane& plane = footprint_.plane;
     line.value_d1 = line.gradient.x() * plane.z0;
     line.value_d2 = line.gradient.y() * plane.z0;
     line.gradient_d1 = line.gradient.x() * plane.slope;
     line.gradient_d2 = line.gradient.y() * plane.slope;
-    auto [near_a, near_b] = split_by_line(polygon, line);
-    if (line.at(a.p) <= line.at(b.p)) std::swap(near_a, near_b);
-    if (!near_a.empty()) part(near_a, {a, middle, far});
-    if (!near_b.empty()) part(near_b, {middle, b, far});
+    auto [first, second] = split_by_line(polygon, line);
+    if (line.at(inside.p) <= 0) std::swap(first, second);
+    if (!first.empty()) part(first, halves[0]);
+    if (!second.empty()) part(second, halves[1]);
+  }
+
+  // Rectangle on the surface around a triangle, along its longest side. Halves of a rectangle keep their width while
+  // they are cut to length; those of a triangle become narrow with it, and a triangle n times longer than wide would
+  // have n^1.6 pieces.
+  Cell rectangle_around(const Cell& triangle) const {
+    const auto length = [&](std::size_t i) {
+      return footprint_.surface_length(triangle.at(i + 1).p - triangle.at(i).p);
+    };
+    std::size_t longest = 0;
+    for (std::size_t i = 1; i < 3; ++i)
+      if (length(i) > kUnlikeRounding * length(longest)) longest = i;
+    const Vec2 a = triangle.at(longest).p, b = triangle.at(longest + 1).p, side = b - a;
+    const Vec2 to_third = triangle.at(longest + 2).p - a;
+    const Vec2 up = to_third - footprint_.surface_dot(to_third, side) / footprint_.surface_dot(side, side) * side;
+    Cell rectangle;
+    for (const Vec2& p : {a, b, Vec2(b + up), Vec2(a + up)}) rectangle.add(corner_at(p));
+    return rectangle;
+  }
+
+  // Halves of a rectangle, whose two sides over which psi changes most are cut in the middle. The cut goes from the
+  // first corner of the first half to the first one of the second half.
+  std::array<Cell, 2> halved(const Cell& cell) const {
+    const auto change = [&](std::size_t i) {
+      return std::max(path_change(cell.at(i), cell.at(i + 1)), path_change(cell.at(i + 2), cell.at(i + 3)));
+    };
+    const std::size_t cut = change(1) > kUnlikeRounding * change(0) ? 1 : 0;
+    const Corner from = middle_of(cell.at(cut), cell.at(cut + 1)), to = middle_of(cell.at(cut + 2), cell.at(cut + 3));
+    return {Cell{{from, cell.at(cut + 1), cell.at(cut + 2), to}, 4},
+            Cell{{to, cell.at(cut + 3), cell.at(cut), from}, 4}};
   }
 
   // Integral over a small polygon as one term at its centroid, by the seven-point rule of degree 5 on its triangles (A.
   // H. Stroud, Approximate Calculation of Multiple Integrals, T2: 5-1), as a power series of e^{jkd} in the path d from
   // the centroid: with |kd| < 1 its first omitted term is below 1/40320. The path is limited to that, so that a piece
-  // that rounding leaves outside its triangle, seen almost edge-on, contributes no more than its area.
+  // that rounding leaves outside its cell, seen almost edge-on, contributes no more than its area. Where it is more
+  // than twice that the slope of psi exceeds kMaxSlope and the phase varies within the piece: it is omitted, since its
+  // area with one phase would be the more, the larger the piece.
   void point(const MovingPolygon& polygon) {
     const Vec2 c = centroid(polygon);
     const double psi_c = psi(c), max_path = 1 / band_.form().highest;
     constexpr double kNear = 0.10128650732345634, kFar = 0.47014206410511509;
     constexpr double kWeightNear = 0.12593918054482715, kWeightFar = 0.13239415278850618, kWeightMiddle = 0.225;
     std::array<double, 8> moment{};  // of d^n / n!, with the taper
+    double longest_path = 0;
     for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
       const Vec2 &a = polygon[0].p, &b = polygon[i].p, &d = polygon[i + 1].p;
       const double area = 0.5 * cross(b - a, d - a);
       const auto add = [&](double weight, const Vec2& p) {
         const BarycentricWeights of_p = barycentric(p);
-        const double path = std::clamp(psi(p, of_p) - psi_c, -max_path, max_path);
+        const double whole_path = psi(p, of_p) - psi_c, path = std::clamp(whole_path, -max_path, max_path);
+        longest_path = std::max(longest_path, std::abs(whole_path));
         double term = area * weight * between(fade_, of_p);
         for (std::size_t n = 0; n < moment.size(); ++n) {
           moment[n] += term;
@@ -201,6 +250,7 @@ class CurvedDecomposer {
         add(kWeightFar, (1 - 2 * kFar) * x + kFar * (y + z));
       }
     }
+    if (longest_path > 2 * max_path) return;
     const Complex spreading = c_.divergence_factor(c);
     out_.push_back({at_nodes([&](double k) {
                       const double x = k * k;

@@ -29,8 +29,9 @@ struct CurvedContribution {
 // Appends the terms of a footprint with curvature that hold over the band and, for `min_slope` > 0, while the slope of
 // psi along the surface changes by kMaxAmplitudeError min_slope. Where the slope is large enough these are end points
 // and edges of the contour with the local slope, which cancel where two smooth facets meet; elsewhere pieces of
-// half-phase below kMaxHalfPhase, integrated with the full phase. The triangle and its halves determine the choice, not
-// their illuminated part. The form and the taper are those of the centre of the FormRange.
+// half-phase below kMaxHalfPhase, integrated with the full phase. The triangle, or the rectangle around it and its
+// halves determine the choice, not their illuminated part. The form and the taper are those of the centre of the
+// FormRange.
 void curved_contributions(const Footprint& footprint, const FrequencyBand& band, double min_slope,
                           std::vector<CurvedContribution>& terms);
 

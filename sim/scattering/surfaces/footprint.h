@@ -40,11 +40,9 @@ struct Footprint {
 
   // Of the flat facet, m.
   double psi(const Vec2& p) const { return psi0 + w.dot(p); }
-  // Length on the panel of a step in the projection plane, m.
-  double surface_length(const Vec2& step) const {
-    const double rise = plane.slope.dot(step);
-    return std::sqrt(step.squaredNorm() + rise * rise);
-  }
+  // Dot product, m^2, of two steps on the panel, and length of one, m, given in the projection plane.
+  double surface_dot(const Vec2& a, const Vec2& b) const { return a.dot(b) + plane.slope.dot(a) * plane.slope.dot(b); }
+  double surface_length(const Vec2& step) const { return std::sqrt(surface_dot(step, step)); }
 };
 
 // Sets psi0, w and the surface slopes from plane and image transform. n_image: unit normal of the panel's image.

@@ -28,6 +28,9 @@ namespace {
 
 constexpr std::size_t kPacket = 16;  // rays that Embree traces together
 
+// Embree omits triangles with corners beyond 1.844e18 without an error.
+constexpr double kMaxCoordinate = 1e18;  // m
+
 // Sets denormal numbers to zero, as Embree requires, and restores the caller's floating-point mode at the end of the
 // scope.
 class DenormalsAreZero {
@@ -179,6 +182,11 @@ RayScene::RayScene(std::span<const Facet> facets) : impl_(std::make_unique<Impl>
   }
   for (std::size_t f = 0; f < facets.size(); ++f) {
     for (std::size_t i = 0; i < 3; ++i) {
+      if (!(facets[f].corner[i].cwiseAbs().maxCoeff() < kMaxCoordinate)) {
+        rtcReleaseGeometry(geometry);
+        throw std::invalid_argument("Embree takes no triangle " + std::to_string(f) + " of " +
+                                    std::to_string(facets.size()) + ": a corner lies beyond 1e18 m");
+      }
       for (int axis = 0; axis < 3; ++axis) *vertices++ = static_cast<float>(facets[f].corner[i][axis]);
       *triangles++ = static_cast<unsigned>(3 * f + i);
     }
@@ -187,6 +195,9 @@ RayScene::RayScene(std::span<const Facet> facets) : impl_(std::make_unique<Impl>
   rtcAttachGeometry(impl_->scene, geometry);
   rtcReleaseGeometry(geometry);
   rtcCommitScene(impl_->scene);
+  if (const RTCError error = rtcGetDeviceError(impl_->device); error != RTC_ERROR_NONE)
+    throw std::runtime_error("Embree builds no tree of " + std::to_string(facets.size()) + " triangles, error " +
+                             std::to_string(static_cast<int>(error)));
 }
 
 RayScene::~RayScene() = default;

@@ -76,6 +76,8 @@ std::vector<BvhNode> build_bvh(std::span<const Box3> boxes);
 // Facets as an Embree scene. Immutable after construction; queries are safe from any number of threads.
 class RayScene {
  public:
+  // Throws std::invalid_argument with the triangle's number for corners beyond 1e18 m, which Embree would omit, and
+  // std::runtime_error with the number of triangles where it can build no tree (memory).
   explicit RayScene(std::span<const Facet> facets);
   ~RayScene();
   RayScene(RayScene&&) noexcept;

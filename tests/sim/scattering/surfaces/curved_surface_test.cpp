@@ -11,6 +11,7 @@
 #include "sim/geometry/shapes/generators.h"
 #include "sim/scattering/response/scattering_matrix.h"
 #include "sim/scattering/surfaces/curved_footprint.h"
+#include "sim/scattering/surfaces/curved_integral.h"
 #include "sim/scattering/surfaces/phase_integral.h"
 #include "sim/scattering/surfaces/point_contributions.h"
 #include "sim/scattering/target/smooth_surface.h"
@@ -324,6 +325,37 @@ TEST(SmoothSurface, KeepsALargeFaceFlatNextToAFillet) {
 
 // A cut of a facet by the solver is fixed to the body: one trace is valid over an aspect change, however far along the
 // line of sight the body is from its origin.
+// A strip behind a curved reflector, on a flat panel seen at up to 1e-6 rad, inside a beam that is longer than the
+// panel by as much: as many pieces as half a radian of phase over its length asks for, less than twice that by halving,
+// two at its ends and one more across; their sum is the closed form.
+TEST(CurvedSurface, PiecesOfAStripAreAsManyAsItIsLong) {
+  constexpr double kLength = 0.5, kWidth = 0.004, kSlope = 1.5, kAcross = 0.3, k = 63;
+  for (const double steepness : {0.0, 1e2, 1e6}) {
+    Footprint strip;
+    const double area_ratio = std::hypot(1, steepness), length = kLength / area_ratio;
+    strip.plane.slope = Vec2(steepness, 0);
+    strip.w = Vec2(kSlope * area_ratio, kAcross);
+    for (const Vec2& p : {Vec2(0, 0), Vec2(length, 0), Vec2(length, kWidth), Vec2(0, kWidth)})
+      strip.polygon.push_back({p, Vec2::Zero(), Vec2::Zero()});
+    const std::array corner{Vec2(-0.11, -0.013), Vec2(0.77, -0.013), Vec2(-0.11, 0.031)};
+    CurvedFootprint beam{corner, Barycentric(corner), {}, {}, {}, {}, {}, true, true, {}, {}, {}};
+    beam.incident_shadow_distance.fill(1e9);
+    beam.receiver_shadow_distance.fill(1e9);
+    strip.curvature = std::make_shared<const CurvedFootprint>(beam);
+    std::vector<CurvedContribution> pieces;
+    curved_contributions(strip, FrequencyBand(k), 2 * kSlope, pieces);
+    EXPECT_LE(pieces.size(), 2 * (2 * k * kSlope * kLength + 2)) << steepness;
+    Complex sum = 0;
+    for (const CurvedContribution& piece : pieces) sum += piece.integral[0] * std::polar(1.0, k * piece.psi);
+    const double along = k * kSlope * kLength / 2, across = k * kAcross * kWidth / 2;
+    const Complex exact =
+        length * kWidth * std::sin(along) / along * std::sin(across) / across * std::polar(1.0, along + across);
+    EXPECT_LT(std::abs(sum - exact), 1e-7 * length * kWidth) << steepness;
+    std::printf("steepness %g: %zu pieces, error %.1e of the area\n", steepness, pieces.size(),
+                std::abs(sum - exact) / (length * kWidth));
+  }
+}
+
 TEST(CurvedSurface, IsValidOverAnAspectChangeAtAnyPosition) {
   const double k = wavenumber(10e9);
   for (const Vec3& place : {Vec3(0, 0, 0), Vec3(20, 0, 0), Vec3(0, 0, 20)}) {

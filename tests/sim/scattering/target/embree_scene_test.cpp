@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <stdexcept>
 #include <vector>
 
 #include "sim/core/numbers/random.h"
@@ -30,6 +31,17 @@ TEST(RayScene, KeepsTheCallersFloatingPointMode) {
     EXPECT_EQ(after & kModes, set & kModes);
     for (const int hit : hits) EXPECT_EQ(hit, hits.front());
     EXPECT_NE(hits.front(), kNoFacet);
+  }
+}
+
+TEST(RayScene, NamesTheTriangleThatEmbreeWouldOmit) {
+  std::vector<Facet> facets = make_facets(make_plate(1, 1));
+  facets[1].corner[2].x() = 2e18;
+  try {
+    const RayScene scene(facets);
+    FAIL() << "accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(), "Embree takes no triangle 1 of 2: a corner lies beyond 1e18 m");
   }
 }
 
