@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Separates scattering centres from clutter peaks among the CLEAN components, by comparing each with the mean residual
-// power around it.
+// Separates scattering centres from clutter peaks among the CLEAN components, by comparing each with the residual power
+// around it and with the clutter of all ranges.
 
 #include <span>
 #include <vector>
@@ -17,13 +17,15 @@ struct CellSizes {
   double range_m = 1;                                        // c / (2 B_s)
   double velocity_mps = 1;                                   // lambda / (2 N T_r)
   double range_oversampling = 1, velocity_oversampling = 1;  // cells of the map per resolution cell
-  double lobe_cells = 1;  // power of a point of amplitude 1, summed over the resolution cells of its main lobe
+  // power of a point of amplitude 1, summed over the resolution cells of each axis
+  double lobe_ranges = 1, lobe_velocities = 1;
 };
 
-// For each of `points`: true if its power is at least `min_power` and at least `factor` times its local level, the
-// larger of residual_floor at its cell and the mean of its surroundings (5 velocities x 13 ranges) times a margin for
-// textured clutter. The power of a rejected point is returned to the surroundings of the others. Where accepted points
-// dominate their surroundings, residual_floor alone applies (README.md).
+// For each of `points`: true if its power is at least `min_power` and at least `factor` times its level. The level is
+// residual_floor at its cell where accepted points dominate its surroundings, else the larger of that and of the
+// clutter ridge's level in 11 velocities x 11 ranges around it times a margin for textured clutter; but the ridge never
+// counts more than its level at the 90 % quantile of all ranges (README.md). The power of a rejected point is returned
+// to the surroundings of the others.
 std::vector<bool> exceeds_local_level(std::span<const CleanComponent> points, const RvMap& residual,
                                       const std::vector<double>& floor, double factor, double min_power,
                                       const CellSizes& cells);

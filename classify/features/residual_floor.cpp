@@ -43,8 +43,7 @@ std::vector<double> residual_floor(const RvMap& residual) {
   std::vector<double> floor(powers.size());
   for (std::size_t v = 0; v < rows; ++v) {
     for (std::size_t r = 0; r < columns; ++r) {
-      const double product = all > 0 ? column[r] * row[v] / all : 0;
-      floor[v * columns + r] = std::max({all, column[r], row[v], product});
+      floor[v * columns + r] = std::max({all, column[r], row[v], column[r] + row[v] - all});
     }
   }
   return floor;

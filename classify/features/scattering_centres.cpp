@@ -179,9 +179,12 @@ CleanedMap clean_map(std::span<const Complex> echo, const PulseTrain& train, con
   for (CleanComponent& point : points) {
     if (spec.clean_gain < 1) point.amplitude_m += residual.value(point.range_m, point.velocity_mps);
   }
-  const CellSizes cells{cell_r, cell_v, map_spec.range_oversampling, map_spec.velocity_oversampling,
-                        lobe_power(map_spec.range_taper, static_cast<std::size_t>(train.band_bins())) *
-                            lobe_power(map_spec.velocity_taper, train.pulses())};
+  const CellSizes cells{cell_r,
+                        cell_v,
+                        map_spec.range_oversampling,
+                        map_spec.velocity_oversampling,
+                        lobe_power(map_spec.range_taper, static_cast<std::size_t>(train.band_bins())),
+                        lobe_power(map_spec.velocity_taper, train.pulses())};
   const std::vector<bool> stays = exceeds_local_level(points, map, floor, factor, depth * strongest, cells);
   std::vector<ScatteringCentre> centres;
   for (std::size_t i = 0; i < points.size(); ++i) {

@@ -23,7 +23,7 @@ struct ScatteringCentre {
 // Scattering centres of an interval's echo (target, clutter and noise, [pulse][frequency]), strongest first, by CLEAN
 // with the exact point response of the map's code, holes and tapers (classify/features/README.md). A centre is inside
 // the map or less than a cell outside, within dynamic_range_db of the strongest, more than a main lobe's width from
-// every stronger one, and above the floor and the local mean of the final residual by a threshold that noise or
+// every stronger one, and above the floor and the clutter around it (local_level.h) by a threshold that noise or
 // textured clutter exceeds in 1 % of maps.
 struct CleanedMap {
   std::vector<ScatteringCentre> centres;   // strongest first
