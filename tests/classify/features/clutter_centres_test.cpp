@@ -15,6 +15,7 @@
 #include "sim/scenario/scenario.h"
 #include "sim/sea/realisation.h"
 #include "sim/sea/wave_field.h"
+#include "tests/mean_around.h"
 #include "tests/measured.h"
 
 namespace seaglint {
@@ -126,20 +127,6 @@ TEST(ClutterFalseAlarms, DoNotIncludeDensePoints) {
   const Echo echo = synthesise_echo(train, response, none, 1, 1);
   const auto centres = clean_map(echo.total(), train, {}, false, {}).centres;
   EXPECT_EQ(centres.size(), 40U);
-}
-
-// Mean power of a map in 5 velocities x 13 ranges around a point.
-double mean_around(const RvMap& map, double range_m, double velocity_mps) {
-  const auto cell = [](const std::vector<double>& axis, double value) {
-    return std::lround((value - axis.front()) / (axis[1] - axis[0]));
-  };
-  const long v = cell(map.velocity_mps, velocity_mps), r = cell(map.range_m, range_m);
-  double sum = 0;
-  for (long y = v - 2; y <= v + 2; ++y) {
-    for (long x = r - 6; x <= r + 6; ++x)
-      sum += std::norm(map.at(static_cast<std::size_t>(y), static_cast<std::size_t>(x)));
-  }
-  return sum / (5 * 13);
 }
 
 // A ship near broadside: a flash 45 m in amplitude, 24 points 14 to 27 dB below it in 30 m, and 300 weak ones that stay
