@@ -105,8 +105,10 @@ CrossCheck compare_solutions(const RcsRequest& beams, const RcsRequest& rays, co
         sweep.views(), std::min(thread_count(threads), 8),  // each needs the memory of a trace
         [&](std::size_t i) {
           const RcsView view{sweep.azimuth_of(i), sweep.elevation_of(i), check.grouped_hz};
-          set_groups(group_sums(view_contributions(beams, target, view, 1, stop).points, k),
-                     group_sums(view_contributions(rays, target, view, 1, stop).points, k), &check.rows[2 * i]);
+          // One after the other: a view of a large target has millions of contributions.
+          const GroupSums of_beams = group_sums(view_contributions(beams, target, view, 1, stop).points, k);
+          set_groups(of_beams, group_sums(view_contributions(rays, target, view, 1, stop).points, k),
+                     &check.rows[2 * i]);
           ++done;
           progress.advance();
         },

@@ -167,8 +167,13 @@ AspectContributions aspect_contributions(const Scatterer& scatterer, const Bista
                            stop);
   all.matrix = sum.matrices().front();
   all.estimate = about_origin(*sum.estimate(), scatterer, geometry);
-  for (const std::vector<PointContribution>& of_chunk : points)
+  std::size_t count = 0;
+  for (const std::vector<PointContribution>& of_chunk : points) count += of_chunk.size();
+  all.points.reserve(count);
+  for (std::vector<PointContribution>& of_chunk : points) {
     all.points.insert(all.points.end(), of_chunk.begin(), of_chunk.end());
+    of_chunk = {};  // millions on a large target
+  }
   if (geometry.transmit == geometry.receive) {
     all.matrix = reciprocal_mean(all.matrix, all.matrix);
     for (PointContribution& point : all.points) point.pattern = reciprocal_mean(point.pattern, point.pattern);
