@@ -123,8 +123,9 @@ class Decomposer {
     }
     const double slope = std::max(footprint_.psi_slope, kMaxAmplitudeError * threshold_);
     if (kc_ * slope * longest / 2 > kMaxHalfPhase && longest > 1e-6) {
-      MovingLine line;  // through the centroid, normal to the longest extent; at rest
-      line.gradient = along.normalized();
+      MovingLine line;  // through the centroid, normal to the longest extent on the panel; at rest
+      const Vec2& rise = footprint_.plane.slope;
+      line.gradient = (along + rise.dot(along) * rise).normalized();
       line.value = -line.gradient.dot(c);
       const auto [far, near] = split_by_line(polygon, line);
       if (!near.empty() && !far.empty() && near.size() + far.size() > polygon.size()) {

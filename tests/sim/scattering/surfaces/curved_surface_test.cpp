@@ -323,6 +323,27 @@ TEST(SmoothSurface, KeepsALargeFaceFlatNextToAFillet) {
   }
 }
 
+// A flat strip seen at up to 1e-6 rad, whose end points may not replace it over the aspect change: cut across its
+// length on the panel, not across its image.
+TEST(PointContributions, OfAStripAreAsManyAsItIsLong) {
+  constexpr double kLength = 0.5, kWidth = 0.004, k = 63;
+  const RadarBasis basis = radar_basis(Vec3::UnitX());
+  for (const double steepness : {1.0, 1e2, 1e6}) {
+    Footprint strip;
+    const double length = kLength / std::hypot(1, steepness);
+    strip.plane.slope = Vec2(steepness, 0);
+    strip.psi_slope = strip.psi_slope_rate = 1.5;
+    strip.panel_size = kLength;
+    strip.w = Vec2(1.5 * kLength / length, 0);
+    for (const Vec2& p : {Vec2(0, 0), Vec2(length, 0), Vec2(length, kWidth), Vec2(0, kWidth)})
+      strip.polygon.push_back({p, Vec2::Zero(), Vec2::Zero()});
+    std::vector<PointContribution> pieces;
+    decompose(strip, basis, {k, 0.05}, pieces);
+    EXPECT_GE(pieces.size(), k * 1.5 * kLength) << steepness;
+    EXPECT_LE(pieces.size(), 2 * k * 1.5 * kLength) << steepness;
+  }
+}
+
 // A cut of a facet by the solver is fixed to the body: one trace is valid over an aspect change, however far along the
 // line of sight the body is from its origin.
 // A strip behind a curved reflector, on a flat panel seen at up to 1e-6 rad, inside a beam that is longer than the
