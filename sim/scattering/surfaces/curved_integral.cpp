@@ -127,7 +127,7 @@ class CurvedDecomposer {
   }
   Corner middle_of(const Corner& a, const Corner& b) const { return corner_at(0.5 * (a.p + b.p)); }
 
-  // Convex part of the facet with three or four corners.
+  // The triangle of the facet, or a part of the rectangle around it.
   struct Cell {
     std::array<Corner, 4> corner;
     std::size_t corners = 0;
@@ -223,7 +223,8 @@ class CurvedDecomposer {
   // the centroid: with |kd| < 1 its first omitted term is below 1/40320. The path is limited to that, so that a piece
   // that rounding leaves outside its cell, seen almost edge-on, contributes no more than its area. Where it is more
   // than twice that the slope of psi exceeds kMaxSlope and the phase varies within the piece: it is omitted, since its
-  // area with one phase would be the more, the larger the piece.
+  // area with one phase would be the more, the larger the piece (turned random bodies change by 0.097 of their echo
+  // with such pieces, by 0.042 without; MeshInvariance).
   void point(const MovingPolygon& polygon) {
     const Vec2 c = centroid(polygon);
     const double psi_c = psi(c), max_path = 1 / band_.form().highest;

@@ -344,11 +344,9 @@ TEST(PointContributions, OfAStripAreAsManyAsItIsLong) {
   }
 }
 
-// A cut of a facet by the solver is fixed to the body: one trace is valid over an aspect change, however far along the
-// line of sight the body is from its origin.
 // A strip behind a curved reflector, on a flat panel seen at up to 1e-6 rad, inside a beam that is longer than the
-// panel by as much: as many pieces as half a radian of phase over its length asks for, less than twice that by halving,
-// two at its ends and one more across; their sum is the closed form.
+// panel by as much: a radian of phase per piece over its length, less than twice as many by halving, one more at either
+// end, and at most two across; their sum is the closed form.
 TEST(CurvedSurface, PiecesOfAStripAreAsManyAsItIsLong) {
   constexpr double kLength = 0.5, kWidth = 0.004, kSlope = 1.5, kAcross = 0.3, k = 63;
   for (const double steepness : {0.0, 1e2, 1e6}) {
@@ -377,6 +375,8 @@ TEST(CurvedSurface, PiecesOfAStripAreAsManyAsItIsLong) {
   }
 }
 
+// A cut of a facet by the solver is fixed to the body: one trace is valid over an aspect change, however far along the
+// line of sight the body is from its origin.
 TEST(CurvedSurface, IsValidOverAnAspectChangeAtAnyPosition) {
   const double k = wavenumber(10e9);
   for (const Vec3& place : {Vec3(0, 0, 0), Vec3(20, 0, 0), Vec3(0, 0, 20)}) {
