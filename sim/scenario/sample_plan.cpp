@@ -20,6 +20,7 @@ std::uint64_t sea_key(std::size_t sea_state, std::size_t realisation) {
 
 SamplePlan::SamplePlan(const Scenario& scenario)
     : seed_(scenario.seed),
+      varied_(scenario.variations.empty() ? nullptr : std::make_shared<const Scenario>(scenario)),
       sea_states_(seaglint::sea_states(scenario.sea)),
       realisations_(static_cast<std::size_t>(scenario.dataset.realisations_per_case)),
       views_(seaglint::views(scenario.view)),
@@ -76,6 +77,28 @@ std::size_t SamplePlan::sample(const SampleAddress& address) const {
   const auto found = std::find(order.begin(), order.end(), place);
   SEAGLINT_CHECK(found != order.end(), fmt::format("place {} of {}", place, per_realisation_));
   return realisation_number * per_realisation_ + static_cast<std::size_t>(found - order.begin());
+}
+
+DrawPlace SamplePlan::draw_place(const SampleAddress& at) const {
+  const auto observation =
+      (static_cast<std::uint64_t>(group(at)) * views_.size() + static_cast<std::uint64_t>(at.view)) *
+          static_cast<std::uint64_t>(intervals_) +
+      static_cast<std::uint64_t>(at.interval);
+  return {sea_key(static_cast<std::size_t>(at.sea_state), static_cast<std::size_t>(at.realisation)), observation};
+}
+
+Scenario SamplePlan::drawn(const Scenario& scenario, const SampleAddress& at) const {
+  return drawn_scenario(scenario, draw_place(at));
+}
+
+SeaState SamplePlan::sea_state(const SampleAddress& at) const {
+  const auto index = static_cast<std::size_t>(at.sea_state);
+  return varied_ ? seaglint::sea_states(drawn(*varied_, at).sea)[index] : sea_states_[index];
+}
+
+View SamplePlan::view(const SampleAddress& at) const {
+  const auto index = static_cast<std::size_t>(at.view);
+  return varied_ ? seaglint::views(drawn(*varied_, at).view)[index] : views_[index];
 }
 
 std::size_t SamplePlan::shards() const { return (size() + per_shard_ - 1) / per_shard_; }

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "sim/scenario/scenario.h"
@@ -40,12 +41,16 @@ class SamplePlan {
   explicit SamplePlan(const Scenario& scenario);
 
   std::size_t size() const;
+  // All of the sweeps; drawn keys have the middles of their distributions.
   const std::vector<SeaState>& sea_states() const { return sea_states_; }
   const std::vector<View>& views() const { return views_; }
-  const SeaState& sea_state(const SampleAddress& at) const {
-    return sea_states_[static_cast<std::size_t>(at.sea_state)];
-  }
-  const View& view(const SampleAddress& at) const { return views_[static_cast<std::size_t>(at.view)]; }
+  // Those of a sample, with its drawn values.
+  SeaState sea_state(const SampleAddress& at) const;
+  View view(const SampleAddress& at) const;
+  // Where the values of a sample are drawn.
+  DrawPlace draw_place(const SampleAddress& at) const;
+  // The scenario of a sample: `scenario`, which the plan is of, with its drawn values.
+  Scenario drawn(const Scenario& scenario, const SampleAddress& at) const;
   SampleAddress address(std::size_t sample) const;         // sample < size()
   std::size_t sample(const SampleAddress& address) const;  // inverse of address()
   // Sea state and realisation of a sample, other indices zero; sufficient for group() and cheaper than address().
@@ -66,6 +71,7 @@ class SamplePlan {
   std::vector<std::uint32_t> order(std::size_t realisation_number) const;
 
   std::uint64_t seed_ = 0;
+  std::shared_ptr<const Scenario> varied_;  // with variations; null without
   std::vector<SeaState> sea_states_;
   std::size_t realisations_ = 0;
   std::vector<View> views_;

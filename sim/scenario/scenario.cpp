@@ -2,13 +2,16 @@
 #include "sim/scenario/scenario.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <functional>
 #include <memory>
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/reproducible_functions.h"
 #include "sim/core/process/data_folder.h"
+#include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/core/process/utf8.h"
 #include "sim/scenario/contradictions.h"
@@ -43,18 +46,56 @@ fs::path file_of(const Scenario& scenario, const std::string& name, const std::s
   return find_file(name, scenario.folder, place_of(scenario, key));
 }
 
-// Reads the file of `sea.table`; null without a table.
-std::shared_ptr<const SpectrumTable> find_spectrum_table(const Scenario& scenario) {
+// Reads the file of `sea.table`, unless `known` has read it; null without a table.
+std::shared_ptr<const SpectrumTable> find_spectrum_table(const Scenario& scenario, const Scenario* known) {
   if (scenario.sea.spectrum != SpectrumKind::kTable || scenario.sea.table.empty()) return nullptr;
+  if (known && known->sea.table_values && known->sea.table == scenario.sea.table) return known->sea.table_values;
   return std::make_shared<SpectrumTable>(read_spectrum_table(file_of(scenario, scenario.sea.table, "sea.table")));
 }
 
 // Reads the file of `radar.hop_code_file`, likewise.
-std::shared_ptr<const std::vector<int>> find_hop_codes(const Scenario& scenario) {
+std::shared_ptr<const std::vector<int>> find_hop_codes(const Scenario& scenario, const Scenario* known) {
   const RadarSpec& radar = scenario.radar;
   if (radar.hop_code != HopCode::kFile || radar.hop_code_file.empty()) return nullptr;
+  if (known && known->radar.hop_codes) return known->radar.hop_codes;
   const fs::path file = file_of(scenario, radar.hop_code_file, "radar.hop_code_file");
   return std::make_shared<std::vector<int>>(read_hop_code(file, radar.pulses, radar.carrier_count));
+}
+
+// Reads a document without distributions, and the tables that it names unless `known` has them.
+Scenario read_values(const ScenarioDocument& document, const Scenario* known = nullptr) {
+  Scenario scenario = read_fields(document);
+  scenario.folder = fs::path(document.file_name).parent_path();
+  scenario.sea.table_values = find_spectrum_table(scenario, known);
+  scenario.radar.hop_codes = find_hop_codes(scenario, known);
+  check_contradictions(scenario, document);
+  if (scenario.name.empty()) scenario.name = name_of_file(document.file_name);
+  return scenario;
+}
+
+std::vector<std::string> middles(const std::vector<Variation>& variations) {
+  std::vector<std::string> values;
+  for (const Variation& variation : variations) values.push_back(variation.distribution.middle());
+  return values;
+}
+
+// Scenarios with one drawn key at one of its ends, the others in their middles.
+void visit_ends(const ScenarioDocument& document, const Scenario& scenario,
+                const std::function<void(const Scenario&)>& visit) {
+  const std::vector<std::string> middle = middles(scenario.variations);
+  for (std::size_t i = 0; i < middle.size(); ++i) {
+    const Variation& variation = scenario.variations[i];
+    for (const std::string& end : variation.distribution.ends()) {
+      std::vector<std::string> values = middle;
+      values[i] = end;
+      try {
+        visit(read_values(with_values(document, scenario.variations, values), &scenario));
+      } catch (const InputError& error) {
+        throw InputError(fmt::format("{}; where {}, drawn by {}, is {}", error.what(), variation.key_path,
+                                     variation.distribution.text(), end));
+      }
+    }
+  }
 }
 
 }  // namespace
@@ -67,24 +108,54 @@ Scenario parse_scenario(const std::string& yaml, const std::string& file_name, c
   const auto read = std::make_shared<ScenarioDocument>(ScenarioDocument{file_name, {}, parse_yaml(yaml, file_name)});
   ScenarioDocument& document = *read;
   for (const Override& override_value : overrides) apply_override(document, override_value);
-  Scenario scenario = read_fields(document);
+  std::vector<Variation> variations = find_variations(document);
+  Scenario scenario = read_values(with_values(document, variations, middles(variations)));
   scenario.document = read;
-  scenario.folder = fs::path(file_name).parent_path();
-  scenario.sea.table_values = find_spectrum_table(scenario);
-  scenario.radar.hop_codes = find_hop_codes(scenario);
-  check_contradictions(scenario, document);
-  if (scenario.name.empty()) scenario.name = name_of_file(file_name);
+  scenario.variations = std::move(variations);
+  visit_ends(document, scenario, [](const Scenario&) {});
   return scenario;
+}
+
+Scenario drawn_scenario(const Scenario& scenario, const DrawPlace& place) {
+  if (scenario.variations.empty()) return scenario;
+  std::vector<std::string> values;
+  for (const Variation& variation : scenario.variations) values.push_back(drawn_value(variation, scenario.seed, place));
+  try {
+    Scenario read = read_values(with_values(*scenario.document, scenario.variations, values), &scenario);
+    Scenario drawn = scenario;
+    drawn.variations.clear();
+    drawn.view = std::move(read.view);
+    drawn.sea = std::move(read.sea);
+    drawn.sea_reflection = read.sea_reflection;
+    drawn.targets = std::move(read.targets);
+    drawn.clutter = read.clutter;
+    drawn.radar.hop_code = read.radar.hop_code;
+    drawn.radar.pri_jitter_us = read.radar.pri_jitter_us;
+    drawn.radar.polarisation = read.radar.polarisation;
+    return drawn;
+  } catch (const InputError& error) {
+    std::vector<std::string> all;
+    for (std::size_t i = 0; i < values.size(); ++i)
+      all.push_back(fmt::format("{} {}", scenario.variations[i].key_path, values[i]));
+    throw InputError(fmt::format("{}; of the drawn values {}", error.what(), fmt::join(all, ", ")));
+  }
 }
 
 fs::path find_mesh(const Scenario& scenario, const TargetSpec& target) {
   return file_of(scenario, target.mesh, fmt::format("targets.{}.mesh", target.name));
 }
 
-std::vector<InputFile> input_files(const Scenario& scenario) {
-  std::vector<InputFile> files;
+namespace {
+
+// Those of the scenario itself.
+void add_input_files(const Scenario& scenario, std::vector<InputFile>& files) {
+  const auto add_file = [&](const std::string& key, const fs::path& path) {
+    const bool known = std::any_of(files.begin(), files.end(),
+                                   [&](const InputFile& file) { return file.key == key && file.path == path; });
+    if (!known) files.push_back({key, path});
+  };
   const auto add = [&](const std::string& name, const std::string& key) {
-    if (!name.empty()) files.push_back({key, file_of(scenario, name, key)});
+    if (!name.empty()) add_file(key, file_of(scenario, name, key));
   };
   if (scenario.radar.hop_code == HopCode::kFile) add(scenario.radar.hop_code_file, "radar.hop_code_file");
   if (scenario.sea.spectrum == SpectrumKind::kTable) add(scenario.sea.table, "sea.table");
@@ -94,14 +165,22 @@ std::vector<InputFile> input_files(const Scenario& scenario) {
     add(target.motion.sections, path + ".motion.sections");
     add(target.motion.file, path + ".motion.file");
     const auto add_material = [&](const std::string& name, const std::string& key) {
-      if (const auto file = find_material_file(name, scenario.folder, place_of(scenario, key)))
-        files.push_back({key, *file});
+      if (const auto file = find_material_file(name, scenario.folder, place_of(scenario, key))) add_file(key, *file);
     };
     add_material(target.material, path + ".material");
     for (std::size_t i = 0; i < target.part_materials.size(); ++i) {
       add_material(target.part_materials[i].material, fmt::format("{}.part_materials.{}.material", path, i));
     }
   }
+}
+
+}  // namespace
+
+std::vector<InputFile> input_files(const Scenario& scenario) {
+  std::vector<InputFile> files;
+  add_input_files(scenario, files);
+  if (!scenario.variations.empty())
+    visit_ends(*scenario.document, scenario, [&](const Scenario& end) { add_input_files(end, files); });
   return files;
 }
 

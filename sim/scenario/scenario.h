@@ -19,6 +19,10 @@ Scenario read_scenario(const std::filesystem::path& file, const std::vector<Over
 Scenario parse_scenario(const std::string& yaml, const std::string& file_name,
                         const std::vector<Override>& overrides = {});
 
+// The scenario with the drawn values of a place for its variations, of which it has none. The same for one without
+// variations. Throws InputError for drawn values that contradict each other.
+Scenario drawn_scenario(const Scenario& scenario, const DrawPlace& place);
+
 // "file:line:col: key.path" of a key or of its closest parent in the file; the key path alone without a file.
 std::string place_of(const Scenario& scenario, const std::string& key_path);
 
@@ -32,7 +36,8 @@ struct InputFile {
   std::filesystem::path path;  // where it was found
 };
 
-// All input files, in the order of the targets; empty for a scenario of points. Throws InputError when one is missing.
+// All input files, those of every choice of a drawn key too, in the order of the targets; empty for a scenario of
+// points. Throws InputError when one is missing.
 std::vector<InputFile> input_files(const Scenario& scenario);
 
 }  // namespace seaglint

@@ -9,14 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "sim/scenario/draws/variation.h"
 #include "sim/scenario/learning_spec.h"
 #include "sim/scenario/radar_spec.h"
 #include "sim/scenario/sea_spec.h"
 #include "sim/scenario/target_spec.h"
 
 namespace seaglint {
-
-struct ScenarioDocument;
 
 struct Scenario {
   int version = 1;   // `seaglint: 1`
@@ -34,6 +33,8 @@ struct Scenario {
   LearningSpec learning;
   std::filesystem::path folder;  // of the file: first search folder of relative paths, before the working directory
   std::shared_ptr<const ScenarioDocument> document;  // positions of its keys; null when not read from a file
+  // Keys that are drawn; the fields have the middles of their distributions (drawn_scenario()).
+  std::vector<Variation> variations;
 };
 
 }  // namespace seaglint

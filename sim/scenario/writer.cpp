@@ -43,9 +43,13 @@ std::string ratio_as_yaml(double fraction) {
   return fmt::format("{}:{}", fraction, 1 - fraction);
 }
 
-// Writes values as YAML. Doubles have the fewest digits that read back to the same bits (fmt).
+// Writes values as YAML: the distribution of a key that is drawn; doubles have the fewest digits that read back to the
+// same bits (fmt).
 class ValueVisitor : public FieldVisitor {
  public:
+  ValueVisitor(const std::vector<Variation>& variations, std::string path)
+      : variations_(variations), path_(std::move(path)) {}
+
   void number(const char* key, double& value, const Bound&) override { line(key, fmt::format("{}", value)); }
   void number_or_auto(const char* key, std::optional<double>& value, const Bound&) override {
     line(key, value ? fmt::format("{}", *value) : "auto");
@@ -75,41 +79,54 @@ class ValueVisitor : public FieldVisitor {
   bool optional(const char*, bool present) override { return present; }
 
  protected:
-  virtual void line(const char* key, const std::string& value) = 0;
+  std::string path_of(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
+  const std::vector<Variation>& variations() const { return variations_; }
+  virtual void write(const char* key, const std::string& value) = 0;
+
+ private:
+  void line(const char* key, const std::string& value) {
+    const auto drawn = std::find_if(variations_.begin(), variations_.end(),
+                                    [&](const Variation& variation) { return variation.key_path == path_of(key); });
+    write(key, drawn == variations_.end() ? value : drawn->distribution.text());
+  }
+
+  const std::vector<Variation>& variations_;
+  std::string path_;
 };
 
 class Writer : public ValueVisitor {
  public:
-  explicit Writer(std::string& out, int depth = 0) : out_(out), depth_(depth) {}
+  Writer(const std::vector<Variation>& variations, std::string& out, std::string path = {}, int depth = 0)
+      : ValueVisitor(variations, std::move(path)), out_(out), depth_(depth) {}
 
   void section(const char* key, const Fields& fields) override {
-    line(key, "");
-    Writer nested(out_, depth_ + 1);
+    write(key, "");
+    Writer nested(variations(), out_, path_of(key), depth_ + 1);
     fields(nested);
   }
   void list(const char* key, std::size_t size, std::size_t, const std::function<void(std::size_t)>&,
             const std::function<void(std::size_t, FieldVisitor&)>& item) override {
-    line(key, "");
+    write(key, "");
     for (std::size_t i = 0; i < size; ++i) {
       out_ += indent(depth_ + 1) + "-\n";
-      Writer nested(out_, depth_ + 2);
+      Writer nested(variations(), out_, path_of(fmt::format("{}.{}", key, i)), depth_ + 2);
       item(i, nested);
     }
   }
   void dictionary(const char* key, const std::vector<std::string>& names, std::size_t,
                   const std::function<void(const std::vector<std::string>&)>&,
                   const std::function<void(std::size_t, FieldVisitor&)>& item) override {
-    line(key, "");
+    write(key, "");
     for (std::size_t i = 0; i < names.size(); ++i) {
       out_ += indent(depth_ + 1) + text_as_yaml(names[i]) + ":\n";
-      Writer nested(out_, depth_ + 2);
+      Writer nested(variations(), out_, path_of(fmt::format("{}.{}", key, names[i])), depth_ + 2);
       item(i, nested);
     }
   }
 
  private:
   static std::string indent(int depth) { return std::string(2 * static_cast<std::size_t>(depth), ' '); }
-  void line(const char* key, const std::string& value) override {
+  void write(const char* key, const std::string& value) override {
     out_ += indent(depth_) + key + (value.empty() ? ":" : ": ") + value + "\n";
   }
 
@@ -120,7 +137,8 @@ class Writer : public ValueVisitor {
 // The values of one section by their keys.
 class SectionValues : public ValueVisitor {
  public:
-  explicit SectionValues(std::string section) : section_(std::move(section)) {}
+  SectionValues(const std::vector<Variation>& variations, const std::string& section)
+      : ValueVisitor(variations, section), section_(section) {}
 
   void section(const char* key, const Fields& fields) override {
     if (key != section_) return;
@@ -137,7 +155,7 @@ class SectionValues : public ValueVisitor {
   std::vector<std::pair<std::string, std::string>> values;
 
  private:
-  void line(const char* key, const std::string& value) override {
+  void write(const char* key, const std::string& value) override {
     if (inside_) values.emplace_back(key, value);
   }
 
@@ -150,14 +168,14 @@ class SectionValues : public ValueVisitor {
 std::string effective_yaml(const Scenario& scenario) {
   Scenario copy = scenario;
   std::string out;
-  Writer writer(out);
+  Writer writer(scenario.variations, out);
   visit_fields(copy, writer);
   return out;
 }
 
 std::vector<std::pair<std::string, std::string>> section_values(const Scenario& scenario, const std::string& section) {
   Scenario copy = scenario;
-  SectionValues values(section);
+  SectionValues values(scenario.variations, section);
   visit_fields(copy, values);
   return std::move(values.values);
 }

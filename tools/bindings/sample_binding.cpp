@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "classify/dataset/format/drawn_columns.h"
 #include "sim/core/process/error.h"
 #include "tools/bindings/arrays.h"
 #include "tools/bindings/bindings.h"
@@ -22,6 +23,7 @@ py::dict columns_of(const SampleRecord& record) {
   py::dict columns;
   for (const SampleColumn& column : sample_columns())
     std::visit([&](const auto member) { columns[column.name] = record.*member; }, column.member);
+  visit_drawn(record, [&](const std::string& key, const auto& value) { columns[py::str(key)] = value; });
   return columns;
 }
 

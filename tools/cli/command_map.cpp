@@ -74,7 +74,7 @@ void show_map(const Arguments& arguments) {
   warn(sea_warnings(scenario, plan.sea_states()));
   const SampleAddress address = plan.address(sample);
   const TargetSpec& target = scenario.targets[static_cast<std::size_t>(address.target)];
-  const View& view = plan.view(address);
+  const View view = plan.view(address);
   const std::string title =
       fmt::format("{}: sample {}, {}, Hs {:g} m, azimuth {:g} deg, elevation {:g} deg", scenario.name, sample,
                   target.name, plan.sea_state(address).significant_wave_height_m, view.azimuth_deg, view.elevation_deg);

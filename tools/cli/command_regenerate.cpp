@@ -6,6 +6,7 @@
 
 #include "classify/dataset/directory/dataset_writer.h"
 #include "classify/dataset/directory/input_list.h"
+#include "classify/dataset/format/drawn_columns.h"
 #include "classify/dataset/format/hdf5_file.h"
 #include "classify/dataset/format/npz.h"
 #include "sim/core/process/error.h"
@@ -51,6 +52,13 @@ std::vector<NpzArray> arrays_of(const Sample& sample, const StoredAxes& axes) {
         },
         column.member);
   }
+  visit_drawn(sample.record, [&](const std::string& key, const auto& value) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::string>) {
+      arrays.push_back(npz_array("drawn/" + key, "|S64", {}, packed_names(std::span(&value, 1))));
+    } else {
+      arrays.push_back(npz_array("drawn/" + key, "<f8", {}, bytes_of_values(std::span(&value, 1))));
+    }
+  });
   return arrays;
 }
 

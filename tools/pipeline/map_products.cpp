@@ -8,7 +8,7 @@
 namespace seaglint {
 
 FullBandInterval full_band_interval(const Pipeline& pipeline, std::size_t sample) {
-  const Scenario& scenario = pipeline.scenario();
+  const Scenario scenario = pipeline.scenario_of(pipeline.plan().address(sample));
   // One carrier with the bandwidth of all; the hop step is the whole band, so that the unambiguous range window is
   // unchanged.
   RadarSpec radar = scenario.radar;

@@ -52,11 +52,26 @@ struct Pipeline::SceneSlot {
   std::shared_ptr<const Scene> scene;
 };
 
+namespace {
+
+// Throws InputError for an observation whose drawn values contradict each other.
+void check_draws(const Scenario& scenario, const SamplePlan& plan) {
+  if (scenario.variations.empty()) return;
+  for (std::size_t sample = 0; sample < plan.size(); ++sample) {
+    const SampleAddress at = plan.address(sample);
+    if (at.target == 0) plan.drawn(scenario, at);
+  }
+}
+
+}  // namespace
+
 Pipeline::Pipeline(Scenario scenario, SamplePlan plan)
     : scenario_(std::move(scenario)),
       plan_(std::move(plan)),
-      targets_(load_targets(scenario_, plan_)),
-      range_window_m_(range_window_m(scenario_, targets_)) {}
+      targets_(std::make_shared<const std::vector<Target>>(load_targets(scenario_, plan_, &loaded_))),
+      range_window_m_(range_window_m(scenario_, plan_, *targets_)) {
+  check_draws(scenario_, plan_);
+}
 
 std::shared_ptr<const Scene> Pipeline::scene(int sea_state, int realisation) const {
   std::shared_ptr<SceneSlot> slot;
@@ -74,41 +89,38 @@ std::shared_ptr<const Scene> Pipeline::scene(int sea_state, int realisation) con
     }
   }
   std::call_once(slot->made, [&] {
-    slot->scene = std::make_shared<const Scene>(make_scene(scenario_, plan_, targets_, sea_state, realisation));
+    auto targets = targets_;
+    if (!scenario_.variations.empty()) {
+      const Scenario drawn = plan_.drawn(scenario_, {.sea_state = sea_state, .realisation = realisation});
+      targets = std::make_shared<const std::vector<Target>>(load_targets(drawn, plan_, &loaded_));
+    }
+    Scene scene = make_scene(scenario_, plan_, *targets, sea_state, realisation);
+    scene.targets = std::move(targets);
+    slot->scene = std::make_shared<const Scene>(std::move(scene));
   });
   return slot->scene;
 }
 
-BodyResponse Pipeline::scene_response(std::size_t target, const Scene& scene, const View& view, const SeaState& state,
-                                      const IntervalSampling& sampling, const StopFlag* stop) const {
-  BodyResponse sum = target_response(target, scene, view, state, sampling, stop);
-  for (const std::size_t companion : targets_[target].companions) {
-    const BodyResponse term = target_response(companion, scene, view, state, sampling, stop);
-    sum.response += term.response;
-    sum.traces += term.traces;
-  }
-  return sum;
-}
-
-BodyResponse Pipeline::target_response(std::size_t target, const Scene& scene, const View& view, const SeaState& state,
-                                       const IntervalSampling& sampling, const StopFlag* stop) const {
+BodyResponse Pipeline::target_response(std::size_t index, const Observation& seen, const StopFlag* stop) {
+  const auto& [scenario, scene, view, state, sampling] = seen;
+  const Target& target = (*scene->targets)[index];
   const Vec3 r_hat = direction_to_radar(view.azimuth_rad, view.elevation_rad);
-  const SeaReflection mirror(scenario_.sea_reflection, total_wave_height(state));
-  const SeaReflection* sea = scenario_.sea_reflection.enabled ? &mirror : nullptr;
-  const TargetSpec& spec = targets_[target].spec;
-  const Vec3& relative_velocity_mps = targets_[target].relative_velocity_mps;
-  if (!targets_[target].scatterer) {
+  const SeaReflection mirror(scenario.sea_reflection, total_wave_height(state));
+  const SeaReflection* sea = scenario.sea_reflection.enabled ? &mirror : nullptr;
+  const TargetSpec& spec = target.spec;
+  const Vec3& relative_velocity_mps = target.relative_velocity_mps;
+  if (!target.scatterer) {
     if (sea != nullptr)
-      return {point_response_over_sea(spec.points, r_hat, sampling, scenario_.radar.polarisation, *sea), 0};
+      return {point_response_over_sea(spec.points, r_hat, sampling, scenario.radar.polarisation, *sea), 0};
     return {point_response(spec.points, r_hat, sampling), 0};
   }
   BodyResponse sum;
-  for (const Trajectory& body : scene.bodies[target]) {
+  for (const Trajectory& body : scene->bodies[index]) {
     // A companion is at its given place at the start of the interval.
     const Trajectory carried =
         relative_velocity_mps.isZero(0) ? body : body.with_drift(relative_velocity_mps, sampling.pulse_time_s.front());
-    const BodyResponse term = body_response(*targets_[target].scatterer, carried, r_hat, scenario_.radar.polarisation,
-                                            sampling, spec.solver, 1, sea, stop);
+    const BodyResponse term = body_response(*target.scatterer, carried, r_hat, scenario.radar.polarisation, sampling,
+                                            spec.solver, 1, sea, stop);
     sum.traces += term.traces;
     if (sum.response.values.empty()) {
       sum.response = term.response;
@@ -130,30 +142,38 @@ ClutterScene Pipeline::clutter_scene(const SampleAddress& at, const Scene& scene
   // both labels would reveal one label from the other.
   const std::uint64_t sea_and_view =
       static_cast<std::uint64_t>(plan_.group(at)) * plan_.views().size() + static_cast<std::uint64_t>(at.view);
-  const View& view = plan_.view(at);
+  const View view = plan_.view(at);
   return {scenario_.radar,
           direction_to_radar(view.azimuth_rad, view.elevation_rad),
           total_wave_height(plan_.sea_state(at)),
           &scene.sea,
           plan_.start_s(at),
-          Vec3(scenario_.targets[static_cast<std::size_t>(at.target)].motion.speed_mps, 0, 0),
+          Vec3((*scene.targets)[static_cast<std::size_t>(at.target)].spec.motion.speed_mps, 0, 0),
           sea_and_view * scenario_.targets.size() + static_cast<std::uint64_t>(at.target)};
 }
 
 BodyResponse Pipeline::response(const SampleAddress& at, const PulseTrain& train, const StopFlag* stop) const {
-  return scene_response(static_cast<std::size_t>(at.target), *scene(at.sea_state, at.realisation), plan_.view(at),
-                        plan_.sea_state(at), sampling(train, plan_.start_s(at)), stop);
+  const Observation seen{scenario_of(at), scene(at.sea_state, at.realisation), plan_.view(at), plan_.sea_state(at),
+                         sampling(train, plan_.start_s(at))};
+  const auto target = static_cast<std::size_t>(at.target);
+  BodyResponse sum = target_response(target, seen, stop);
+  for (const std::size_t companion : (*seen.scene->targets)[target].companions) {
+    const BodyResponse term = target_response(companion, seen, stop);
+    sum.response += term.response;
+    sum.traces += term.traces;
+  }
+  return sum;
 }
 
 Echo Pipeline::echo_of(std::size_t sample, const GeneratedSample& made, const BodyResponse& response,
                        const Scene& scene) const {
   const SampleAddress& at = made.address;
   try {
-    return synthesise_echo(made.train, response.response, scenario_.clutter, scenario_.seed, sample,
+    return synthesise_echo(made.train, response.response, scenario_of(at).clutter, scenario_.seed, sample,
                            clutter_scene(at, scene));
   } catch (const InputError& error) {
     const TargetSpec& target = scenario_.targets[static_cast<std::size_t>(at.target)];
-    const View& view = plan_.view(at);
+    const View view = plan_.view(at);
     throw InputError(fmt::format("{}: sample {}, azimuth {:g} deg, elevation {:g} deg: {}",
                                  place_of(scenario_, "targets." + target.name), sample, view.azimuth_deg,
                                  view.elevation_deg, error.what()));
@@ -161,7 +181,7 @@ Echo Pipeline::echo_of(std::size_t sample, const GeneratedSample& made, const Bo
 }
 
 PulseTrain Pipeline::pulse_train(std::size_t sample) const {
-  return make_pulse_train(scenario_.radar, range_window_m_, scenario_.seed, sample);
+  return make_pulse_train(scenario_of(plan_.address(sample)).radar, range_window_m_, scenario_.seed, sample);
 }
 
 GeneratedSample Pipeline::generate_sample(std::size_t sample, const StopFlag* stop) const {
@@ -179,8 +199,8 @@ GeneratedSample Pipeline::received_sample(std::size_t sample, const PulseTrain& 
   const std::shared_ptr<const Scene> moving = scene(at.sea_state, at.realisation);
   made.train = train;
   const Echo echo = echo_of(sample, made, response, *moving);
-  made.received =
-      form_received_interval(echo, made.train, scenario_.clutter, scenario_.map, scenario_.radar.intra_pulse_motion);
+  made.received = form_received_interval(echo, made.train, scenario_of(at).clutter, scenario_.map,
+                                         scenario_.radar.intra_pulse_motion);
   CleanedMap cleaned =
       clean_map(made.received.echo, made.train, scenario_.map, scenario_.radar.intra_pulse_motion, scenario_.features);
   if (scenario_.map.clean) made.received.map.values = restored_map(cleaned, made.train, scenario_.map).values;

@@ -41,7 +41,10 @@ class Pipeline {
 
   const Scenario& scenario() const { return scenario_; }
   const SamplePlan& plan() const { return plan_; }
-  const std::vector<Target>& targets() const { return targets_; }
+  // As loaded with drawn keys at the middles of their distributions.
+  const std::vector<Target>& targets() const { return *targets_; }
+  // The scenario with the drawn values of a sample.
+  Scenario scenario_of(const SampleAddress& at) const { return plan_.drawn(scenario_, at); }
 
   // sample < plan().size(). Throws InputError when the target has no power, Interrupted when *stop becomes true while
   // its response is computed.
@@ -64,21 +67,26 @@ class Pipeline {
   std::shared_ptr<const Scene> scene(int sea_state, int realisation) const;
 
  private:
-  // H of a target with its companions.
-  BodyResponse scene_response(std::size_t target, const Scene& scene, const View& view, const SeaState& state,
-                              const IntervalSampling& sampling, const StopFlag* stop) const;
+  // What determines a sample's response: drawn values, and the scene of its sea.
+  struct Observation {
+    Scenario scenario;
+    std::shared_ptr<const Scene> scene;
+    View view;
+    SeaState state;
+    IntervalSampling sampling;
+  };
   // Times and directions at which the interval from start_s samples the response, with the radar's own motion.
   IntervalSampling sampling(const PulseTrain& train, double start_s) const;
-  // H of a target seen from `view` over an interval: the sum over its bodies, or its ideal points.
-  BodyResponse target_response(std::size_t target, const Scene& scene, const View& view, const SeaState& state,
-                               const IntervalSampling& sampling, const StopFlag* stop) const;
+  // H of a target: the sum over its bodies, or its ideal points.
+  static BodyResponse target_response(std::size_t target, const Observation& seen, const StopFlag* stop);
 
   // The echo of a sample. Throws InputError, naming target and sample, when it has no power.
   Echo echo_of(std::size_t sample, const GeneratedSample& made, const BodyResponse& response, const Scene& scene) const;
 
   Scenario scenario_;
   SamplePlan plan_;
-  std::vector<Target> targets_;
+  mutable LoadedTargets loaded_;
+  std::shared_ptr<const std::vector<Target>> targets_;
   double range_window_m_ = 0;
 
   struct SceneSlot;

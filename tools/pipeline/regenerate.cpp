@@ -8,6 +8,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "classify/dataset/format/drawn_columns.h"
 #include "seaglint_version.h"
 
 namespace seaglint {
@@ -39,6 +40,7 @@ std::string different_columns(const SampleRecord& stored, const SampleRecord& ag
         column.member);
     if (!same) names += (names.empty() ? "" : ", ") + std::string(column.name);
   }
+  if (!same_drawn(stored, again)) names += (names.empty() ? "" : ", ") + std::string("drawn values");
   return names;
 }
 

@@ -35,7 +35,7 @@ void scale(SampledEcho& sampled, double power_gain) {
 }  // namespace
 
 SampledInterval sampled_interval(const Pipeline& pipeline, std::size_t sample) {
-  const Scenario& scenario = pipeline.scenario();
+  const Scenario scenario = pipeline.scenario_of(pipeline.plan().address(sample));
   const double sampling_hz = scenario.radar.sampling_mhz * 1e6;
   // The pulses of the map, without generating it.
   const PulseTrain train = make_pulse_train(scenario.radar, pipeline.window_m(), scenario.seed, sample);

@@ -5,15 +5,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <map>
 #include <optional>
 #include <utility>
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
+#include "sim/geometry/files/mesh_io.h"
 #include "sim/motion/simulate.h"
 #include "sim/motion/target_motion.h"
 #include "sim/scattering/target/prepare_target.h"
 #include "sim/scattering/target/target_check.h"
+#include "sim/scenario/writer.h"
 #include "sim/sea/realisation.h"
 
 namespace seaglint {
@@ -180,13 +184,12 @@ Target moved(const Target& original, const TargetSpec& host, const CompanionSpec
   return target;
 }
 
-}  // namespace
-
-std::vector<Target> load_targets(const Scenario& scenario, const SamplePlan& plan) {
+// All targets in order, then the companions, at their places; load(spec) gives a target without them.
+std::vector<Target> placed_targets(const Scenario& scenario, const std::function<Target(const TargetSpec&)>& load) {
   std::vector<Target> targets;
   std::size_t bodies = 0;
   for (const TargetSpec& spec : scenario.targets) {
-    targets.push_back(load_target(scenario, plan, spec));
+    targets.push_back(load(spec));
     place_bodies(targets.back(), bodies);
     check_scene_range(scenario, spec, targets.back(), std::nullopt);
   }
@@ -205,8 +208,68 @@ std::vector<Target> load_targets(const Scenario& scenario, const SamplePlan& pla
   return targets;
 }
 
-double range_window_m(const Scenario& scenario, const std::vector<Target>& targets) {
+// The fields of a target that determine its mesh, scatterer and motion model, as text.
+std::string fields_of(const Scenario& scenario, const TargetSpec& spec) {
+  Scenario alone = scenario;
+  alone.targets = {spec};
+  alone.targets[0].line.reset();
+  alone.targets[0].companions.clear();
+  return effective_yaml(alone);
+}
+
+// Largest reach of any target with the values drawn in any sea, by meshes as they are in their files.
+double largest_reach_m(const Scenario& scenario, const SamplePlan& plan) {
+  std::map<std::string, TriangleMesh> meshes;
   double reach = 0;
+  for (std::size_t state = 0; state < plan.sea_states().size(); ++state) {
+    for (int realisation = 0; realisation < scenario.dataset.realisations_per_case; ++realisation) {
+      const Scenario drawn = plan.drawn(scenario, {.sea_state = static_cast<int>(state), .realisation = realisation});
+      const std::vector<Target> targets = placed_targets(drawn, [&](const TargetSpec& spec) {
+        Target target;
+        target.spec = spec;
+        if (spec.mesh.empty()) return target;
+        TriangleMesh& mesh = meshes[spec.unit + " " + spec.mesh];
+        if (mesh.vertices.empty()) mesh = read_mesh(find_mesh(drawn, spec), spec.unit);
+        target.mesh = mesh;
+        return target;
+      });
+      for (const Target& target : targets) reach = std::max(reach, reach_m(target, interval_length_s(drawn.radar)));
+    }
+  }
+  return reach;
+}
+
+bool draws_targets(const Scenario& scenario) {
+  return std::any_of(scenario.variations.begin(), scenario.variations.end(),
+                     [](const Variation& variation) { return variation.key_path.starts_with("targets."); });
+}
+
+}  // namespace
+
+Target LoadedTargets::get(const Scenario& scenario, const SamplePlan& plan, const TargetSpec& spec) {
+  const std::lock_guard lock(mutex_);
+  const std::string fields = fields_of(scenario, spec);
+  const auto known =
+      std::find_if(targets_.begin(), targets_.end(), [&](const auto& entry) { return entry.first == fields; });
+  if (known != targets_.end()) {
+    std::rotate(known, known + 1, targets_.end());
+  } else {
+    if (targets_.size() == kKept) targets_.erase(targets_.begin());
+    targets_.emplace_back(fields, load_target(scenario, plan, spec));
+  }
+  Target target = targets_.back().second;
+  target.spec = spec;
+  return target;
+}
+
+std::vector<Target> load_targets(const Scenario& scenario, const SamplePlan& plan, LoadedTargets* loaded) {
+  return placed_targets(scenario, [&](const TargetSpec& spec) {
+    return loaded ? loaded->get(scenario, plan, spec) : load_target(scenario, plan, spec);
+  });
+}
+
+double range_window_m(const Scenario& scenario, const SamplePlan& plan, const std::vector<Target>& targets) {
+  double reach = draws_targets(scenario) ? largest_reach_m(scenario, plan) : 0;
   for (const Target& target : targets) reach = std::max(reach, reach_m(target, interval_length_s(scenario.radar)));
   // 10 % larger than the target, since bodies drift and multiply reflected paths are longer than direct ones.
   const double window_m = std::max(scenario.map.range_span_m, 2.2 * reach);
@@ -223,11 +286,11 @@ double range_window_m(const Scenario& scenario, const std::vector<Target>& targe
 
 Scene make_scene(const Scenario& scenario, const SamplePlan& plan, const std::vector<Target>& targets, int sea_state,
                  int realisation, double at_least_s) {
-  const SeaState& state = plan.sea_states()[static_cast<std::size_t>(sea_state)];
+  const SeaState state = plan.sea_state({.sea_state = sea_state, .realisation = realisation});
   const std::uint64_t key = sea_key(static_cast<std::size_t>(sea_state), static_cast<std::size_t>(realisation));
   const double duration_s = std::max(at_least_s, scene_duration_s(scenario, plan));
 
-  Scene scene{realise_sea(state, scenario.seed, key), {}};
+  Scene scene{realise_sea(state, scenario.seed, key), {}, {}};
   for (const Target& target : targets) {
     scene.bodies.push_back(target.rest_positions.empty()
                                ? std::vector<Trajectory>{}

@@ -4,7 +4,9 @@
 // The bodies of a scenario and their motion in one sea realisation.
 
 #include <memory>
+#include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sim/geometry/mesh/triangle_mesh.h"
@@ -34,20 +36,33 @@ struct Target {
 // Motion model of a target from its mesh and the files that its `motion` names. Throws InputError naming the target.
 Body load_body(const Scenario& scenario, const TargetSpec& spec, const TriangleMesh& mesh);
 
-// Loads the targets of the scenario in its order, then one more target per companion, moved to its place. Throws
-// InputError for a mesh that is missing or invalid, and for a material that is missing, invalid or not defined at the
-// radar's frequencies.
-std::vector<Target> load_targets(const Scenario& scenario, const SamplePlan& plan);
+// Targets that were loaded last, so that seas whose draws leave a target as it is share it. Any thread may use it.
+class LoadedTargets {
+ public:
+  // Mesh, motion model and scatterer of a target, without its bodies' places.
+  Target get(const Scenario& scenario, const SamplePlan& plan, const TargetSpec& spec);
 
-// Full width, m, of the range window that contains the response of every target of the scenario at every aspect. It is
-// one number for all samples: a window fitted to the target would reveal its size. Throws InputError when the echo from
-// the window would last beyond the next pulse.
-double range_window_m(const Scenario& scenario, const std::vector<Target>& targets);
+ private:
+  static constexpr std::size_t kKept = 16;
+  std::mutex mutex_;
+  std::vector<std::pair<std::string, Target>> targets_;  // by the fields that determine them; last used last
+};
+
+// Loads the targets of a scenario without variations in its order, then one more target per companion, moved to its
+// place. Throws InputError for a mesh that is missing or invalid, and for a material that is missing, invalid or not
+// defined at the radar's frequencies.
+std::vector<Target> load_targets(const Scenario& scenario, const SamplePlan& plan, LoadedTargets* loaded = nullptr);
+
+// Full width, m, of the range window that contains the response of every target of the scenario at every aspect, with
+// all values that its plan draws. It is one number for all samples: a window fitted to the target would reveal its
+// size. Throws InputError when the echo from the window would last beyond the next pulse.
+double range_window_m(const Scenario& scenario, const SamplePlan& plan, const std::vector<Target>& targets);
 
 // One sea realisation with the motion of every body, from t = 0 to the end of the last interval.
 struct Scene {
   WaveField sea;
-  std::vector<std::vector<Trajectory>> bodies;  // [target][body]; none for points
+  std::vector<std::vector<Trajectory>> bodies;                   // [target][body]; none for points
+  std::shared_ptr<const std::vector<Target>> targets = nullptr;  // those that move, as a Pipeline loads them
 };
 
 // Generates the scene over the intervals of the plan, at least at_least_s long; a longer scene begins with the same

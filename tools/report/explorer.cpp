@@ -9,6 +9,7 @@
 #include <tuple>
 #include <unordered_map>
 
+#include "classify/dataset/format/drawn_columns.h"
 #include "tools/page/html.h"
 #include "tools/page/plot_json.h"
 
@@ -46,22 +47,34 @@ int digits_of(const SampleColumn& column) {
   return integer || std::ranges::find(kChosen, column.name) != std::end(kChosen) ? 24 : kColumnDigits;
 }
 
+ordered_json column_json(const std::string& name, const std::string& unit, const std::vector<double>& values,
+                         int digits) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const double value : values) {
+    if (std::isnan(value)) continue;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  return {{"name", name},
+          {"unit", unit},
+          {"feature", is_feature(name)},
+          {"varies", low < high},
+          {"packed", packed_floats(values, digits)}};
+}
+
 ordered_json columns_of(std::span<const SampleRecord> records) {
   ordered_json list = ordered_json::array();
   for (const SampleColumn& column : sample_columns()) {
     const std::vector<double> values = numbers_of(column, records);
-    if (values.empty()) continue;
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (const double value : values) {
-      if (std::isnan(value)) continue;
-      low = std::min(low, value);
-      high = std::max(high, value);
-    }
-    list.push_back({{"name", column.name},
-                    {"unit", column.unit},
-                    {"feature", is_feature(column.name)},
-                    {"varies", low < high},
-                    {"packed", packed_floats(values, digits_of(column))}});
+    if (!values.empty()) list.push_back(column_json(column.name, column.unit, values, digits_of(column)));
+  }
+  const std::size_t drawn = records.empty() ? 0 : records.front().drawn_numbers.size();
+  for (std::size_t i = 0; i < drawn; ++i) {
+    const std::string& key = records.front().drawn_numbers[i].key;
+    std::vector<double> values;
+    for (const SampleRecord& record : records)
+      values.push_back(i < record.drawn_numbers.size() ? record.drawn_numbers[i].value : std::nan(""));
+    list.push_back(column_json(key, drawn_text(key).units, values, kColumnDigits));
   }
   return list;
 }

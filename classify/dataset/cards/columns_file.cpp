@@ -34,7 +34,9 @@ std::string line_of(const SampleRecord& record, const std::string& shard, std::s
   std::string line;
   for (const SampleColumn& column : sample_columns())
     std::visit([&](auto member) { line += cell(record.*member) + ','; }, column.member);
-  return line + fmt::format("{},{}\n", csv_cell(shard), row);
+  line += fmt::format("{},{}", csv_cell(shard), row);
+  visit_drawn(record, [&](const std::string&, const auto& value) { line += ',' + cell(value); });
+  return line + '\n';
 }
 
 template <class T>
@@ -67,6 +69,14 @@ std::span<const TableEntry> table_entries() {
   return entries;
 }
 
+std::vector<TableEntry> drawn_entries(const DrawnKeys& keys) {
+  std::vector<TableEntry> entries;
+  for (const std::string& key : keys.numbers)
+    entries.push_back({key, drawn_text(key).units, drawn_text(key).description, "Float"});
+  for (const std::string& key : keys.words) entries.push_back({key, "", drawn_text(key).description, "Text"});
+  return entries;
+}
+
 std::string table_header() {
   std::string line;
   for (const TableEntry& entry : table_entries()) line += (line.empty() ? "" : ",") + entry.name;
@@ -76,11 +86,16 @@ std::string table_header() {
 void write_columns_file(const DatasetReader& reader, const std::filesystem::path& file, const StopFlag* stop) {
   Progress progress("reading shards", reader.shards());
   write_blocks(file, [&](const AppendText& append) {
-    append(table_header() + "\n");
     for (std::size_t i = 0; i < reader.shards(); ++i) {
       if (stop && *stop) throw Interrupted();
       const Shard shard = reader.shard(i);
       std::string lines;
+      if (i == 0) {
+        lines = table_header();
+        for (const TableEntry& entry : drawn_entries(drawn_keys(shard.samples.front().record)))
+          lines += ',' + entry.name;
+        lines += '\n';
+      }
       for (std::size_t row = 0; row < shard.samples.size(); ++row)
         lines += line_of(shard.samples[row].record, reader.manifest().shards[i].file, row);
       append(lines);

@@ -6,8 +6,10 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "classify/dataset/directory/dataset_reader.h"
+#include "classify/dataset/format/drawn_columns.h"
 #include "sim/core/process/parallel.h"
 
 namespace seaglint {
@@ -20,6 +22,9 @@ struct TableEntry {
   const char* type;  // schema.org's: Integer, Float, Text
 };
 std::span<const TableEntry> table_entries();
+
+// Those of drawn keys, which follow.
+std::vector<TableEntry> drawn_entries(const DrawnKeys& keys);
 
 // The first line of the table.
 std::string table_header();

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -11,6 +13,7 @@
 #include "classify/dataset/directory/data_card.h"
 #include "classify/dataset/directory/file_names.h"
 #include "classify/dataset/directory/merged.h"
+#include "classify/dataset/directory/planned_record.h"
 #include "classify/dataset/format/checksum.h"
 #include "classify/dataset/format/layout.h"
 #include "sim/scenario/sample_plan.h"
@@ -117,11 +120,13 @@ std::string with_unit(const TableEntry& entry) {
   return entry.description + (entry.unit == "1" ? "; dimensionless" : "; unit " + entry.unit);
 }
 
-ordered_json samples() {
+ordered_json samples(const DrawnKeys& drawn) {
   ordered_json set{{"@type", "cr:RecordSet"}, {"@id", kSamples}, {"name", kSamples}};
   set["description"] = "one record for each map: its class, sea, view, keys, signal-to-clutter ratios and features";
   set["key"] = reference(fmt::format("{}/sample", kSamples));
-  for (const TableEntry& entry : table_entries()) {
+  std::vector<TableEntry> entries(table_entries().begin(), table_entries().end());
+  std::ranges::copy(drawn_entries(drawn), std::back_inserter(entries));
+  for (const TableEntry& entry : entries) {
     const std::string type = fmt::format("sc:{}", entry.type);
     ordered_json field{{"@type", "cr:Field"}, {"@id", fmt::format("{}/{}", kSamples, entry.name)}};
     field["name"] = entry.name;
@@ -175,7 +180,7 @@ std::string croissant_json(const DatasetReader& reader, const Scenario& scenario
   json["isBasedOn"] = {
       {"@type", "sc:SoftwareApplication"}, {"name", kProgram}, {"softwareVersion", manifest.program_version}};
   json["distribution"] = distribution(reader);
-  json["recordSet"] = {classes(scenario, samples_per_target(scenario, plan)), samples()};
+  json["recordSet"] = {classes(scenario, samples_per_target(scenario, plan)), samples(drawn_keys(scenario))};
   return json.dump(2) + "\n";
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "classify/dataset/format/checksum.h"
+#include "classify/dataset/format/drawn_columns.h"
 #include "classify/dataset/format/layout.h"
 #include "sim/core/text/escape.h"
 
@@ -33,6 +34,20 @@ std::string columns_table() {
   std::string table = "| column | units | meaning |\n|---|---|---|\n";
   for (const SampleColumn& column : sample_columns()) {
     table += fmt::format("| `{}` | {} | {} |\n", column.name, column.unit, markdown_text(column.description));
+  }
+  return table;
+}
+
+// Empty without drawn keys.
+std::string drawn_table(const Scenario& scenario) {
+  if (scenario.variations.empty()) return "";
+  std::string table =
+      "\n## Columns of `drawn/`\n\nDrawn once per sea, or per observation (sea, view and interval), common to all "
+      "targets.\n\n| key | units | distribution | drawn per |\n|---|---|---|---|\n";
+  for (const Variation& variation : scenario.variations) {
+    table += fmt::format("| `{}` | {} | {} | {} |\n", variation.key_path, drawn_text(variation.key_path).units,
+                         markdown_text(variation.distribution.text()),
+                         variation.per == DrawnPer::kSea ? "sea" : "observation");
   }
   return table;
 }
@@ -123,7 +138,8 @@ std::string data_card(const Scenario& scenario, const SamplePlan& plan, const Ma
       join(wave_heights(plan)), join(scenario.view.azimuth_deg), join(scenario.view.elevation_deg), set.maps_per_case,
       set.realisations_per_case, set.interval_spacing_s, axes.velocity_mps.size(), axes.velocity_mps.front(),
       axes.velocity_mps.back(), axes.range_m.size(), axes.range_m.front(), axes.range_m.back());
-  text += arrays_table(scenario, axes) + "\n" + kReading + "## Columns of `samples/`\n\n" + columns_table();
+  text += arrays_table(scenario, axes) + "\n" + kReading + "## Columns of `samples/`\n\n" + columns_table() +
+          drawn_table(scenario);
   text += fmt::format(
       "\n## Splitting\n\n"
       "All maps of one `group` (one sea realisation: all targets, views and intervals in it, {} maps) share a sea and "

@@ -12,6 +12,7 @@
 #include "classify/dataset/directory/planned_record.h"
 #include "classify/dataset/directory/temporary.h"
 #include "classify/dataset/format/checksum.h"
+#include "classify/dataset/format/drawn_columns.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/core/process/progress.h"
@@ -102,7 +103,7 @@ bool same_row(const SampleRecord& a, const SampleRecord& b) {
         },
         column.member);
   };
-  return std::all_of(sample_columns().begin(), sample_columns().end(), same);
+  return std::all_of(sample_columns().begin(), sample_columns().end(), same) && same_drawn(a, b);
 }
 
 // True if the file contains this shard, with the file's checksum: its bytes depend only on the content, so that equal

@@ -9,6 +9,7 @@
 
 #include "classify/dataset/directory/file_names.h"
 #include "classify/dataset/format/checksum.h"
+#include "classify/dataset/format/drawn_columns.h"
 #include "classify/dataset/format/hdf5_file.h"
 #include "classify/dataset/format/layout.h"
 #include "classify/dataset/format/npz.h"
@@ -72,7 +73,8 @@ std::string exported_manifest(const fs::path& file) {
 }
 
 // Content of description.json: the attributes of the HDF5 files.
-std::string description(const Range& range, const std::set<std::string>& processors, bool complex_maps) {
+std::string description(const Range& range, const std::set<std::string>& processors, bool complex_maps,
+                        const DrawnKeys& keys) {
   ordered_json json;
   json["format"] = "seaglint npz 1";
   json["program_version"] = range.reader.manifest().program_version;
@@ -85,6 +87,8 @@ std::string description(const Range& range, const std::set<std::string>& process
     add(array.path, array.text());
   if (complex_maps) add(kComplexMaps.path, {kComplexMaps.units, "RV, [sample][velocity][range]"});
   for (const SampleColumn& column : sample_columns()) add(column_path(column), column_text(column));
+  for (const std::string& key : keys.numbers) add(drawn_path(key), drawn_text(key));
+  for (const std::string& key : keys.words) add(drawn_path(key), drawn_text(key));
   return json.dump(2) + "\n";
 }
 
@@ -127,7 +131,24 @@ void export_shards(const DatasetReader& reader, std::size_t first, std::size_t c
         },
         column.member);
   }
-  write_npz(file, arrays, {{kDescription, description(range, processors, complex_maps)}});
+  const DrawnKeys keys = drawn_keys(rows.front());
+  for (const SampleRecord& row : rows) {
+    if (drawn_keys(row) != keys)
+      throw InputError(fmt::format("{}: the shards have different drawn keys", reader.directory().string()));
+  }
+  for (std::size_t i = 0; i < keys.numbers.size(); ++i) {
+    std::vector<double> values;
+    for (const SampleRecord& row : rows) values.push_back(row.drawn_numbers[i].value);
+    arrays.push_back(
+        npz_array(name_of(drawn_path(keys.numbers[i])), "<f8", {n}, bytes_of_values(std::span<const double>(values))));
+  }
+  for (std::size_t i = 0; i < keys.words.size(); ++i) {
+    std::vector<std::string> values;
+    for (const SampleRecord& row : rows) values.push_back(row.drawn_words[i].value);
+    arrays.push_back(
+        npz_array(name_of(drawn_path(keys.words[i])), numpy_type(ArrayType::kName), {n}, packed_names(values)));
+  }
+  write_npz(file, arrays, {{kDescription, description(range, processors, complex_maps, keys)}});
 }
 
 void require_export_directory(const DatasetReader& reader, const fs::path& directory, const ExportedName& is_name,

@@ -9,6 +9,7 @@
 
 #include "classify/dataset/directory/dataset_writer.h"
 #include "classify/dataset/format/checksum.h"
+#include "classify/dataset/format/drawn_columns.h"
 #include "classify/dataset/format/layout.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
@@ -81,10 +82,14 @@ void write_missing_manifest(const fs::path& directory, const Scenario& scenario,
                                directory.string()));
 }
 
-void require_same(const fs::path& file, const Shard& shard, const StoredAxes& axes, bool complex_maps) {
+void require_same(const fs::path& file, const Shard& shard, const StoredAxes& axes, bool complex_maps,
+                  const DrawnKeys& keys) {
   if (shard.axes != axes) throw InputError(fmt::format("{}: foreign: other axes than the first shard", file.string()));
   if (shard.samples.front().complex_values.empty() == complex_maps)
     throw InputError(fmt::format("{}: foreign: complex maps in some shards only", file.string()));
+  for (const Sample& sample : shard.samples)
+    if (drawn_keys(sample.record) != keys)
+      throw InputError(fmt::format("{}: foreign: other drawn keys than the first shard", file.string()));
 }
 
 void write_columns(Hdf5Writer& merged, std::uint64_t first, const std::vector<Sample>& samples) {
@@ -102,6 +107,9 @@ void write_columns(Hdf5Writer& merged, std::uint64_t first, const std::vector<Sa
         },
         column.member);
   }
+  std::vector<const SampleRecord*> records;
+  for (const Sample& sample : samples) records.push_back(&sample.record);
+  write_drawn(merged, first, records);
 }
 
 void write_merged(const DatasetReader& reader, const fs::path& temporary, const fs::path& file, const StopFlag* stop) {
@@ -121,16 +129,19 @@ void write_merged(const DatasetReader& reader, const fs::path& temporary, const 
         column.member);
   }
   StoredAxes axes;
+  DrawnKeys keys;
   bool complex_maps = false;
   Progress progress("merging shards", reader.shards());
   for (std::size_t i = 0; i < reader.shards(); ++i) {
     if (stop && *stop) throw Interrupted();
     const Shard shard = reader.shard(i);
     if (i == 0) {
+      keys = drawn_keys(shard.samples.front().record);
+      create_drawn(merged, keys, manifest.samples, chunk[0]);
       axes = shard.axes;
       complex_maps = !shard.samples.front().complex_values.empty();
     }
-    require_same(reader.directory() / manifest.shards[i].file, shard, axes, complex_maps);
+    require_same(reader.directory() / manifest.shards[i].file, shard, axes, complex_maps, keys);
     write_columns(merged, manifest.shards[i].first_sample, shard.samples);
     progress.advance();
   }
@@ -258,6 +269,14 @@ void MergedFileVerifier::compare(std::size_t index, const Shard& shard) {
             }
           },
           column.member);
+    }
+    std::vector<SampleRecord> drawn(count);
+    std::vector<SampleRecord*> rows;
+    for (SampleRecord& record : drawn) rows.push_back(&record);
+    read_drawn(*content_, first_row, rows);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!same_drawn(drawn[i], shard.samples[i].record))
+        throw WorkError(fmt::format("a drawn value of sample {} is not the shard's", first_row + i));
     }
     if (content_->read<double>(kRangeAxis.path, 1).values != shard.axes.range_m ||
         content_->read<double>(kVelocityAxis.path, 1).values != shard.axes.velocity_mps)

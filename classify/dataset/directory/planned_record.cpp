@@ -6,9 +6,17 @@
 #include <algorithm>
 #include <string_view>
 
+#include "sim/core/text/number.h"
 #include "sim/motion/target_motion.h"
 
 namespace seaglint {
+
+DrawnKeys drawn_keys(const Scenario& scenario) {
+  DrawnKeys keys;
+  for (const Variation& variation : scenario.variations)
+    (variation.distribution.is_numeric() ? keys.numbers : keys.words).push_back(variation.key_path);
+  return keys;
+}
 
 SampleRecord planned_record(const Scenario& scenario, const SamplePlan& plan, std::size_t sample) {
   return planned_record(scenario, plan, sample, plan.address(sample));
@@ -16,12 +24,13 @@ SampleRecord planned_record(const Scenario& scenario, const SamplePlan& plan, st
 
 SampleRecord planned_record(const Scenario& scenario, const SamplePlan& plan, std::size_t sample,
                             const SampleAddress& at) {
-  const TargetSpec& target = scenario.targets[static_cast<std::size_t>(at.target)];
-  const SeaState& state = plan.sea_state(at);
-  const View& view = plan.view(at);
+  const Scenario drawn = plan.drawn(scenario, at);
+  const TargetSpec& target = drawn.targets[static_cast<std::size_t>(at.target)];
+  const SeaState state = plan.sea_state(at);
+  const View view = plan.view(at);
   std::size_t first_body = 0;  // bodies are numbered over all targets, in order
   for (int t = 0; t < at.target; ++t) {
-    const TargetSpec& before = scenario.targets[static_cast<std::size_t>(t)];
+    const TargetSpec& before = drawn.targets[static_cast<std::size_t>(t)];
     if (before.points.empty()) first_body += layout_positions(before).size();
   }
 
@@ -47,6 +56,14 @@ SampleRecord planned_record(const Scenario& scenario, const SamplePlan& plan, st
   record.sea_key = static_cast<std::int64_t>(sea);
   record.first_motion_key = static_cast<std::int64_t>(body_index(sea, first_body));
   record.radar_key = static_cast<std::int64_t>(sample);
+  for (const Variation& variation : scenario.variations) {
+    const std::string value = drawn_value(variation, scenario.seed, plan.draw_place(at));
+    if (variation.distribution.is_numeric()) {
+      record.drawn_numbers.push_back({variation.key_path, parse_number(value).value()});
+    } else {
+      record.drawn_words.push_back({variation.key_path, value});
+    }
+  }
   return record;
 }
 
@@ -72,6 +89,7 @@ std::vector<std::string> record_mismatches(const SampleRecord& record, const Sam
         },
         column.member);
   }
+  if (!same_drawn(record, planned)) found.emplace_back("the drawn values are not those of the scenario");
   return found;
 }
 

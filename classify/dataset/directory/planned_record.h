@@ -3,10 +3,14 @@
 
 // The part of a sample's row that the scenario determines: sea, view, target, interval, keys and label.
 
+#include "classify/dataset/format/drawn_columns.h"
 #include "classify/dataset/format/sample.h"
 #include "sim/scenario/sample_plan.h"
 
 namespace seaglint {
+
+// Keys that a scenario draws, in the order of their columns.
+DrawnKeys drawn_keys(const Scenario& scenario);
 
 // Fills the columns `sample` to `radar_key`; measured columns are zero. sample < plan.size(); plan of the same
 // scenario.

@@ -12,6 +12,7 @@
 #include "classify/dataset/directory/export.h"
 #include "classify/dataset/directory/file_names.h"
 #include "classify/dataset/format/checksum.h"
+#include "classify/dataset/format/drawn_columns.h"
 #include "classify/dataset/format/layout.h"
 #include "classify/dataset/format/npy.h"
 #include "classify/dataset/format/tar.h"
@@ -62,6 +63,7 @@ std::string row_json(const SampleRecord& record) {
   ordered_json row;
   for (const SampleColumn& column : sample_columns())
     std::visit([&](auto member) { row[column.name] = record.*member; }, column.member);
+  visit_drawn(record, [&](const std::string& key, const auto& value) { row[key] = value; });
   return row.dump() + "\n";
 }
 
@@ -138,6 +140,10 @@ std::string description(const DatasetReader& reader, const std::string& manifest
   add("centres.npy", "float32", kCentres, "centre, value; strongest first");
   for (const SampleColumn& column : sample_columns())
     json["columns"][column.name] = {{"units", column.unit}, {"description", column.description}};
+  visit_drawn(first.samples.front().record, [&](const std::string& key, const auto&) {
+    const ArrayText text = drawn_text(key);
+    json["columns"][key] = {{"units", text.units}, {"description", text.description}};
+  });
   return json.dump(2) + "\n";
 }
 

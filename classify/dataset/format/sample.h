@@ -12,6 +12,15 @@
 
 namespace seaglint {
 
+// A value that the scenario draws for a sample (drawn_columns.h).
+template <class T>
+struct DrawnValue {
+  std::string key;  // its path in the scenario, "sea.peak_period_s"
+  T value = {};
+
+  bool operator==(const DrawnValue&) const = default;
+};
+
 // The metadata of a sample, one column each (sample_columns() gives units and meaning).
 struct SampleRecord {
   std::int64_t sample = 0;
@@ -48,6 +57,8 @@ struct SampleRecord {
   std::int64_t centres = 0;
   std::int64_t degenerate = 0;
   std::int64_t aspect_traces = 0;
+  std::vector<DrawnValue<double>> drawn_numbers = {};  // by their keys
+  std::vector<DrawnValue<std::string>> drawn_words = {};
 };
 
 struct SampleColumn {
@@ -57,7 +68,7 @@ struct SampleColumn {
   std::variant<std::int64_t SampleRecord::*, double SampleRecord::*, std::string SampleRecord::*> member;
 };
 
-// Every column of a shard's /samples group, in the order of SampleRecord.
+// Every column of a shard's /samples group, in the order of SampleRecord; drawn values have columns of their own.
 std::span<const SampleColumn> sample_columns();
 
 // A scattering centre as stored: range_m, velocity_mps, amplitude_m.

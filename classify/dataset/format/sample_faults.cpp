@@ -32,6 +32,8 @@ void check_columns(const SampleRecord& record, std::vector<std::string>& faults)
     if (!std::isfinite(value) && !(may_be_missing && std::isnan(value)))
       faults.push_back(fmt::format("{} {} is not finite", name, value));
   }
+  for (const auto& [key, value] : record.drawn_numbers)
+    if (!std::isfinite(value)) faults.push_back(fmt::format("{} {} is not finite", key, value));
 }
 
 // Peak and energy only if every value is a magnitude.

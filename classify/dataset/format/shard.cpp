@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "classify/dataset/format/checksum.h"
+#include "classify/dataset/format/drawn_columns.h"
 #include "classify/dataset/format/hdf5_file.h"
 #include "classify/dataset/format/layout.h"
 #include "sim/core/process/error.h"
@@ -101,6 +102,10 @@ void write_content(Hdf5Writer& file, const Shard& shard, int max_centres) {
   write_values(file, kCentres, {n, centres, 3}, {1, centres, 3}, centre_table);
   file.group("/samples");
   write_columns(file, shard.samples);
+  create_drawn(file, drawn_keys(shard.samples.front().record), n, n);
+  std::vector<const SampleRecord*> records;
+  for (const Sample& sample : shard.samples) records.push_back(&sample.record);
+  write_drawn(file, 0, records);
 }
 
 void expect(bool condition, const std::string& what) {
@@ -161,6 +166,9 @@ Shard read_content(const ShardFile& loaded) {
   const std::size_t max_centres = centres.size[1];
 
   read_columns(file, shard.samples);
+  std::vector<SampleRecord*> records;
+  for (Sample& sample : shard.samples) records.push_back(&sample.record);
+  read_drawn(file, 0, records);
   for (std::size_t i = 0; i < n; ++i) {
     const std::int64_t count = shard.samples[i].record.centres;
     expect(count >= 0 && static_cast<std::size_t>(count) <= max_centres, "/samples/centres does not fit /centres");

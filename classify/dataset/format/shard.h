@@ -11,6 +11,7 @@
 //   /centres                            float32 [sample][centre][range_m, velocity_mps, amplitude_m], zero beyond
 //                                       /samples/centres
 //   /samples/<column>                   [sample], one array per column of sample_columns()
+//   /drawn/<key>                        [sample], one array per drawn key (drawn_columns.h); only with drawn values
 //
 // Attributes of the file: `format`, `program_version`, `processor`; of every array: `units`, `description`. Every chunk
 // of an array has a Fletcher-32 checksum, every header a checksum of its own (HDF5 1.8 format).

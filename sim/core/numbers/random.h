@@ -31,6 +31,7 @@ enum class Stream : std::uint32_t {
   kPriJitter = 16,
   kMeshChange = 17,
   kRayLattice = 18,
+  kDraw = 19,
   kTest = 1000,
 };
 

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/scenario/draws/variation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include "sim/core/process/error.h"
+#include "sim/scenario/files/scenario_document.h"
+
+namespace seaglint {
+
+namespace {
+
+// FNV-1a, 64 bits, of the path and the eight bytes of the number (Fowler, Noll and Vo 1991).
+std::uint64_t hash_of(std::string_view path, std::uint64_t number) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  const auto add = [&](std::uint64_t byte) { hash = (hash ^ byte) * 0x100000001b3; };
+  for (const char c : path) add(static_cast<unsigned char>(c));
+  for (int i = 0; i < 8; ++i) add(number >> (8 * i) & 0xff);
+  return hash;
+}
+
+constexpr std::array<const char*, 3> kPerSea{"sea", "sea_reflection", "targets"};
+constexpr std::array<const char*, 2> kPerObservation{"view", "clutter"};
+constexpr std::array<const char*, 3> kOfRadar{"radar.hop_code", "radar.pri_jitter_us", "radar.polarisation"};
+
+std::optional<DrawnPer> drawn_per(const std::string& path) {
+  const std::string section = path.substr(0, path.find('.'));
+  const auto contains = [](const auto& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  if (contains(kPerSea, section) && !path.ends_with(".label")) return DrawnPer::kSea;
+  if (contains(kPerObservation, section) || contains(kOfRadar, path)) return DrawnPer::kObservation;
+  return std::nullopt;
+}
+
+// Nothing for a node that is not a text, or none of a distribution.
+std::optional<Distribution> distribution_of(const ScenarioDocument& document, const YamlNode& node,
+                                            const std::string& path) {
+  if (node.kind != YamlNode::Kind::kScalar) return std::nullopt;
+  try {
+    return parse_distribution(node.text);
+  } catch (const InputError& error) {
+    document.fail(node.location, path, fmt::format("value '{}': {}", node.text, error.what()));
+  }
+}
+
+void find(const ScenarioDocument& document, const YamlNode& node, const std::string& path,
+          std::vector<Variation>& found) {
+  const auto below = [&](const std::string& key) { return path.empty() ? key : path + "." + key; };
+  for (std::size_t i = 0; i < node.items.size(); ++i) {
+    const YamlNode& item = node.items[i];
+    const std::string at = below(std::to_string(i));
+    find(document, item, at, found);
+    if (distribution_of(document, item, at))
+      document.fail(item.location, at, fmt::format("value '{}': a distribution cannot be one of a list", item.text));
+  }
+  for (const YamlEntry& entry : node.entries) {
+    const std::string at = below(entry.key);
+    const YamlNode& value = entry.value;
+    find(document, value, at, found);
+    std::optional<Distribution> distribution = distribution_of(document, value, at);
+    if (!distribution) continue;
+    const std::optional<DrawnPer> per = drawn_per(at);
+    if (!per) {
+      document.fail(value.location, at,
+                    fmt::format("value '{}': must be one value for all maps; values are drawn in view, sea, "
+                                "sea_reflection, clutter, targets (without label), and as {}",
+                                value.text, fmt::join(kOfRadar, ", ")));
+    }
+    found.push_back({at, std::move(*distribution), *per});
+  }
+}
+
+// The scalar at a path through maps and lists.
+YamlNode& node_at(YamlNode& root, const std::string& path) {
+  YamlNode* node = &root;
+  for (const std::string& key : split_path(path))
+    node = node->kind == YamlNode::Kind::kList ? &node->items[std::stoul(key)] : node->find(key);
+  return *node;
+}
+
+}  // namespace
+
+std::vector<Variation> find_variations(const ScenarioDocument& document) {
+  std::vector<Variation> found;
+  find(document, document.root, "", found);
+  std::ranges::sort(found, {}, &Variation::key_path);
+  return found;
+}
+
+std::string drawn_value(const Variation& variation, std::uint64_t seed, const DrawPlace& place) {
+  const std::uint64_t number = variation.per == DrawnPer::kSea ? place.sea : place.observation;
+  Random random({seed, Stream::kDraw, hash_of(variation.key_path, number)});
+  return variation.distribution.draw(random);
+}
+
+ScenarioDocument with_values(const ScenarioDocument& document, const std::vector<Variation>& variations,
+                             const std::vector<std::string>& values) {
+  ScenarioDocument copy = document;
+  for (std::size_t i = 0; i < variations.size(); ++i) {
+    YamlNode& node = node_at(copy.root, variations[i].key_path);
+    node.text = values[i];
+    node.quoted = false;
+  }
+  return copy;
+}
+
+}  // namespace seaglint

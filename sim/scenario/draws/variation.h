@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// Keys of a scenario whose values are drawn from distributions, and the scenarios with the drawn values.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "sim/scenario/draws/distribution.h"
+
+namespace seaglint {
+
+struct ScenarioDocument;
+
+// How often a value is drawn: keys of `sea`, `sea_reflection` and `targets` once per sea realisation; those of `view`,
+// `clutter` and `radar` once per observation, one interval of one sea in one view, common to its targets.
+enum class DrawnPer { kSea, kObservation };
+
+struct Variation {
+  std::string key_path;
+  Distribution distribution;
+  DrawnPer per = DrawnPer::kSea;
+};
+
+// Numbers of a sea realisation, sea_key(), and of an observation.
+struct DrawPlace {
+  std::uint64_t sea = 0;
+  std::uint64_t observation = 0;
+};
+
+// The drawn keys of a document, by their paths. Throws InputError with the place for a wrong distribution, and for a
+// key that must be common to all maps.
+std::vector<Variation> find_variations(const ScenarioDocument& document);
+
+// The value of a variation at a place: keyed by (seed, kDraw, key path and number), independent of all other keys.
+std::string drawn_value(const Variation& variation, std::uint64_t seed, const DrawPlace& place);
+
+// The document with values[i] in place of variations[i].
+ScenarioDocument with_values(const ScenarioDocument& document, const std::vector<Variation>& variations,
+                             const std::vector<std::string>& values);
+
+}  // namespace seaglint

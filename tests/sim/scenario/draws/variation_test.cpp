@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Scenarios with drawn values: where they are drawn, what they depend on, how they are written and refused.
+#include "sim/scenario/draws/variation.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+#include <tuple>
+
+#include "sim/scenario/sample_plan.h"
+#include "sim/scenario/writer.h"
+#include "tests/sim/scenario/parsing.h"
+
+namespace seaglint {
+namespace {
+
+using namespace testing_scenarios;
+using testing::AllOf;
+using testing::HasSubstr;
+
+const std::string kDrawn = R"yaml(seaglint: 1
+view: {azimuth_deg: uniform(10 170), elevation_deg: 2}
+sea:
+  significant_wave_height_m: loguniform(0.2, 2)
+  peak_period_s: uniform(7, 10)
+radar: {hop_code: "choice(random, balanced)"}
+clutter: {scr_db: uniform(10 25)}
+targets:
+  ship: {label: 1, mesh: a.glb}
+  array: {label: 0, mesh: b.glb, layout: {line: {count: "integers(3, 30)", spacing_m: 20}}}
+dataset: {maps_per_case: 12, realisations_per_case: 4}
+)yaml";
+
+std::string replaced(std::string text, const std::string& from, const std::string& by) {
+  const std::size_t at = text.find(from);
+  return text.substr(0, at) + by + text.substr(at + from.size());
+}
+
+Scenario drawn(const Scenario& scenario, std::size_t sample) {
+  const SamplePlan plan(scenario);
+  return plan.drawn(scenario, plan.address(sample));
+}
+
+TEST(Variation, FieldsHaveTheMiddlesOfTheirDistributions) {
+  const Scenario scenario = parse(kDrawn);
+  ASSERT_EQ(scenario.variations.size(), 6u);
+  EXPECT_EQ(scenario.view.azimuth_deg, std::vector<double>{90});
+  EXPECT_EQ(scenario.clutter.scr_db, 17.5);
+  EXPECT_EQ(scenario.targets[1].line->count, 16);
+  EXPECT_EQ(scenario.radar.hop_code, HopCode::kRandom);
+}
+
+// Those of the sea once per sea, the others once per interval; both targets see the same.
+TEST(Variation, IsDrawnPerSeaOrPerObservation) {
+  const Scenario scenario = parse(kDrawn);
+  const SamplePlan plan(scenario);
+  std::set<std::tuple<int, double, int>> seas;
+  std::set<std::tuple<int, int, double, double>> observations;
+  for (std::size_t i = 0; i < plan.size(); ++i) {
+    const SampleAddress at = plan.address(i);
+    const Scenario one = plan.drawn(scenario, at);
+    EXPECT_TRUE(one.variations.empty());
+    EXPECT_EQ(plan.sea_state(at).significant_wave_height_m, one.sea.significant_wave_height_m[0]);
+    EXPECT_EQ(plan.view(at).azimuth_deg, one.view.azimuth_deg[0]);
+    seas.insert({at.realisation, one.sea.significant_wave_height_m[0], one.targets[1].line->count});
+    observations.insert({at.realisation, at.interval, one.view.azimuth_deg[0], one.clutter.scr_db});
+  }
+  EXPECT_EQ(seas.size(), 4u);
+  EXPECT_EQ(observations.size(), 12u);
+}
+
+// A key's draws depend on the seed, the key and the number alone.
+TEST(Variation, IsIndependentOfOtherKeysAndOfTheirOrder) {
+  const Scenario scenario = parse(kDrawn);
+  const Scenario fewer =
+      parse(replaced(replaced(kDrawn, "scr_db: uniform(10 25)", "scr_db: 20"), "uniform(7, 10)", "8"));
+  for (std::size_t i = 0; i < 24; ++i) {
+    EXPECT_EQ(drawn(scenario, i).view.azimuth_deg, drawn(fewer, i).view.azimuth_deg);
+    EXPECT_EQ(drawn(scenario, i).targets[1].line->count, drawn(fewer, i).targets[1].line->count);
+    EXPECT_EQ(drawn(fewer, i).clutter.scr_db, 20);
+  }
+  const Scenario seeded = parse(kDrawn, {Override{"seed", "43"}});
+  EXPECT_NE(drawn(scenario, 0).view.azimuth_deg, drawn(seeded, 0).view.azimuth_deg);
+}
+
+TEST(Variation, OfAScenarioWithoutDistributionsIsNone) {
+  const Scenario scenario = parse(kPaper);
+  EXPECT_TRUE(scenario.variations.empty());
+  EXPECT_EQ(effective_yaml(drawn(scenario, 5)), effective_yaml(scenario));
+}
+
+TEST(Variation, IsWrittenAndReadBack) {
+  const Scenario scenario = parse(kDrawn);
+  const std::string text = effective_yaml(scenario);
+  EXPECT_THAT(text, AllOf(HasSubstr("azimuth_deg: uniform(10, 170)"), HasSubstr("count: integers(3, 30)"),
+                          HasSubstr("hop_code: choice(random, balanced)")));
+  const Scenario again = parse(text);
+  for (std::size_t i = 0; i < scenario.variations.size(); ++i)
+    EXPECT_EQ(again.variations.at(i).key_path, scenario.variations[i].key_path);
+  EXPECT_EQ(effective_yaml(again), text);
+  for (const std::size_t i : {0u, 7u, 20u})
+    EXPECT_EQ(effective_yaml(drawn(again, i)), effective_yaml(drawn(scenario, i)));
+  // The drawn scenario is one without distributions, and reads as such.
+  EXPECT_EQ(effective_yaml(parse(effective_yaml(drawn(scenario, 3)))), effective_yaml(drawn(scenario, 3)));
+}
+
+TEST(Variation, IsSetAndReplacedByOverrides) {
+  const Scenario scenario =
+      parse(kPaper, {Override{"clutter.scr_db", "uniform(10, 25)"}, Override{"sea.peak_period_s", "choice(8, 9)"}});
+  EXPECT_EQ(scenario.variations.size(), 2u);
+  EXPECT_TRUE(parse(kDrawn, {Override{"view.azimuth_deg", "30"}}).variations.size() == 5);
+}
+
+TEST(Variation, OutsideOfItsKeysBoundIsRefusedAtItsLine) {
+  EXPECT_THAT(complaint_about(kDrawn, {Override{"view.elevation_deg", "uniform(2, 95)"}}),
+              AllOf(HasSubstr("view.elevation_deg"), HasSubstr("95"), HasSubstr("drawn by uniform(2, 95)")));
+  EXPECT_THAT(complaint_about(replaced(kDrawn, "integers(3, 30)", "integers(0, 30)")),
+              AllOf(HasSubstr("file.yaml:10:"), HasSubstr("targets.array.layout.line.count")));
+  EXPECT_THAT(complaint_about(replaced(kDrawn, "uniform(7, 10)", "uniform(10, 7)")),
+              AllOf(HasSubstr("file.yaml:5:18: sea.peak_period_s: value 'uniform(10, 7)'"), HasSubstr("a < b")));
+  EXPECT_THAT(complaint_about(replaced(kDrawn, "balanced", "balancd")),
+              AllOf(HasSubstr("radar.hop_code"), HasSubstr("balancd")));
+}
+
+TEST(Variation, OfAKeyThatIsCommonToAllMapsIsRefused) {
+  for (const Override& set :
+       {Override{"seed", "integers(1, 9)"}, Override{"map.range_span_m", "uniform(100, 200)"},
+        Override{"radar.pulses", "integers(9, 99)"}, Override{"dataset.maps_per_case", "integers(1, 9)"},
+        Override{"targets.ship.label", "choice(0, 1)"}}) {
+    EXPECT_THAT(complaint_about(kDrawn, {set}), HasSubstr("must be one value for all maps")) << set.key_path;
+  }
+}
+
+TEST(Variation, WithinAListIsRefused) {
+  EXPECT_THAT(complaint_about(kDrawn, {Override{"view.elevation_deg", "[1, 'uniform(2, 3)']"}}),
+              HasSubstr("view.elevation_deg.1: value 'uniform(2, 3)': a distribution cannot be one of a list"));
+}
+
+// Waves of 7 m and 5 s are steeper than 1/7, each of them alone at the middle of the other is not.
+TEST(Variation, ThatContradictsAnotherIsRefusedWithItsValues) {
+  const Scenario scenario = parse(
+      kShort + "dataset: {maps_per_case: 200, realisations_per_case: 200}\n",
+      {Override{"sea.significant_wave_height_m", "uniform(0.1, 7)"}, Override{"sea.peak_period_s", "uniform(5, 15)"}});
+  try {
+    for (std::size_t i = 0; i < 200; ++i) drawn(scenario, i);
+    ADD_FAILURE() << "no sea was refused";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("drawn values"), HasSubstr("sea.peak_period_s")));
+  }
+}
+
+}  // namespace
+}  // namespace seaglint
