@@ -263,6 +263,12 @@ void check_dataset(const Scenario& scenario, const ScenarioDocument& document) {
     document.fail_at("dataset.maps_per_case", fmt::format("must be a multiple of dataset.realisations_per_case, {}",
                                                           dataset.realisations_per_case));
   }
+  if (dataset.maps_per_case / dataset.realisations_per_case % dataset.maps_per_interval != 0) {
+    document.fail_at("dataset.maps_per_case",
+                     fmt::format("must be a multiple of dataset.realisations_per_case, {}, times "
+                                 "dataset.maps_per_interval, {}",
+                                 dataset.realisations_per_case, dataset.maps_per_interval));
+  }
 }
 
 // Equal directions would give equal cases.

@@ -314,6 +314,7 @@ void visit(MapSpec& spec, FieldVisitor& v) {
 void visit(DatasetSpec& spec, FieldVisitor& v) {
   v.integer("maps_per_case", spec.maps_per_case, within(1, 1000000));
   v.integer("realisations_per_case", spec.realisations_per_case, within(1, 100000));
+  v.integer("maps_per_interval", spec.maps_per_interval, within(1, 1000));
   v.number("interval_spacing_s", spec.interval_spacing_s, within(0.001, 10000));
   v.integer("maps_per_shard", spec.maps_per_shard, within(1, 10000));
   v.ratio("split", spec.train_fraction);

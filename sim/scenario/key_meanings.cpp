@@ -191,6 +191,9 @@ constexpr Meaning kMeanings[] = {
     {"map.clean", "The map shows the points that CLEAN finds, without the pedestal of the hop code."},
     {"dataset.maps_per_case", "Maps of each target in a case (one sea state at one view)."},
     {"dataset.realisations_per_case", "Independent seas of a case; divides maps_per_case."},
+    {"dataset.maps_per_interval",
+     "Maps of each interval and target, each with its own clutter, noise and drawn values of clutter; the target's "
+     "response is computed once. Times realisations_per_case it divides maps_per_case."},
     {"dataset.interval_spacing_s", "Time from one interval of a realisation to the next, s."},
     {"dataset.maps_per_shard", "Maps in one HDF5 file."},
     {"dataset.split", "Training to test rows, of maps and of sea realisations."},

@@ -9,7 +9,8 @@ namespace seaglint {
 
 struct DatasetSpec {
   int maps_per_case = 100;         // per class; a case is (sea state, aspect); 1 <= x <= 1000000
-  int realisations_per_case = 10;  // independent seas; divides maps_per_case; 1 <= x <= 100000
+  int realisations_per_case = 10;  // independent seas; 1 <= x <= 100000; times maps_per_interval divides maps_per_case
+  int maps_per_interval = 1;       // of one response, each with its own clutter and noise; 1 <= x <= 1000
   double interval_spacing_s = 10;  // between the intervals of one realisation, 0.001 <= x <= 10000
   int maps_per_shard = 20;         // 1 <= x <= 10000
   double train_fraction = 0.7;     // `split: 7:3`, 0 < x < 1

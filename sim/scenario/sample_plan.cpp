@@ -24,18 +24,21 @@ SamplePlan::SamplePlan(const Scenario& scenario)
       sea_states_(seaglint::sea_states(scenario.sea)),
       realisations_(static_cast<std::size_t>(scenario.dataset.realisations_per_case)),
       views_(seaglint::views(scenario.view)),
-      intervals_(scenario.dataset.maps_per_case / std::max(1, scenario.dataset.realisations_per_case)),
+      intervals_(scenario.dataset.maps_per_case / std::max(1, scenario.dataset.realisations_per_case) /
+                 std::max(1, scenario.dataset.maps_per_interval)),
       targets_(scenario.targets.size()),
+      per_interval_(static_cast<std::size_t>(std::max(1, scenario.dataset.maps_per_interval))),
       per_realisation_(views_.size() * static_cast<std::size_t>(intervals_) * targets_),
       per_shard_(static_cast<std::size_t>(scenario.dataset.maps_per_shard)),
       spacing_s_(scenario.dataset.interval_spacing_s) {
   SEAGLINT_CHECK(realisations_ >= 1 && intervals_ >= 1 && per_shard_ >= 1 &&
-                     scenario.dataset.maps_per_case % scenario.dataset.realisations_per_case == 0,
+                     scenario.dataset.maps_per_case ==
+                         intervals_ * scenario.dataset.realisations_per_case * scenario.dataset.maps_per_interval,
                  fmt::format("maps_per_case {}, realisations_per_case {}, maps_per_shard {}",
                              scenario.dataset.maps_per_case, realisations_, per_shard_));
 }
 
-std::size_t SamplePlan::size() const { return sea_states_.size() * realisations_ * per_realisation_; }
+std::size_t SamplePlan::size() const { return sea_states_.size() * realisations_ * per_realisation_ * per_interval_; }
 
 // Fisher-Yates shuffle with a key per realisation.
 std::vector<std::uint32_t> SamplePlan::order(std::size_t realisation_number) const {
@@ -50,7 +53,7 @@ std::vector<std::uint32_t> SamplePlan::order(std::size_t realisation_number) con
 
 SampleAddress SamplePlan::sea_address(std::size_t sample) const {
   SEAGLINT_CHECK(sample < size(), fmt::format("sample {} of {}", sample, size()));
-  const std::size_t realisation_number = sample / per_realisation_;
+  const std::size_t realisation_number = sample / per_interval_ / per_realisation_;
   SampleAddress address;
   address.realisation = static_cast<int>(realisation_number % realisations_);
   address.sea_state = static_cast<int>(realisation_number / realisations_);
@@ -59,11 +62,13 @@ SampleAddress SamplePlan::sea_address(std::size_t sample) const {
 
 SampleAddress SamplePlan::address(std::size_t sample) const {
   SampleAddress address = sea_address(sample);
-  const std::size_t place = order(sample / per_realisation_)[sample % per_realisation_];
+  const std::size_t number = sample / per_interval_;
+  const std::size_t place = order(number / per_realisation_)[number % per_realisation_];
   const std::size_t intervals = static_cast<std::size_t>(intervals_);
   address.target = static_cast<int>(place % targets_);
   address.interval = static_cast<int>(place / targets_ % intervals);
   address.view = static_cast<int>(place / targets_ / intervals);
+  address.clutter = static_cast<int>(sample % per_interval_);
   return address;
 }
 
@@ -76,7 +81,8 @@ std::size_t SamplePlan::sample(const SampleAddress& address) const {
   const std::vector<std::uint32_t> order = this->order(realisation_number);
   const auto found = std::find(order.begin(), order.end(), place);
   SEAGLINT_CHECK(found != order.end(), fmt::format("place {} of {}", place, per_realisation_));
-  return realisation_number * per_realisation_ + static_cast<std::size_t>(found - order.begin());
+  const std::size_t number = realisation_number * per_realisation_ + static_cast<std::size_t>(found - order.begin());
+  return number * per_interval_ + static_cast<std::size_t>(address.clutter);
 }
 
 DrawPlace SamplePlan::draw_place(const SampleAddress& at) const {
@@ -84,7 +90,8 @@ DrawPlace SamplePlan::draw_place(const SampleAddress& at) const {
       (static_cast<std::uint64_t>(group(at)) * views_.size() + static_cast<std::uint64_t>(at.view)) *
           static_cast<std::uint64_t>(intervals_) +
       static_cast<std::uint64_t>(at.interval);
-  return {sea_key(static_cast<std::size_t>(at.sea_state), static_cast<std::size_t>(at.realisation)), observation};
+  return {sea_key(static_cast<std::size_t>(at.sea_state), static_cast<std::size_t>(at.realisation)), observation,
+          observation * per_interval_ + static_cast<std::uint64_t>(at.clutter)};
 }
 
 Scenario SamplePlan::drawn(const Scenario& scenario, const SampleAddress& at) const {

@@ -18,8 +18,9 @@ struct SampleAddress {
   int sea_state = 0;    // index into the plan's sea_states()
   int realisation = 0;  // 0..realisations_per_case-1, of the sea state
   int view = 0;         // index into the plan's views()
-  int interval = 0;     // 0..maps_per_case/realisations_per_case-1, of the realisation
+  int interval = 0;     // 0..maps_per_case/realisations_per_case/maps_per_interval-1, of the realisation
   int target = 0;       // index into scenario.targets
+  int clutter = 0;      // 0..maps_per_interval-1: map of the interval, with clutter and noise of its own
 
   bool operator==(const SampleAddress&) const = default;
 };
@@ -35,7 +36,8 @@ struct ShardRange {
 
 // Samples are numbered with the sea state slowest, then the realisation, so that samples of one sea and its motions are
 // adjacent. Within a realisation views, intervals and targets are in random order (stream kTargetOrder), so that
-// neither the number of a sample nor the labels of adjacent samples carry information about its label.
+// neither the number of a sample nor the labels of adjacent samples carry information about its label. Maps of one
+// interval and target are adjacent.
 class SamplePlan {
  public:
   explicit SamplePlan(const Scenario& scenario);
@@ -60,6 +62,9 @@ class SamplePlan {
   ShardRange shard(std::size_t index) const;  // the last shard may have fewer samples
 
   int intervals() const { return intervals_; }
+  int maps_per_interval() const { return static_cast<int>(per_interval_); }
+  // First sample of the same interval and target: the random index of their hop code.
+  std::size_t first_of_interval(std::size_t sample) const { return sample - sample % per_interval_; }
   // One group = one sea realisation, numbered from 0 without gaps.
   std::int64_t group(const SampleAddress& address) const;
   double start_s(const SampleAddress& address) const;  // of the interval within the realisation
@@ -67,7 +72,7 @@ class SamplePlan {
   double last_start_s() const;
 
  private:
-  // The shuffled order of the samples of one realisation: entry = (view intervals + interval) targets + target.
+  // The shuffled order of the intervals of one realisation: entry = (view intervals + interval) targets + target.
   std::vector<std::uint32_t> order(std::size_t realisation_number) const;
 
   std::uint64_t seed_ = 0;
@@ -77,7 +82,8 @@ class SamplePlan {
   std::vector<View> views_;
   int intervals_ = 0;
   std::size_t targets_ = 0;
-  std::size_t per_realisation_ = 0;  // samples
+  std::size_t per_interval_ = 1;     // samples of an interval and target
+  std::size_t per_realisation_ = 0;  // intervals and targets
   std::size_t per_shard_ = 1;
   double spacing_s_ = 0;
 };

@@ -21,7 +21,7 @@ FullBandInterval full_band_interval(const Pipeline& pipeline, std::size_t sample
   radar.sampling_mhz = std::max(radar.sampling_mhz, 2 * radar.bandwidth_mhz);
 
   FullBandInterval band;
-  band.train = make_pulse_train(radar, pipeline.window_m(), scenario.seed, sample);
+  band.train = make_pulse_train(radar, pipeline.window_m(), scenario.seed, pipeline.plan().first_of_interval(sample));
   ClutterSpec none;
   none.enabled = false;
   const SampleAddress at = pipeline.plan().address(sample);

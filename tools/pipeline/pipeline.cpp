@@ -16,7 +16,7 @@ namespace seaglint {
 
 namespace {
 
-constexpr std::size_t kScenesKept = 8;
+constexpr std::size_t kScenesKept = 8, kResponsesKept = 16;
 
 // Map, hop code and centres as the data set stores them.
 void store_signal(const GeneratedSample& made, bool complex_maps, Sample& stored) {
@@ -50,6 +50,13 @@ struct Pipeline::SceneSlot {
   int realisation = 0;
   std::once_flag made;
   std::shared_ptr<const Scene> scene;
+};
+
+// The response that the maps of an interval and target share; the first caller computes it.
+struct Pipeline::ResponseSlot {
+  std::size_t first_sample = 0;
+  std::once_flag made;
+  std::shared_ptr<const BodyResponse> response;
 };
 
 namespace {
@@ -181,12 +188,35 @@ Echo Pipeline::echo_of(std::size_t sample, const GeneratedSample& made, const Bo
 }
 
 PulseTrain Pipeline::pulse_train(std::size_t sample) const {
-  return make_pulse_train(scenario_of(plan_.address(sample)).radar, range_window_m_, scenario_.seed, sample);
+  return make_pulse_train(scenario_of(plan_.address(sample)).radar, range_window_m_, scenario_.seed,
+                          plan_.first_of_interval(sample));
 }
 
 GeneratedSample Pipeline::generate_sample(std::size_t sample, const StopFlag* stop) const {
   const PulseTrain train = pulse_train(sample);
-  return received_sample(sample, train, response(plan_.address(sample), train, stop));
+  return received_sample(sample, train, *shared_response(sample, train, stop));
+}
+
+std::shared_ptr<const BodyResponse> Pipeline::shared_response(std::size_t sample, const PulseTrain& train,
+                                                              const StopFlag* stop) const {
+  const auto made = [&] { return std::make_shared<const BodyResponse>(response(plan_.address(sample), train, stop)); };
+  if (plan_.maps_per_interval() == 1) return made();
+  const std::size_t first = plan_.first_of_interval(sample);
+  std::shared_ptr<ResponseSlot> slot;
+  {
+    const std::lock_guard lock(responses_mutex_);
+    for (const auto& known : responses_) {
+      if (known->first_sample == first) slot = known;
+    }
+    if (!slot) {
+      slot = std::make_shared<ResponseSlot>();
+      slot->first_sample = first;
+      if (responses_.size() == kResponsesKept) responses_.erase(responses_.begin());
+      responses_.push_back(slot);
+    }
+  }
+  std::call_once(slot->made, [&] { slot->response = made(); });
+  return slot->response;
 }
 
 GeneratedSample Pipeline::received_sample(std::size_t sample, const PulseTrain& train,

@@ -80,6 +80,10 @@ class Pipeline {
   // H of a target: the sum over its bodies, or its ideal points.
   static BodyResponse target_response(std::size_t target, const Observation& seen, const StopFlag* stop);
 
+  // response() of a sample's interval, computed once for its maps.
+  std::shared_ptr<const BodyResponse> shared_response(std::size_t sample, const PulseTrain& train,
+                                                      const StopFlag* stop) const;
+
   // The echo of a sample. Throws InputError, naming target and sample, when it has no power.
   Echo echo_of(std::size_t sample, const GeneratedSample& made, const BodyResponse& response, const Scene& scene) const;
 
@@ -92,6 +96,9 @@ class Pipeline {
   struct SceneSlot;
   mutable std::mutex scenes_mutex_;
   mutable std::vector<std::shared_ptr<SceneSlot>> scenes_;  // most recently made last
+  struct ResponseSlot;
+  mutable std::mutex responses_mutex_;
+  mutable std::vector<std::shared_ptr<ResponseSlot>> responses_;  // likewise
 };
 
 // The axes of a map.

@@ -38,7 +38,8 @@ SampledInterval sampled_interval(const Pipeline& pipeline, std::size_t sample) {
   const Scenario scenario = pipeline.scenario_of(pipeline.plan().address(sample));
   const double sampling_hz = scenario.radar.sampling_mhz * 1e6;
   // The pulses of the map, without generating it.
-  const PulseTrain train = make_pulse_train(scenario.radar, pipeline.window_m(), scenario.seed, sample);
+  const PulseTrain train =
+      make_pulse_train(scenario.radar, pipeline.window_m(), scenario.seed, pipeline.plan().first_of_interval(sample));
   const PulseTrain fine = train_for_samples(train, scenario.radar);
   check_size(scenario, fine, sampling_hz);
   const GeneratedSample made = pipeline.generate_sample(sample);

@@ -42,12 +42,14 @@ std::string columns_table() {
 std::string drawn_table(const Scenario& scenario) {
   if (scenario.variations.empty()) return "";
   std::string table =
-      "\n## Columns of `drawn/`\n\nDrawn once per sea, or per observation (sea, view and interval), common to all "
-      "targets.\n\n| key | units | distribution | drawn per |\n|---|---|---|---|\n";
+      "\n## Columns of `drawn/`\n\nDrawn once per sea, per observation (sea, view and interval) or per map of an "
+      "observation, common to all targets.\n\n| key | units | distribution | drawn per |\n|---|---|---|---|\n";
   for (const Variation& variation : scenario.variations) {
     table += fmt::format("| `{}` | {} | {} | {} |\n", variation.key_path, drawn_text(variation.key_path).units,
                          markdown_text(variation.distribution.text()),
-                         variation.per == DrawnPer::kSea ? "sea" : "observation");
+                         variation.per == DrawnPer::kSea           ? "sea"
+                         : variation.per == DrawnPer::kObservation ? "observation"
+                                                                   : "map");
   }
   return table;
 }

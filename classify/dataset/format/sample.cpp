@@ -25,7 +25,7 @@ std::span<const SampleColumn> sample_columns() {
       {"seed", "1", "seed of the scenario", &R::seed},
       {"sea_key", "1", "random key of the sea", &R::sea_key},
       {"first_motion_key", "1", "random key of the target's first body; further bodies follow", &R::first_motion_key},
-      {"radar_key", "1", "random key of hop code, clutter and noise", &R::radar_key},
+      {"radar_key", "1", "random key of clutter and noise, and of the hop code of all maps of its interval", &R::radar_key},
       {"unused_carriers", "1", "carriers that no pulse of the interval used (zero band)", &R::unused_carriers},
       {"scr_per_pulse_db", "dB", "target to clutter, mean over pulses and frequencies", &R::scr_per_pulse_db},
       {"scr_peak_cell_db", "dB", "target's largest cell to mean clutter cell", &R::scr_peak_cell_db},

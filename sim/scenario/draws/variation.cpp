@@ -25,7 +25,6 @@ std::uint64_t hash_of(std::string_view path, std::uint64_t number) {
 }
 
 constexpr std::array<const char*, 3> kPerSea{"sea", "sea_reflection", "targets"};
-constexpr std::array<const char*, 2> kPerObservation{"view", "clutter"};
 constexpr std::array<const char*, 3> kOfRadar{"radar.hop_code", "radar.pri_jitter_us", "radar.polarisation"};
 
 std::optional<DrawnPer> drawn_per(const std::string& path) {
@@ -34,7 +33,8 @@ std::optional<DrawnPer> drawn_per(const std::string& path) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
   if (contains(kPerSea, section) && !path.ends_with(".label")) return DrawnPer::kSea;
-  if (contains(kPerObservation, section) || contains(kOfRadar, path)) return DrawnPer::kObservation;
+  if (section == "view" || contains(kOfRadar, path)) return DrawnPer::kObservation;
+  if (section == "clutter") return DrawnPer::kMap;
   return std::nullopt;
 }
 
@@ -94,7 +94,9 @@ std::vector<Variation> find_variations(const ScenarioDocument& document) {
 }
 
 std::string drawn_value(const Variation& variation, std::uint64_t seed, const DrawPlace& place) {
-  const std::uint64_t number = variation.per == DrawnPer::kSea ? place.sea : place.observation;
+  const std::uint64_t number = variation.per == DrawnPer::kSea           ? place.sea
+                               : variation.per == DrawnPer::kObservation ? place.observation
+                                                                         : place.map;
   Random random({seed, Stream::kDraw, hash_of(variation.key_path, number)});
   return variation.distribution.draw(random);
 }

@@ -13,9 +13,10 @@ namespace seaglint {
 
 struct ScenarioDocument;
 
-// How often a value is drawn: keys of `sea`, `sea_reflection` and `targets` once per sea realisation; those of `view`,
-// `clutter` and `radar` once per observation, one interval of one sea in one view, common to its targets.
-enum class DrawnPer { kSea, kObservation };
+// How often a value is drawn: keys of `sea`, `sea_reflection` and `targets` once per sea realisation; those of `view`
+// and `radar` once per observation, one interval of one sea in one view; those of `clutter` once per map of an
+// observation (dataset.maps_per_interval). Observations and their maps are common to all targets.
+enum class DrawnPer { kSea, kObservation, kMap };
 
 struct Variation {
   std::string key_path;
@@ -23,10 +24,11 @@ struct Variation {
   DrawnPer per = DrawnPer::kSea;
 };
 
-// Numbers of a sea realisation, sea_key(), and of an observation.
+// Numbers of a sea realisation, sea_key(), of an observation, and of a map of an observation.
 struct DrawPlace {
   std::uint64_t sea = 0;
   std::uint64_t observation = 0;
+  std::uint64_t map = 0;
 };
 
 // The drawn keys of a document, by their paths. Throws InputError with the place for a wrong distribution, and for a

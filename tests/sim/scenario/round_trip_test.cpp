@@ -153,6 +153,7 @@ void make_consistent(Scenario& scenario) {
   scenario.radar.sampling_mhz = std::max(scenario.radar.bandwidth_mhz * 1.7, 8.3 / scenario.radar.pulse_width_us);
   scenario.dataset.realisations_per_case = 7;
   scenario.dataset.maps_per_case = 7 * 13;
+  scenario.dataset.maps_per_interval = 13;
   for (double& height : scenario.sea.significant_wave_height_m) height *= 1e-3;
   scenario.sea.swell.significant_wave_height_m *= 1e-3;
   scenario.sea.cutoff_rad_s = scenario.sea.period_rule == PeakPeriod::kGiven ? 20 + 0.7 * scenario.sea.cutoff_rad_s : 0;

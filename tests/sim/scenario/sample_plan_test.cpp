@@ -36,6 +36,26 @@ TEST(SamplePlan, CountsMapsPerCaseAndClass) {
   for (const auto& [key, count] : maps_of_case_and_class) EXPECT_EQ(count, 6);
 }
 
+// Maps of one interval and target are adjacent; intervals keep their order.
+TEST(SamplePlan, DividesAnIntervalIntoMaps) {
+  Scenario scenario = small_scenario();
+  const SamplePlan single(scenario);
+  scenario.dataset.maps_per_interval = 3;
+  scenario.dataset.maps_per_case = 18;
+  const SamplePlan plan(scenario);
+  ASSERT_EQ(plan.size(), 3 * single.size());
+  EXPECT_EQ(plan.intervals(), single.intervals());
+  for (std::size_t i = 0; i < plan.size(); ++i) {
+    SampleAddress at = plan.address(i);
+    EXPECT_EQ(plan.sample(at), i);
+    EXPECT_EQ(at.clutter, static_cast<int>(i % 3));
+    EXPECT_EQ(plan.first_of_interval(i), i - i % 3);
+    EXPECT_EQ(plan.group(plan.sea_address(i)), plan.group(at));
+    at.clutter = 0;
+    EXPECT_EQ(at, single.address(i / 3));
+  }
+}
+
 TEST(SamplePlan, NumbersEveryAddressOnce) {
   const SamplePlan plan(small_scenario());
   std::set<std::tuple<int, int, int, int, int>> addresses;

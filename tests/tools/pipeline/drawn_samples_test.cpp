@@ -71,6 +71,23 @@ TEST(DrawnSamples, AreThoseOfTheWrittenOutScenario) {
   }
 }
 
+// The response is that of the interval's first map, clutter and noise are the map's own; in any order.
+TEST(DrawnSamples, OfOneIntervalShareTheTargetsResponse) {
+  const Scenario scenario = parse_scenario(kPoints, "points.yaml", {{"dataset.maps_per_interval", "2"}});
+  const Pipeline pipeline(scenario, SamplePlan(scenario)), other(scenario, SamplePlan(scenario));
+  ASSERT_EQ(pipeline.plan().size(), 8u);
+  for (std::size_t first = 0; first < 8; first += 2) {
+    const GeneratedSample a = pipeline.generate_sample(first), b = pipeline.generate_sample(first + 1);
+    EXPECT_EQ(a.train.code, b.train.code);
+    EXPECT_EQ(a.stored.record.azimuth_deg, b.stored.record.azimuth_deg);
+    EXPECT_EQ(a.stored.record.label, b.stored.record.label);
+    EXPECT_NE(a.stored.record.scr_per_pulse_db, b.stored.record.scr_per_pulse_db);
+    EXPECT_NE(a.stored.magnitude, b.stored.magnitude);
+    // Alone, without the first.
+    EXPECT_EQ(other.generate_sample(first + 1).stored.magnitude, b.stored.magnitude);
+  }
+}
+
 TEST(DrawnSamples, WithValuesThatContradictEachOtherAreRefusedBeforeTheFirst) {
   std::string text = kPoints;
   text.replace(text.find("uniform(0.5 1.5)}"), 17, "uniform(0.1 7), peak_period_s: uniform(5 15)}");

@@ -70,6 +70,20 @@ TEST(Variation, IsDrawnPerSeaOrPerObservation) {
   EXPECT_EQ(observations.size(), 12u);
 }
 
+// Maps of one interval have one view and one sea, and a clutter each.
+TEST(Variation, OfClutterIsDrawnPerMap) {
+  const Scenario scenario =
+      parse(kDrawn, {Override{"dataset.maps_per_case", "12"}, Override{"dataset.maps_per_interval", "3"}});
+  const SamplePlan plan(scenario);
+  std::set<double> views, ratios;
+  for (std::size_t i = 0; i < plan.size(); ++i) {
+    views.insert(drawn(scenario, i).view.azimuth_deg[0]);
+    ratios.insert(drawn(scenario, i).clutter.scr_db);
+  }
+  EXPECT_EQ(views.size(), 4u);
+  EXPECT_EQ(ratios.size(), 12u);
+}
+
 // A key's draws depend on the seed, the key and the number alone.
 TEST(Variation, IsIndependentOfOtherKeysAndOfTheirOrder) {
   const Scenario scenario = parse(kDrawn);
