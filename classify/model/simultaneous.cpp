@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "classify/model/simultaneous.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sim/core/numbers/random.h"
+
+namespace seaglint {
+
+namespace {
+
+constexpr double kLevel = 0.05;
+
+// Distance from the null in standard errors; an estimate without scatter is certain.
+double distance(const Estimate& estimate, double null) {
+  const double difference = std::abs(estimate.value - null);
+  if (difference == 0) return 0;
+  return estimate.standard_error > 0 ? difference / estimate.standard_error : std::numeric_limits<double>::infinity();
+}
+
+// Indices of the estimates that are numbers, the most different first; equal ones in their order.
+std::vector<std::size_t> most_different_first(std::span<const Estimate> estimates, double null) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < estimates.size(); ++i) {
+    if (!std::isnan(estimates[i].value) && !std::isnan(estimates[i].standard_error)) order.push_back(i);
+  }
+  std::ranges::stable_sort(
+      order, [&](std::size_t a, std::size_t b) { return distance(estimates[a], null) > distance(estimates[b], null); });
+  return order;
+}
+
+// Two-sided quantile of the k-th of m.
+double quantile(std::size_t k, std::size_t m) { return normal_quantile(1 - kLevel / (2 * static_cast<double>(m - k))); }
+
+}  // namespace
+
+Estimate estimate_of(const Scores& scores) {
+  return {scores.accuracy, (scores.accuracy_95.high - scores.accuracy_95.low) / (2 * normal_quantile(0.975))};
+}
+
+std::vector<ConfidenceInterval> holm_intervals(std::span<const Estimate> estimates, double null) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  std::vector<ConfidenceInterval> intervals(estimates.size(), {kNone, kNone});
+  const std::vector<std::size_t> order = most_different_first(estimates, null);
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const Estimate& estimate = estimates[order[k]];
+    const double half = quantile(k, order.size()) * estimate.standard_error;
+    intervals[order[k]] = {std::max(0.0, estimate.value - half), std::min(1.0, estimate.value + half)};
+  }
+  return intervals;
+}
+
+std::vector<bool> holm_rejections(std::span<const Estimate> estimates, double null) {
+  std::vector<bool> rejected(estimates.size(), false);
+  const std::vector<std::size_t> order = most_different_first(estimates, null);
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    if (!(distance(estimates[order[k]], null) > quantile(k, order.size()))) break;
+    rejected[order[k]] = true;
+  }
+  return rejected;
+}
+
+}  // namespace seaglint

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Holm's procedure on its definition, and its family-wise error over many sets of chance accuracies.
+#include "classify/model/simultaneous.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sim/core/numbers/random.h"
+
+namespace seaglint {
+namespace {
+
+TEST(HolmIntervals, OfOneEstimateAreThoseOfTheNormalDistribution) {
+  const Estimate one{0.55, 0.02};
+  const ConfidenceInterval interval = holm_intervals(std::span(&one, 1))[0];
+  EXPECT_NEAR(interval.low, 0.55 - 1.959963984540054 * 0.02, 1e-12);
+  EXPECT_NEAR(interval.high, 0.55 + 1.959963984540054 * 0.02, 1e-12);
+}
+
+// z of 0.05/6, 0.05/4 and 0.05/2 two-sided: 2.3940, 2.2414, 1.9600.
+TEST(HolmIntervals, HaveTheLevelsOfTheirRanks) {
+  const std::vector<Estimate> estimates{{0.51, 0.01}, {0.60, 0.01}, {0.45, 0.01}};
+  const std::vector<ConfidenceInterval> intervals = holm_intervals(estimates);
+  const double expected[] = {1.95996, 2.39398, 2.24140};
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_NEAR((intervals[i].high - intervals[i].low) / 0.02, expected[i], 1e-4) << i;
+}
+
+// 2.3 errors from the null: rejected as the second of two, not as the first of three.
+TEST(HolmRejections, StopAtTheFirstThatIsNotRejected) {
+  EXPECT_EQ(holm_rejections(std::vector<Estimate>{{0.523, 0.01}, {0.6, 0.01}}), (std::vector<bool>{true, true}));
+  EXPECT_EQ(holm_rejections(std::vector<Estimate>{{0.523, 0.01}, {0.52, 0.01}, {0.5, 0.01}}),
+            (std::vector<bool>{false, false, false}));
+}
+
+TEST(HolmRejections, ErrInFivePercentOfSetsOfChanceAccuracies) {
+  constexpr int kSets = 4000;
+  int wrong = 0;
+  for (std::uint64_t i = 0; i < kSets; ++i) {
+    Random random({11, Stream::kTest, i});
+    std::vector<Estimate> estimates(20);
+    for (Estimate& estimate : estimates) estimate = {0.5 + 0.03 * random.normal(), 0.03};
+    const std::vector<bool> rejected = holm_rejections(estimates);
+    wrong += std::find(rejected.begin(), rejected.end(), true) != rejected.end() ? 1 : 0;
+  }
+  // 1 - (1 - 0.05/20)^20 = 0.0488, five standard errors.
+  EXPECT_NEAR(wrong / static_cast<double>(kSets), 0.0488, 5 * std::sqrt(0.0488 * 0.9512 / kSets));
+}
+
+TEST(HolmIntervals, OfAMissingEstimateAreMissingAndDoNotCount) {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<Estimate> estimates{{none, 0.1}, {0.55, 0.02}, {0.5, none}};
+  EXPECT_TRUE(std::isnan(holm_intervals(estimates)[0].low));
+  EXPECT_NEAR(holm_intervals(estimates)[1].low, 0.55 - 1.959963984540054 * 0.02, 1e-12);
+  EXPECT_EQ(holm_rejections(estimates), (std::vector<bool>{false, true, false}));
+}
+
+}  // namespace
+}  // namespace seaglint
