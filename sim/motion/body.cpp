@@ -114,6 +114,11 @@ HullSections ship_sections(const MotionSpec& spec, const BodyShape& shape, const
   const double length = given_or(spec.length_m, kWaterlineToOverallLength * size.x());
   const double beam = given_or(spec.beam_m, kWaterlineToOverallBeam * size.y());
   if (!(length > 0) || !(beam > 0)) {
+    if (shape.is_raft) {
+      throw InputError(
+          "motion.length_m, motion.beam_m: the reflectors of a rigid raft give no waterline; write both down, or "
+          "motion.sections");
+    }
     throw InputError(
         fmt::format("motion.length_m, motion.beam_m: the mesh measures {:.4g} x {:.4g} m, which gives no "
                     "waterline; write them down",
@@ -137,8 +142,10 @@ Body make_body(const MotionSpec& spec, const BodyShape& shape, const std::filesy
     body.rotation_centre = ship.rotation_centre;
     body.model = ship;
   } else if (spec.model == MotionModel::kFloat) {
+    if (shape.is_raft && spec.diameter_m == 0)
+      throw InputError("motion.diameter_m: the reflectors of a rigid raft give no waterplane; write it down");
     body.model = float_particulars(spec, shape.box);
-    body.rotation_centre = {0, 0, -spec.origin_above_waterline_m};
+    body.rotation_centre = {0, 0, shape.is_raft ? 0 : -spec.origin_above_waterline_m};
   }
   if (spec.rotation_centre_m) body.rotation_centre = Eigen::Map<const Vec3>(spec.rotation_centre_m->data());
   if (spec.model == MotionModel::kSeries) {

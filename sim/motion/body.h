@@ -21,6 +21,9 @@ namespace seaglint {
 struct BodyShape {
   Bounds box;         // of the mesh
   HullSections hull;  // below its waterline; empty when the mesh ends at the waterline
+  // A rigid raft of reflectors, whose mesh says nothing about its hull: box and hull are empty, zero fields that they
+  // would give are errors. Its frame has its origin on the water.
+  bool is_raft = false;
 };
 BodyShape shape_of(const TriangleMesh& mesh);
 

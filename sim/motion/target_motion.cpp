@@ -25,6 +25,26 @@ std::vector<Vec2> layout_positions(const TargetSpec& target) {
   return places;
 }
 
+Vec3 raft_origin(const TargetSpec& target) {
+  const LineLayout line = target.line.value_or(LineLayout{});
+  return {line.centre_x_m, line.centre_y_m, 0};
+}
+
+bool is_moving_raft(const TargetSpec& target) {
+  return target.bodies == LayoutBodies::kRigid && target.motion.model != MotionModel::kFixed;
+}
+
+double rest_height_m(const TargetSpec& target) {
+  return is_moving_raft(target) ? target.motion.origin_above_waterline_m : rest_position(target.motion, 0, 0).z();
+}
+
+std::vector<Vec3> rest_positions(const TargetSpec& target) {
+  std::vector<Vec3> positions;
+  for (const Vec2& place : layout_positions(target))
+    positions.emplace_back(place.x(), place.y(), rest_height_m(target));
+  return positions;
+}
+
 std::uint64_t body_index(std::uint64_t sea_index, std::size_t body) {
   SEAGLINT_CHECK(body < kMaxBodies, fmt::format("body {}", body));
   return sea_index * kMaxBodies + body;
@@ -33,18 +53,22 @@ std::uint64_t body_index(std::uint64_t sea_index, std::size_t body) {
 std::vector<Trajectory> simulate_target(const TargetSpec& target, const Body& body, const SeaState& state,
                                         const WaveField& sea, double duration_s, std::uint64_t seed,
                                         std::uint64_t sea_index, std::size_t first_body, int threads) {
-  const std::vector<Vec2> places = layout_positions(target);
-  std::vector<Trajectory> trajectories(places.size());
-  parallel_for(places.size(), thread_count(threads), [&](std::size_t i) {
-    const std::uint64_t index = body_index(sea_index, first_body + i);
-    const Vec3 rest = rest_position(target.motion, places[i].x(), places[i].y());
-    if (target.motion.waves == WaveSharing::kIndependent) {
-      const WaveField own = realise_sea(state, seed, kIndependentSeas + index);
-      trajectories[i] = simulate_motion(body, rest, own, duration_s, seed, index);
-    } else {
-      trajectories[i] = simulate_motion(body, rest, sea, duration_s, seed, index);
-    }
-  });
+  const auto moved = [&](const Vec3& rest, std::size_t number) {
+    const std::uint64_t index = body_index(sea_index, number);
+    if (target.motion.waves == WaveSharing::kSameField)
+      return simulate_motion(body, rest, sea, duration_s, seed, index);
+    return simulate_motion(body, rest, realise_sea(state, seed, kIndependentSeas + index), duration_s, seed, index);
+  };
+  const std::vector<Vec3> rests = rest_positions(target);
+  std::vector<Trajectory> trajectories(rests.size());
+  if (target.bodies == LayoutBodies::kRigid) {
+    const Vec3 origin = raft_origin(target);
+    const Trajectory raft = moved(origin, first_body);
+    for (std::size_t i = 0; i < rests.size(); ++i) trajectories[i] = raft.of_point(rests[i] - origin);
+    return trajectories;
+  }
+  parallel_for(rests.size(), thread_count(threads),
+               [&](std::size_t i) { trajectories[i] = moved(rests[i], first_body + i); });
   return trajectories;
 }
 

@@ -17,13 +17,27 @@ namespace seaglint {
 // layout one body at the origin.
 std::vector<Vec2> layout_positions(const TargetSpec& target);
 
+// Origin of a rigid raft's frame at rest, in T: the centre of the layout on the water.
+Vec3 raft_origin(const TargetSpec& target);
+
+// A rigid raft whose motion.model is not fixed.
+bool is_moving_raft(const TargetSpec& target);
+
+// Rest height of the bodies' mesh origins above the water, m: motion.origin_above_waterline_m of floats and of moving
+// rafts, so that a raft has the geometry of the floats; else 0, the waterline of a mesh.
+double rest_height_m(const TargetSpec& target);
+
+// Rest positions of the bodies' mesh origins, in T: layout_positions() at rest_height_m().
+std::vector<Vec3> rest_positions(const TargetSpec& target);
+
 // Realisation index of a body's own random numbers; body counts from 0 over all targets of the scenario, in order
 // (below 65536).
 std::uint64_t body_index(std::uint64_t sea_index, std::size_t body);
 
-// One trajectory per body of the layout, from t = 0 to duration_s, all with the properties `body`. `sea` is
-// realise_sea(state, seed, sea_index), common to all bodies unless the spec has `waves: independent`: then each body
-// has a realisation of its own (index body_index + 2^48). The result does not depend on `threads` (0 = all).
+// One trajectory per body of the layout, from t = 0 to duration_s, all with the properties `body`, which of a rigid
+// raft (layout.bodies: rigid) are those of the raft: it moves in the waves at its origin, and each reflector with it.
+// `sea` is realise_sea(state, seed, sea_index), common to all bodies unless the spec has `waves: independent`: then
+// each body has a realisation of its own (index body_index + 2^48). The result does not depend on `threads` (0 = all).
 // first_body: number of bodies of the targets before this one.
 std::vector<Trajectory> simulate_target(const TargetSpec& target, const Body& body, const SeaState& state,
                                         const WaveField& sea, double duration_s, std::uint64_t seed,

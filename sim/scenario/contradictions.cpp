@@ -212,6 +212,19 @@ void check_companions(const Scenario& scenario, const TargetSpec& target, const 
   }
 }
 
+// A part has no samples, and a companion no companions of its own.
+void check_roles(const Scenario& scenario, const ScenarioDocument& document) {
+  const auto is_part = [](const TargetSpec& target) { return target.role == TargetRole::kPart; };
+  if (std::ranges::all_of(scenario.targets, is_part))
+    document.fail_at("targets", "must have a target of role: class; parts have no samples of their own");
+  for (const TargetSpec& target : scenario.targets) {
+    if (is_part(target) && !target.companions.empty()) {
+      document.fail_at(fmt::format("targets.{}.companions", target.name),
+                       "not allowed here: valid only with role: class");
+    }
+  }
+}
+
 // The frame of a target under way moves with it relative to the water; a float and a fixed body have no speed.
 void check_speed(const TargetSpec& target, const ScenarioDocument& document) {
   const MotionModel model = target.motion.model;
@@ -297,12 +310,22 @@ void check_case_count(const Scenario& scenario, const ScenarioDocument& document
   if (cases > kMaxCases)
     document.fail_at("view.azimuth_deg",
                      fmt::format("the sweeps of view and sea span {} cases: must be at most {}", cases, kMaxCases));
-  const double maps = cases * scenario.dataset.maps_per_case * static_cast<double>(scenario.targets.size());
+  const auto classes = std::ranges::count(scenario.targets, TargetRole::kClass, &TargetSpec::role);
+  const double maps = cases * scenario.dataset.maps_per_case * static_cast<double>(classes);
   if (maps > kMaxMaps)
     document.fail_at("dataset.maps_per_case", fmt::format("makes {} maps: must be at most {} in all", maps, kMaxMaps));
 }
 
 }  // namespace
+
+void check_parts(const Scenario& scenario, const std::set<std::string>& companions, const ScenarioDocument& document) {
+  for (const TargetSpec& target : scenario.targets) {
+    if (target.role == TargetRole::kPart && !companions.contains(target.name)) {
+      document.fail_at(fmt::format("targets.{}.role", target.name),
+                       "must be the companion of another target, or class");
+    }
+  }
+}
 
 void check_contradictions(const Scenario& scenario, const ScenarioDocument& document) {
   check_radar(scenario.radar, document);
@@ -319,6 +342,7 @@ void check_contradictions(const Scenario& scenario, const ScenarioDocument& docu
   check_sea_reflection(scenario, document);
   for (const TargetSpec& target : scenario.targets) check_target(target, document);
   for (const TargetSpec& target : scenario.targets) check_companions(scenario, target, document);
+  check_roles(scenario, document);
   check_intra_pulse_motion(scenario, document);
   check_dataset(scenario, document);
 }

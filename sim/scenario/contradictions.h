@@ -3,6 +3,9 @@
 
 // Consistency checks of a scenario whose fields are individually valid.
 
+#include <set>
+#include <string>
+
 #include "sim/scenario/files/scenario_document.h"
 #include "sim/scenario/scenario_spec.h"
 
@@ -10,5 +13,9 @@ namespace seaglint {
 
 // Throws InputError for the first inconsistency, at the key that most likely causes it.
 void check_contradictions(const Scenario& scenario, const ScenarioDocument& document);
+
+// Throws InputError for a part that is not among `companions`, the companions that the scenario's targets have with any
+// of its drawn values: it would be in no map.
+void check_parts(const Scenario& scenario, const std::set<std::string>& companions, const ScenarioDocument& document);
 
 }  // namespace seaglint

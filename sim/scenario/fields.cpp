@@ -245,8 +245,10 @@ void visit(TargetSpec& spec, FieldVisitor& v) {
     v.choice("label", index, std::array{"0", "1"});
     spec.label = static_cast<int>(index);
   };
-  v.require("label");
-  label();
+  visit_choice(v, "role", spec.role, {"class", "part"});
+  const bool is_class = spec.role == TargetRole::kClass;
+  if (is_class) v.require("label");
+  if (v.optional("label", is_class)) label();
   if (v.optional("points", !spec.points.empty())) {
     v.list(
         "points", spec.points.size(), 10000, [&](std::size_t size) { spec.points.resize(size); },
@@ -268,6 +270,7 @@ void visit(TargetSpec& spec, FieldVisitor& v) {
     v.section("layout", [&](FieldVisitor& layout) {
       layout.require("line");
       layout.section("line", [&](FieldVisitor& line) { visit(*spec.line, line); });
+      visit_choice(layout, "bodies", spec.bodies, {"independent", "rigid"});
     });
   }
   if (v.optional("motion", is_mesh)) v.section("motion", [&](FieldVisitor& motion) { visit(spec.motion, motion); });

@@ -18,6 +18,18 @@ std::uint64_t sea_key(std::size_t sea_state, std::size_t realisation) {
   return sea_state * kMaxRealisations + realisation;
 }
 
+namespace {
+
+std::vector<int> classes_of(const Scenario& scenario) {
+  std::vector<int> classes;
+  for (std::size_t t = 0; t < scenario.targets.size(); ++t) {
+    if (scenario.targets[t].role == TargetRole::kClass) classes.push_back(static_cast<int>(t));
+  }
+  return classes;
+}
+
+}  // namespace
+
 SamplePlan::SamplePlan(const Scenario& scenario)
     : seed_(scenario.seed),
       varied_(scenario.variations.empty() ? nullptr : std::make_shared<const Scenario>(scenario)),
@@ -26,9 +38,9 @@ SamplePlan::SamplePlan(const Scenario& scenario)
       views_(seaglint::views(scenario.view)),
       intervals_(scenario.dataset.maps_per_case / std::max(1, scenario.dataset.realisations_per_case) /
                  std::max(1, scenario.dataset.maps_per_interval)),
-      targets_(scenario.targets.size()),
+      classes_(classes_of(scenario)),
       per_interval_(static_cast<std::size_t>(std::max(1, scenario.dataset.maps_per_interval))),
-      per_realisation_(views_.size() * static_cast<std::size_t>(intervals_) * targets_),
+      per_realisation_(views_.size() * static_cast<std::size_t>(intervals_) * classes_.size()),
       per_shard_(static_cast<std::size_t>(scenario.dataset.maps_per_shard)),
       spacing_s_(scenario.dataset.interval_spacing_s) {
   SEAGLINT_CHECK(realisations_ >= 1 && intervals_ >= 1 && per_shard_ >= 1 &&
@@ -65,9 +77,10 @@ SampleAddress SamplePlan::address(std::size_t sample) const {
   const std::size_t number = sample / per_interval_;
   const std::size_t place = order(number / per_realisation_)[number % per_realisation_];
   const std::size_t intervals = static_cast<std::size_t>(intervals_);
-  address.target = static_cast<int>(place % targets_);
-  address.interval = static_cast<int>(place / targets_ % intervals);
-  address.view = static_cast<int>(place / targets_ / intervals);
+  const std::size_t classes = classes_.size();
+  address.target = classes_[place % classes];
+  address.interval = static_cast<int>(place / classes % intervals);
+  address.view = static_cast<int>(place / classes / intervals);
   address.clutter = static_cast<int>(sample % per_interval_);
   return address;
 }
@@ -77,7 +90,9 @@ std::size_t SamplePlan::sample(const SampleAddress& address) const {
       static_cast<std::size_t>(address.sea_state) * realisations_ + static_cast<std::size_t>(address.realisation);
   const std::size_t view_interval = static_cast<std::size_t>(address.view) * static_cast<std::size_t>(intervals_) +
                                     static_cast<std::size_t>(address.interval);
-  const std::size_t place = view_interval * targets_ + static_cast<std::size_t>(address.target);
+  const auto number = static_cast<std::size_t>(std::ranges::find(classes_, address.target) - classes_.begin());
+  SEAGLINT_CHECK(number < classes_.size(), fmt::format("target {} has no samples", address.target));
+  const std::size_t place = view_interval * classes_.size() + number;
   const std::vector<std::uint32_t> order = this->order(realisation_number);
   const auto found = std::find(order.begin(), order.end(), place);
   SEAGLINT_CHECK(found != order.end(), fmt::format("place {} of {}", place, per_realisation_));

@@ -19,7 +19,7 @@ struct SampleAddress {
   int realisation = 0;  // 0..realisations_per_case-1, of the sea state
   int view = 0;         // index into the plan's views()
   int interval = 0;     // 0..maps_per_case/realisations_per_case/maps_per_interval-1, of the realisation
-  int target = 0;       // index into scenario.targets
+  int target = 0;       // index into scenario.targets, of one with role: class
   int clutter = 0;      // 0..maps_per_interval-1: map of the interval, with clutter and noise of its own
 
   bool operator==(const SampleAddress&) const = default;
@@ -46,6 +46,8 @@ class SamplePlan {
   // All of the sweeps; drawn keys have the middles of their distributions.
   const std::vector<SeaState>& sea_states() const { return sea_states_; }
   const std::vector<View>& views() const { return views_; }
+  // Indices into scenario.targets of those that have samples: all but parts.
+  const std::vector<int>& classes() const { return classes_; }
   // Those of a sample, with its drawn values.
   SeaState sea_state(const SampleAddress& at) const;
   View view(const SampleAddress& at) const;
@@ -72,7 +74,7 @@ class SamplePlan {
   double last_start_s() const;
 
  private:
-  // The shuffled order of the intervals of one realisation: entry = (view intervals + interval) targets + target.
+  // The shuffled order of the intervals of one realisation: entry = (view intervals + interval) classes + class.
   std::vector<std::uint32_t> order(std::size_t realisation_number) const;
 
   std::uint64_t seed_ = 0;
@@ -81,9 +83,9 @@ class SamplePlan {
   std::size_t realisations_ = 0;
   std::vector<View> views_;
   int intervals_ = 0;
-  std::size_t targets_ = 0;
-  std::size_t per_interval_ = 1;     // samples of an interval and target
-  std::size_t per_realisation_ = 0;  // intervals and targets
+  std::vector<int> classes_;
+  std::size_t per_interval_ = 1;     // samples of an interval and class
+  std::size_t per_realisation_ = 0;  // intervals and classes
   std::size_t per_shard_ = 1;
   double spacing_s_ = 0;
 };

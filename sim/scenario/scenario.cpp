@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <functional>
 #include <memory>
+#include <set>
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/reproducible_functions.h"
@@ -112,7 +113,15 @@ Scenario parse_scenario(const std::string& yaml, const std::string& file_name, c
   Scenario scenario = read_values(with_values(document, variations, middles(variations)));
   scenario.document = read;
   scenario.variations = std::move(variations);
-  visit_ends(document, scenario, [](const Scenario&) {});
+  std::set<std::string> companions;  // with any drawn values
+  const auto collect = [&companions](const Scenario& of) {
+    for (const TargetSpec& target : of.targets) {
+      for (const CompanionSpec& companion : target.companions) companions.insert(companion.target);
+    }
+  };
+  collect(scenario);
+  visit_ends(document, scenario, collect);
+  check_parts(scenario, companions, document);
   return scenario;
 }
 

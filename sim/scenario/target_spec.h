@@ -13,6 +13,8 @@ namespace seaglint {
 
 enum class MotionModel { kFixed, kShip, kFloat, kSeries, kRao };
 enum class WaveSharing { kSameField, kIndependent };
+enum class TargetRole { kClass, kPart };
+enum class LayoutBodies { kIndependent, kRigid };
 enum class HeadingConvention { kTowards, kFrom };  // of waves
 enum class TimeFactor { kPlus, kMinus };           // e^{+iwt}, e^{-iwt}
 
@@ -20,7 +22,8 @@ enum class TimeFactor { kPlus, kMinus };           // e^{+iwt}, e^{-iwt}
 struct MotionSpec {
   MotionModel model = MotionModel::kFixed;
   bool translations = false;  // surge, sway and heave too
-  // body frame; default: centre of gravity of a ship, centre of flotation of a float
+  // body frame, of a rigid raft that of its origin on the water (sim/motion/target_motion.h); default: centre of
+  // gravity of a ship, centre of flotation of a float
   std::optional<std::array<double, 3>> rotation_centre_m;
   double roll_period_s = 0;            // (auto) 0 or 0.2 <= x <= 60
   double pitch_period_s = 0;           // (auto) 0 or 0.2 <= x <= 60
@@ -50,8 +53,9 @@ struct MotionSpec {
   std::string
       sections;  // file of a ship's sections below the waterline; default: those of the mesh, else a parametric form
   double diameter_m = 0;  // (auto) of a float's waterplane, 0 <= x <= 50
-  double origin_above_waterline_m =
-      0.75;  // height of a float's mesh origin above its centre of flotation, -10 <= x <= 50
+  // height of a float's mesh origin above its centre of flotation, of a moving raft's reflectors above its waterline,
+  // -10 <= x <= 50
+  double origin_above_waterline_m = 0.75;
   WaveSharing waves = WaveSharing::kSameField;
   // between samples and of integration, 0.001 <= x <= 0.1, at most an eighth of the shortest natural period
   double step_s = 0.02;
@@ -65,7 +69,7 @@ struct LineLayout {
   double centre_y_m = 0;
 };
 
-// Another target in the same sea and the same maps; its label is ignored there.
+// Another target in the same sea and the same maps; its label, if any, is ignored there.
 struct CompanionSpec {
   std::string target;  // its name
   double x_m = 0;      // position of its reference point, target frame, |x| <= 1e5
@@ -109,13 +113,16 @@ struct PartMaterialSpec {
 
 struct TargetSpec {
   std::string name;
-  int label = 0;                 // 1 = ship, 0 = corner-reflector array
+  TargetRole role = TargetRole::kClass;  // a part has no samples of its own: it is a companion of other targets
+  int label = 0;                         // of a class: 1 = ship, 0 = corner-reflector array
   std::string mesh;              // path relative to the scenario's folder or the working directory; empty for points
   std::string unit = "m";        // of the mesh file: m, cm, mm, km, in, ft
   std::string material = "pec";  // pec, a name of assets/materials, or a file
   std::vector<PartMaterialSpec> part_materials;  // later entries take precedence
   double sheet_thickness_mm = 0;                 // of open surfaces, 0 <= x <= 1000
   std::optional<LineLayout> line;                // along x of the target frame, centred
+  // of a layout: each body moves by itself, or all move as one rigid raft; a raft has a layout
+  LayoutBodies bodies = LayoutBodies::kIndependent;
   MotionSpec motion;
   SolverSpec solver;
   std::vector<PointSpec> points;

@@ -21,8 +21,10 @@ namespace {
 
 std::string summary(const Scenario& scenario, const SamplePlan& plan) {
   const std::size_t seas = plan.sea_states().size(), aspects = plan.views().size();
-  return fmt::format("{}: {} targets, {} sea states x {} views = {} cases, {} maps\n", scenario.name,
-                     scenario.targets.size(), seas, aspects, seas * aspects, plan.size());
+  const std::size_t parts = scenario.targets.size() - plan.classes().size();
+  return fmt::format("{}: {} targets{}, {} sea states x {} views = {} cases, {} maps\n", scenario.name,
+                     plan.classes().size(), parts > 0 ? fmt::format(" and {} parts", parts) : "", seas, aspects,
+                     seas * aspects, plan.size());
 }
 
 }  // namespace

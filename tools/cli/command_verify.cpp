@@ -85,6 +85,7 @@ void verify(const Arguments& given, const CommandContext& context) {
             result.groups);
   for (std::size_t t = 0; t < result.per_target.size(); ++t) {
     const TargetSpec& target = result.scenario.targets[t];
+    if (target.role == TargetRole::kPart) continue;
     print_out("  {:<12} label {}  {} samples\n", target.name, target.label, result.per_target[t]);
   }
   const std::size_t count = std::min(static_cast<std::size_t>(arguments.regenerate), result.samples);

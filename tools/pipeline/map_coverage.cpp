@@ -71,7 +71,8 @@ std::vector<std::string> map_coverage_warnings(const Pipeline& pipeline) {
       ++more;
     }
   };
-  for (std::size_t t = 0; t < scenario.targets.size(); ++t) {
+  for (const int number : pipeline.plan().classes()) {
+    const auto t = static_cast<std::size_t>(number);
     for (const View& view : pipeline.plan().views()) {
       const Vec3 r_hat = direction_to_radar(view.azimuth_rad, view.elevation_rad);
       Reach reach;

@@ -45,14 +45,20 @@ MovingBodies simulate_bodies(const Scenario& scenario, const SeaChoice& choice, 
                              const StopFlag& stop, const std::function<void(const TargetSpec&, const Body&)>& loaded) {
   MovingBodies scene{choose_sea(scenario, choice), {}, {}};
   const std::uint64_t key = sea_key(choice.sea_state, choice.realisation);
+  std::size_t first_body = 0;
   for (const TargetSpec& target : scenario.targets) {
-    if (target.mesh.empty()) continue;
+    if (target.mesh.empty() || target.role == TargetRole::kPart) continue;
     if (stop) throw Interrupted();
     const TriangleMesh mesh = read_mesh(find_mesh(scenario, target), target.unit);
     const Body& body = scene.targets.emplace_back(load_body(scenario, target, mesh));
     loaded(target, body);
     const std::vector<Trajectory> all = simulate_target(target, body, scene.sea.state, scene.sea.field, duration_s,
-                                                        scenario.seed, key, scene.bodies.size(), threads);
+                                                        scenario.seed, key, first_body, threads);
+    first_body += all.size();
+    if (target.bodies == LayoutBodies::kRigid) {
+      scene.bodies.push_back({target.name, all.front(), mesh, mean_speed(body)});
+      continue;
+    }
     for (std::size_t i = 0; i < all.size(); ++i) {
       scene.bodies.push_back(
           {target.line ? fmt::format("{}_{}", target.name, i + 1) : target.name, all[i], mesh, mean_speed(body)});

@@ -30,8 +30,8 @@ struct ChosenSea {
 // Throws InputError for a sea state or realisation beyond the last.
 ChosenSea choose_sea(const Scenario& scenario, const SeaChoice& choice);
 
-// Bodies of every mesh target in the order of the file, `ship`, `array_1`, `array_2`, ..., and the motion model of each
-// target.
+// Bodies of every mesh target but parts in the order of the file, `ship`, `array_1`, `array_2`, ..., and the motion
+// model of each target. A rigid raft is one body: its first reflector, whose angles and translations are the raft's.
 struct MovingBodies {
   ChosenSea sea;
   std::vector<Body> targets;

@@ -66,7 +66,7 @@ void check_draws(const Scenario& scenario, const SamplePlan& plan) {
   if (scenario.variations.empty()) return;
   for (std::size_t sample = 0; sample < plan.size(); ++sample) {
     const SampleAddress at = plan.address(sample);
-    if (at.target == 0) plan.drawn(scenario, at);
+    if (at.target == plan.classes().front()) plan.drawn(scenario, at);
   }
 }
 

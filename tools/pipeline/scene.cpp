@@ -47,8 +47,12 @@ double reach_m(const Target& target, double interval_s) {
     reach = std::max({reach, position.norm(), (position + velocity * interval_s).norm()});
   }
   const double radius = radius_m(target.mesh);
-  for (const Vec3& rest : target.rest_positions)
-    reach = std::max({reach, rest.norm() + radius, (rest + target.relative_velocity_mps * interval_s).norm() + radius});
+  for (const Vec3& rest : target.rest_positions) {
+    // A reflector of a raft turns about the raft's origin with an arm, any other body about its own.
+    const Vec3 pivot = target.spec.bodies == LayoutBodies::kRigid ? raft_origin(target.spec) : rest;
+    const double arm = (rest - pivot).norm() + radius;
+    reach = std::max({reach, pivot.norm() + arm, (pivot + target.relative_velocity_mps * interval_s).norm() + arm});
+  }
   return reach;
 }
 
@@ -83,7 +87,7 @@ ScattererSettings scatterer_settings(const Scenario& scenario, const TargetSpec&
       .lowest_hz = 1e9 * lowest_ghz(scenario.radar),
       .highest_hz = 1e9 * highest_ghz(scenario.radar)};
   // The radar's image illuminates the hull from below.
-  if (scenario.sea_reflection.enabled) settings.waterline_m = -rest_position(spec.motion, 0, 0).z();
+  if (scenario.sea_reflection.enabled) settings.waterline_m = -rest_height_m(spec);
   return settings;
 }
 
@@ -116,9 +120,9 @@ void check_series(const Scenario& scenario, const SamplePlan& plan, const Target
 
 // Throws InputError for a target that is entirely under water, if the sea reflects.
 void check_above_water(const Scenario& scenario, const TargetSpec& spec, const TriangleMesh& mesh) {
-  const double top_m = bounds(mesh).upper.z(), height_m = rest_position(spec.motion, 0, 0).z();
+  const double top_m = bounds(mesh).upper.z(), height_m = rest_height_m(spec);
   if (!scenario.sea_reflection.enabled || top_m + height_m > 0) return;
-  if (spec.motion.model == MotionModel::kFloat) {
+  if (spec.motion.model == MotionModel::kFloat || is_moving_raft(spec)) {
     throw InputError(fmt::format(
         "{}: value {}: must be greater than {:.6g} with sea_reflection, else the whole target is under water",
         place_of(scenario, fmt::format("targets.{}.motion.origin_above_waterline_m", spec.name)), height_m, -top_m));
@@ -133,7 +137,9 @@ void check_above_water(const Scenario& scenario, const TargetSpec& spec, const T
 
 Body load_body(const Scenario& scenario, const TargetSpec& spec, const TriangleMesh& mesh) {
   try {
-    return make_body(spec.motion, shape_of(mesh), scenario.folder);
+    const bool is_raft = spec.bodies == LayoutBodies::kRigid;
+    return make_body(spec.motion, is_raft ? BodyShape{.box = {}, .hull = {}, .is_raft = true} : shape_of(mesh),
+                     scenario.folder);
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", place_of(scenario, "targets." + spec.name), error.what()));
   }
@@ -160,8 +166,7 @@ Target load_target(const Scenario& scenario, const SamplePlan& plan, const Targe
 void place_bodies(Target& target, std::size_t& bodies) {
   target.first_body = bodies;
   if (target.spec.mesh.empty()) return;
-  for (const Vec2& place : layout_positions(target.spec))
-    target.rest_positions.push_back(rest_position(target.spec.motion, place.x(), place.y()));
+  target.rest_positions = rest_positions(target.spec);
   bodies += target.rest_positions.size();
 }
 
@@ -170,7 +175,6 @@ void place_bodies(Target& target, std::size_t& bodies) {
 Target moved(const Target& original, const TargetSpec& host, const CompanionSpec& companion) {
   Target target = original;
   target.spec.name += " (companion)";
-  target.rest_positions.clear();
   target.relative_velocity_mps = Vec3(original.spec.motion.speed_mps - host.motion.speed_mps, 0, 0);
   for (PointSpec& point : target.spec.points) {
     point.position_m[0] += companion.x_m;
@@ -190,6 +194,7 @@ std::vector<Target> placed_targets(const Scenario& scenario, const std::function
   std::size_t bodies = 0;
   for (const TargetSpec& spec : scenario.targets) {
     targets.push_back(load(spec));
+    if (spec.role == TargetRole::kPart) continue;  // placed with each target that it accompanies
     place_bodies(targets.back(), bodies);
     check_scene_range(scenario, spec, targets.back(), std::nullopt);
   }
@@ -212,9 +217,20 @@ std::vector<Target> placed_targets(const Scenario& scenario, const std::function
 std::string fields_of(const Scenario& scenario, const TargetSpec& spec) {
   Scenario alone = scenario;
   alone.targets = {spec};
-  alone.targets[0].line.reset();
+  if (alone.targets[0].line) alone.targets[0].line = LineLayout{};  // a raft has another motion model than its bodies
   alone.targets[0].companions.clear();
   return effective_yaml(alone);
+}
+
+// Largest reach of the targets and of their companions, m; a part is only where it accompanies others.
+double reach_of_all_m(const Scenario& scenario, const std::vector<Target>& targets) {
+  double reach = 0;
+  for (std::size_t t = 0; t < targets.size(); ++t) {
+    const bool alone = t < scenario.targets.size();  // else a companion
+    if (alone && targets[t].spec.role == TargetRole::kPart) continue;
+    reach = std::max(reach, reach_m(targets[t], interval_length_s(scenario.radar)));
+  }
+  return reach;
 }
 
 // Largest reach of any target with the values drawn in any sea, by meshes as they are in their files.
@@ -233,7 +249,7 @@ double largest_reach_m(const Scenario& scenario, const SamplePlan& plan) {
         target.mesh = mesh;
         return target;
       });
-      for (const Target& target : targets) reach = std::max(reach, reach_m(target, interval_length_s(drawn.radar)));
+      reach = std::max(reach, reach_of_all_m(drawn, targets));
     }
   }
   return reach;
@@ -269,8 +285,8 @@ std::vector<Target> load_targets(const Scenario& scenario, const SamplePlan& pla
 }
 
 double range_window_m(const Scenario& scenario, const SamplePlan& plan, const std::vector<Target>& targets) {
-  double reach = draws_targets(scenario) ? largest_reach_m(scenario, plan) : 0;
-  for (const Target& target : targets) reach = std::max(reach, reach_m(target, interval_length_s(scenario.radar)));
+  const double drawn_reach = draws_targets(scenario) ? largest_reach_m(scenario, plan) : 0;
+  const double reach = std::max(drawn_reach, reach_of_all_m(scenario, targets));
   // 10 % larger than the target, since bodies drift and multiply reflected paths are longer than direct ones.
   const double window_m = std::max(scenario.map.range_span_m, 2.2 * reach);
   const RadarSpec& radar = scenario.radar;

@@ -26,14 +26,15 @@ struct Target {
   std::vector<std::string> warnings;           // about the mesh, a sentence each
   std::shared_ptr<const Scatterer> scatterer;  // of the mesh; null for points
   Body body;                                   // motion model; unused for points
-  std::vector<Vec3> rest_positions;            // of the bodies' origins, target frame; empty for points
-  std::size_t first_body = 0;                  // bodies are numbered over all targets, in order
+  std::vector<Vec3> rest_positions;            // of the bodies' origins, target frame; empty for points and parts
+  std::size_t first_body = 0;                  // bodies are numbered over all targets but parts, in order
   std::vector<std::size_t> companions;         // indices of its companions, which follow the targets of the scenario
   // of a companion, in the frame of the target that it accompanies, which may be under way
   Vec3 relative_velocity_mps = Vec3::Zero();
 };
 
-// Motion model of a target from its mesh and the files that its `motion` names. Throws InputError naming the target.
+// Motion model of a target from its mesh, of a rigid raft from the keys alone, and the files that its `motion` names.
+// Throws InputError naming the target.
 Body load_body(const Scenario& scenario, const TargetSpec& spec, const TriangleMesh& mesh);
 
 // Targets that were loaded last, so that seas whose draws leave a target as it is share it. Any thread may use it.
@@ -61,7 +62,7 @@ double range_window_m(const Scenario& scenario, const SamplePlan& plan, const st
 // One sea realisation with the motion of every body, from t = 0 to the end of the last interval.
 struct Scene {
   WaveField sea;
-  std::vector<std::vector<Trajectory>> bodies;                   // [target][body]; none for points
+  std::vector<std::vector<Trajectory>> bodies;                   // [target][body]; none for points and parts
   std::shared_ptr<const std::vector<Target>> targets = nullptr;  // those that move, as a Pipeline loads them
 };
 

@@ -14,7 +14,7 @@ ClassNames class_names(const Scenario& scenario) {
   for (const int label : {0, 1}) {
     std::vector<std::string> names;
     for (const TargetSpec& target : scenario.targets)
-      if (target.label == label) names.push_back(target.name);
+      if (target.role == TargetRole::kClass && target.label == label) names.push_back(target.name);
     classes[static_cast<std::size_t>(label)] = names.empty() || names.size() > kMostNames
                                                    ? fmt::format("label {}", label)
                                                    : fmt::format("{}", fmt::join(names, ", "));

@@ -45,11 +45,11 @@ std::vector<std::size_t> shown_samples(const Scenario& scenario, const SamplePla
   std::vector<std::size_t> samples;
   for (const int view : chosen) {
     for (const int label : {1, 0}) {
-      const auto target = std::find_if(scenario.targets.begin(), scenario.targets.end(),
-                                       [&](const TargetSpec& t) { return t.label == label; });
-      if (target == scenario.targets.end()) continue;
+      const auto target = std::ranges::find(plan.classes(), label,
+                                            [&](int t) { return scenario.targets[static_cast<std::size_t>(t)].label; });
+      if (target == plan.classes().end()) continue;
       address.view = view;
-      address.target = static_cast<int>(target - scenario.targets.begin());
+      address.target = *target;
       samples.push_back(plan.sample(address));
     }
   }
@@ -85,7 +85,7 @@ LineFit fit_line(const std::vector<StoredCentre>& centres) {
 ReportCollector::ReportCollector(const Scenario& scenario, const SamplePlan& plan)
     : wanted_(shown_samples(scenario, plan)) {
   data_.shown.resize(wanted_.size());
-  const std::size_t states = scenario.targets.size() * plan.views().size() * plan.sea_states().size();
+  const std::size_t states = plan.classes().size() * plan.views().size() * plan.sea_states().size();
   of_each_state_ = std::max<std::size_t>(1, (kMostMaps + states - 1) / states);
   data_.handmade.names = {"mwr", "ccf", "sigma_r_m", "sigma_v_mps"};
 }

@@ -317,7 +317,8 @@ void add_sea(FigureList& list, const Scenario& scenario, const SamplePlan& plan,
            "Elevation of the sea against time");
   for (std::size_t t = 0; t < targets.size(); ++t) {
     if (scene.bodies[t].empty()) continue;
-    const std::string who = scene.bodies[t].size() > 1 ? targets[t].spec.name + ", first body" : targets[t].spec.name;
+    const bool is_one_of_many = scene.bodies[t].size() > 1 && targets[t].spec.bodies == LayoutBodies::kIndependent;
+    const std::string who = targets[t].spec.name + (is_one_of_many ? ", first body" : "");
     list.add("sea", fmt::format("motion_{}", file_word(targets[t].spec.name)),
              angle_plot(fmt::format("Motion of {}", who), scene.bodies[t].front(), times), {640, 330},
              fmt::format("Angles of <b>{}</b> in that sea (right-handed: pitch &gt; 0 puts the bow down).",
@@ -329,6 +330,7 @@ void add_sea(FigureList& list, const Scenario& scenario, const SamplePlan& plan,
 void add_targets(FigureList& list, const std::vector<Target>& targets) {
   for (const Target& target : targets) {
     if (target.mesh.triangles.empty()) continue;
+    const TargetSpec& spec = target.spec;
     const Bounds box = bounds(target.mesh);
     const Vec3 size = box.upper - box.lower;
     list.add_picture(
@@ -336,12 +338,14 @@ void add_targets(FigureList& list, const std::vector<Target>& targets) {
         [&target](const fs::path& file) {
           write_file(file, png_bytes(picture_of(target.mesh, PictureView{.width = 1000})));
         },
-        fmt::format("<b>{}</b> (label {}): {:.1f} × {:.1f} × {:.1f} m, {} triangles{}.", escape_html(target.spec.name),
-                    target.spec.label, size.x(), size.y(), size.z(), target.mesh.triangles.size(),
-                    target.rest_positions.size() > 1
-                        ? fmt::format("; one of {} bodies in line, {:g} m apart", target.rest_positions.size(),
-                                      target.spec.line->spacing_m)
-                        : std::string()),
+        fmt::format(
+            "<b>{}</b> ({}): {:.1f} × {:.1f} × {:.1f} m, {} triangles{}.", escape_html(spec.name),
+            spec.role == TargetRole::kPart ? "part of others" : fmt::format("label {}", spec.label), size.x(), size.y(),
+            size.z(), target.mesh.triangles.size(),
+            spec.line && spec.line->count > 1
+                ? fmt::format("; one of {} bodies in line{}, {:g} m apart", spec.line->count,
+                              spec.bodies == LayoutBodies::kRigid ? " on a rigid raft" : "", spec.line->spacing_m)
+                : std::string()),
         fmt::format("Picture of {}", target.spec.name));
   }
 }

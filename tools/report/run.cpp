@@ -68,8 +68,8 @@ void require_directory(const fs::path& directory, bool resume) {
 // Rejects, before any map is generated, what learning would reject.
 void check_learnable(const Scenario& scenario, const SamplePlan& plan) {
   const auto has = [&](int label) {
-    return std::any_of(scenario.targets.begin(), scenario.targets.end(),
-                       [label](const TargetSpec& target) { return target.label == label; });
+    return std::ranges::any_of(
+        plan.classes(), [&](int target) { return scenario.targets[static_cast<std::size_t>(target)].label == label; });
   };
   if (!has(0) || !has(1)) throw InputError("targets: learning needs a target of label 0 and one of label 1");
   std::vector<RowGroup> rows;

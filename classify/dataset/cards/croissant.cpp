@@ -93,6 +93,7 @@ ordered_json classes(const Scenario& scenario, std::size_t per_target) {
   std::map<int, std::string> names;
   std::map<int, std::size_t> counts;
   for (const TargetSpec& target : scenario.targets) {
+    if (target.role == TargetRole::kPart) continue;
     std::string& name = names[target.label];
     name += (name.empty() ? "" : ", ") + target.name;
     counts[target.label] += per_target;
@@ -180,7 +181,7 @@ std::string croissant_json(const DatasetReader& reader, const Scenario& scenario
   json["isBasedOn"] = {
       {"@type", "sc:SoftwareApplication"}, {"name", kProgram}, {"softwareVersion", manifest.program_version}};
   json["distribution"] = distribution(reader);
-  json["recordSet"] = {classes(scenario, samples_per_target(scenario, plan)), samples(drawn_keys(scenario))};
+  json["recordSet"] = {classes(scenario, samples_per_target(plan)), samples(drawn_keys(scenario))};
   return json.dump(2) + "\n";
 }
 

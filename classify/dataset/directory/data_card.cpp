@@ -18,14 +18,20 @@ std::string join(const std::vector<double>& values) {
   return text;
 }
 
+// A row for each target; a part has no label and no samples.
 std::string targets_table(const Scenario& scenario, const SamplePlan& plan) {
   std::string table = "| target | label | samples | made of |\n|---|---|---|---|\n";
   for (const TargetSpec& target : scenario.targets) {
     std::string made_of =
         target.mesh.empty() ? fmt::format("{} ideal points", target.points.size()) : markdown_text(target.mesh);
-    if (target.line) made_of += fmt::format(", {} in line, {:g} m apart", target.line->count, target.line->spacing_m);
-    table += fmt::format("| {} | {} | {} | {} |\n", markdown_text(target.name), target.label,
-                         samples_per_target(scenario, plan), made_of);
+    if (target.line) {
+      made_of += fmt::format(", {} in line, {:g} m apart{}", target.line->count, target.line->spacing_m,
+                             target.bodies == LayoutBodies::kRigid ? ", on one rigid raft" : "");
+    }
+    const bool is_part = target.role == TargetRole::kPart;
+    table += fmt::format("| {} | {} | {} | {} |\n", markdown_text(target.name),
+                         is_part ? "part of others" : fmt::format("{}", target.label),
+                         is_part ? 0 : samples_per_target(plan), made_of);
   }
   return table;
 }
@@ -110,9 +116,7 @@ constexpr const char* kReading =
 
 }  // namespace
 
-std::size_t samples_per_target(const Scenario& scenario, const SamplePlan& plan) {
-  return plan.size() / scenario.targets.size();
-}
+std::size_t samples_per_target(const SamplePlan& plan) { return plan.size() / plan.classes().size(); }
 
 std::string data_set_summary(const Scenario& scenario, const SamplePlan& plan, const Manifest& manifest) {
   const std::size_t seas = plan.sea_states().size() * static_cast<std::size_t>(scenario.dataset.realisations_per_case);
@@ -120,7 +124,7 @@ std::string data_set_summary(const Scenario& scenario, const SamplePlan& plan, c
       "{} range-velocity maps of {} radar targets at sea ({} independent sea realisations, {} views), for the "
       "classification of targets by their label. Synthetic: simulated by seaglint {} with seed {}; nothing was "
       "measured.",
-      manifest.samples, scenario.targets.size(), seas, plan.views().size(), manifest.program_version, manifest.seed);
+      manifest.samples, plan.classes().size(), seas, plan.views().size(), manifest.program_version, manifest.seed);
 }
 
 std::string data_card(const Scenario& scenario, const SamplePlan& plan, const Manifest& manifest,
@@ -157,8 +161,7 @@ std::string data_card(const Scenario& scenario, const SamplePlan& plan, const Ma
       "`seaglint generate scenario.yaml -o DIR` with the same version makes the same bytes on the same kind of "
       "processor\n"
       "({}), for any number of threads and parts. Mesh paths in `scenario.yaml` start at the working directory.\n",
-      samples_per_target(scenario, plan) * scenario.targets.size() /
-          (plan.sea_states().size() * static_cast<std::size_t>(set.realisations_per_case)),
+      plan.size() / (plan.sea_states().size() * static_cast<std::size_t>(set.realisations_per_case)),
       clutter_level(scenario.clutter), markdown_code(fmt::format("{}", fmt::join(manifest.processors, "; "))));
   return text;
 }

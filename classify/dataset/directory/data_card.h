@@ -29,6 +29,6 @@ bool has_front_matter(const std::string& text);
 std::string data_set_summary(const Scenario& scenario, const SamplePlan& plan, const Manifest& manifest);
 
 // Samples of every target: a plan has equally many of each.
-std::size_t samples_per_target(const Scenario& scenario, const SamplePlan& plan);
+std::size_t samples_per_target(const SamplePlan& plan);
 
 }  // namespace seaglint

@@ -28,8 +28,9 @@ SampleRecord planned_record(const Scenario& scenario, const SamplePlan& plan, st
   const TargetSpec& target = drawn.targets[static_cast<std::size_t>(at.target)];
   const SeaState state = plan.sea_state(at);
   const View view = plan.view(at);
-  std::size_t first_body = 0;  // bodies are numbered over all targets, in order
-  for (int t = 0; t < at.target; ++t) {
+  std::size_t first_body = 0;  // bodies are numbered over all targets but parts, in order
+  for (const int t : plan.classes()) {
+    if (t == at.target) break;
     const TargetSpec& before = drawn.targets[static_cast<std::size_t>(t)];
     if (before.points.empty()) first_body += layout_positions(before).size();
   }

@@ -36,6 +36,13 @@ Trajectory Trajectory::with_drift(const Vec3& velocity, double from_s) const {
   return moving;
 }
 
+Trajectory Trajectory::of_point(const Vec3& point) const {
+  Trajectory shifted = *this;
+  shifted.rest_position_ += point;
+  if (!samples_.empty()) shifted.rotation_centre_ -= point;  // a body at rest does not rotate
+  return shifted;
+}
+
 double Trajectory::start_s() const { return samples_.empty() ? -std::numeric_limits<double>::infinity() : start_s_; }
 
 double Trajectory::end_s() const {

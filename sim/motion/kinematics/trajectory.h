@@ -30,6 +30,10 @@ class Trajectory {
   // The same motion plus a uniform drift: the pose is displaced by velocity (t - from_s); sample() excludes it.
   Trajectory with_drift(const Vec3& velocity, double from_s) const;
 
+  // Trajectory of a frame that is fixed to the body, parallel to its own, with its origin at `point` (body frame, m).
+  // sample() is unchanged: the translations remain those of the body's centre of rotation.
+  Trajectory of_point(const Vec3& point) const;
+
   // Motion at time t in [start, end]; throws std::out_of_range outside, beyond a tolerance of kEndSlack times the
   // duration for rounding.
   MotionSample sample(double t) const;

@@ -32,7 +32,8 @@ std::optional<DrawnPer> drawn_per(const std::string& path) {
   const auto contains = [](const auto& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
-  if (contains(kPerSea, section) && !path.ends_with(".label")) return DrawnPer::kSea;
+  const bool is_class = path.ends_with(".label") || path.ends_with(".role");  // of the target, in all maps
+  if (contains(kPerSea, section) && !is_class) return DrawnPer::kSea;
   if (section == "view" || contains(kOfRadar, path)) return DrawnPer::kObservation;
   if (section == "clutter") return DrawnPer::kMap;
   return std::nullopt;
@@ -69,7 +70,7 @@ void find(const ScenarioDocument& document, const YamlNode& node, const std::str
     if (!per) {
       document.fail(value.location, at,
                     fmt::format("value '{}': must be one value for all maps; values are drawn in view, sea, "
-                                "sea_reflection, clutter, targets (without label), and as {}",
+                                "sea_reflection, clutter, targets (without label and role), and as {}",
                                 value.text, fmt::join(kOfRadar, ", ")));
     }
     found.push_back({at, std::move(*distribution), *per});

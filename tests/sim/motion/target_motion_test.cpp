@@ -78,6 +78,30 @@ TEST(SimulateTarget, IndependentBodiesHaveSeparateSeas) {
   EXPECT_GT(difference(), 0.5);
 }
 
+// A raft that turns about a point of its own carries its reflectors along: p_i = c + R (s_i - c).
+TEST(SimulateTarget, CarriesTheReflectorsOfARaftOnALever) {
+  TargetSpec target = array_of(3);
+  target.bodies = LayoutBodies::kRigid;
+  target.line->centre_x_m = 7;
+  target.line->centre_y_m = -2;
+  target.motion.diameter_m = 5;
+  target.motion.rotation_centre_m = {1, 2, 3};
+  target.motion.origin_above_waterline_m = 4;
+  const SeaState state = state_of(1, 5);
+  const WaveField sea = realise_sea(state, 42, 7);
+  const Body raft = make_body(target.motion, {.box = {}, .hull = {}, .is_raft = true});
+  const std::vector<Trajectory> bodies = simulate_target(target, raft, state, sea, 3, 42, 7);
+  ASSERT_EQ(bodies.size(), 3u);
+  EXPECT_GT(bodies[0].sample(2.5).angles.norm(), 1e-3);
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 s(40.0 * (i - 1), 0, 4), c(1, 2, 3), origin(7, -2, 0);
+    const Trajectory& body = bodies[static_cast<std::size_t>(i)];
+    EXPECT_EQ(body.sample(2.5).angles, bodies[0].sample(2.5).angles);
+    const Mat3 R = body.pose(2.5).R;
+    EXPECT_LT((body.pose(2.5).p - (origin + c + R * (s - c))).norm(), 1e-12);
+  }
+}
+
 TEST(BodyIndex, IsUniqueAmongRealisations) {
   EXPECT_EQ(body_index(3, 0), body_index(2, 65535) + 1);
   EXPECT_THROW(body_index(0, 65536), std::logic_error);

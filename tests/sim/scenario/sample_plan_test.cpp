@@ -56,6 +56,22 @@ TEST(SamplePlan, DividesAnIntervalIntoMaps) {
   }
 }
 
+TEST(SamplePlan, PartsHaveNoSamples) {
+  Scenario scenario = small_scenario();
+  scenario.targets.insert(scenario.targets.begin() + 1, TargetSpec{});
+  scenario.targets[1].role = TargetRole::kPart;
+  const SamplePlan plan(scenario), without(small_scenario());
+  EXPECT_EQ(plan.classes(), (std::vector<int>{0, 2}));
+  ASSERT_EQ(plan.size(), without.size());
+  for (std::size_t i = 0; i < plan.size(); ++i) {
+    SampleAddress at = plan.address(i);
+    EXPECT_EQ(plan.sample(at), i);
+    at.target /= 2;
+    EXPECT_EQ(at, without.address(i));
+  }
+  EXPECT_THROW(plan.sample({0, 0, 0, 0, 1}), std::logic_error);
+}
+
 TEST(SamplePlan, NumbersEveryAddressOnce) {
   const SamplePlan plan(small_scenario());
   std::set<std::tuple<int, int, int, int, int>> addresses;
