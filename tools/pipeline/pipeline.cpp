@@ -8,6 +8,7 @@
 
 #include "classify/dataset/directory/planned_record.h"
 #include "classify/features/restored_map.h"
+#include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
 #include "sim/scattering/beams/bistatic_geometry.h"
 #include "sim/scattering/response/point_response.h"
@@ -17,6 +18,19 @@ namespace seaglint {
 namespace {
 
 constexpr std::size_t kScenesKept = 8, kResponsesKept = 16;
+
+// Motion of a body at time t.
+void store_motion(const Trajectory& body, double t, SampleRecord& record) {
+  const MotionSample motion = body.sample(t);
+  record.roll_deg = degrees(motion.angles.x());
+  record.pitch_deg = degrees(motion.angles.y());
+  record.yaw_deg = degrees(motion.angles.z());
+  record.heave_m = motion.translation.z();
+  record.roll_rate_deg_s = degrees(motion.angle_rates.x());
+  record.pitch_rate_deg_s = degrees(motion.angle_rates.y());
+  record.yaw_rate_deg_s = degrees(motion.angle_rates.z());
+  record.heave_rate_mps = motion.translation_rates.z();
+}
 
 // Map, hop code and centres as the data set stores them.
 void store_signal(const GeneratedSample& made, bool complex_maps, Sample& stored) {
@@ -251,6 +265,9 @@ GeneratedSample Pipeline::received_sample(std::size_t sample, const PulseTrain& 
   record.centres = made.features.centres;
   record.degenerate = made.features.degenerate ? 1 : 0;
   record.aspect_traces = response.traces;
+  const std::vector<Trajectory>& bodies = moving->bodies[static_cast<std::size_t>(at.target)];
+  const double middle_s = plan_.start_s(at) + 0.5 * (train.time_s.front() + train.time_s.back());
+  if (!bodies.empty()) store_motion(bodies.front(), middle_s, record);  // points have velocities only
   store_signal(made, scenario_.dataset.complex_maps, made.stored);
   return made;
 }

@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 
+#include "sim/core/numbers/random.h"
 #include "sim/core/text/number.h"
 #include "sim/motion/target_motion.h"
 
@@ -17,6 +19,15 @@ DrawnKeys drawn_keys(const Scenario& scenario) {
     (variation.distribution.is_numeric() ? keys.numbers : keys.words).push_back(variation.key_path);
   return keys;
 }
+
+namespace {
+
+// 53 bits, which a double holds, of the random numbers that give the sea its phases.
+std::int64_t sea_id(std::uint64_t seed, std::uint64_t sea_key) {
+  return static_cast<std::int64_t>(Random({seed, Stream::kWavePhase, sea_key}).bits() >> 11);
+}
+
+}  // namespace
 
 SampleRecord planned_record(const Scenario& scenario, const SamplePlan& plan, std::size_t sample) {
   return planned_record(scenario, plan, sample, plan.address(sample));
@@ -46,6 +57,8 @@ SampleRecord planned_record(const Scenario& scenario, const SamplePlan& plan, st
   record.peak_period_s = state.peak_period_s;
   record.gamma = state.gamma;
   record.propagation_deg = state.propagation_deg;
+  record.swell_wave_height_m = state.swell.significant_wave_height_m;
+  record.depth_m = std::isinf(state.depth_m) ? 0 : state.depth_m;
   record.view = at.view;
   record.azimuth_deg = view.azimuth_deg;
   record.elevation_deg = view.elevation_deg;
@@ -55,6 +68,7 @@ SampleRecord planned_record(const Scenario& scenario, const SamplePlan& plan, st
   record.seed = static_cast<std::int64_t>(scenario.seed);
   const std::uint64_t sea = sea_key(static_cast<std::size_t>(at.sea_state), static_cast<std::size_t>(at.realisation));
   record.sea_key = static_cast<std::int64_t>(sea);
+  record.sea_id = sea_id(scenario.seed, sea);
   record.first_motion_key = static_cast<std::int64_t>(body_index(sea, first_body));
   record.radar_key = static_cast<std::int64_t>(sample);
   for (const Variation& variation : scenario.variations) {

@@ -16,6 +16,8 @@ std::span<const SampleColumn> sample_columns() {
       {"peak_period_s", "s", "peak period Tp of the wave spectrum", &R::peak_period_s},
       {"gamma", "1", "JONSWAP peak enhancement", &R::gamma},
       {"propagation_deg", "deg", "direction the waves travel towards, target frame", &R::propagation_deg},
+      {"swell_wave_height_m", "m", "significant wave height of the swell", &R::swell_wave_height_m},
+      {"depth_m", "m", "water depth; 0 = deep water", &R::depth_m},
       {"view", "1", "index of the view in the scenario's sweeps", &R::view},
       {"azimuth_deg", "deg", "direction to the radar, target frame, 0 = ahead of the bow", &R::azimuth_deg},
       {"elevation_deg", "deg", "elevation of the radar seen from the target", &R::elevation_deg},
@@ -24,6 +26,7 @@ std::span<const SampleColumn> sample_columns() {
       {"start_s", "s", "time of the interval's first pulse within the realisation", &R::start_s},
       {"seed", "1", "seed of the scenario", &R::seed},
       {"sea_key", "1", "random key of the sea", &R::sea_key},
+      {"sea_id", "1", "number of seed and sea_key, equal in every data set with this sea's random numbers", &R::sea_id},
       {"first_motion_key", "1", "random key of the target's first body; further bodies follow", &R::first_motion_key},
       {"radar_key", "1", "random key of clutter and noise, and of the hop code of all maps of its interval", &R::radar_key},
       {"unused_carriers", "1", "carriers that no pulse of the interval used (zero band)", &R::unused_carriers},
@@ -40,6 +43,14 @@ std::span<const SampleColumn> sample_columns() {
       {"centres", "1", "number of scattering centres", &R::centres},
       {"degenerate", "1", "1 when fewer than 3 centres were found", &R::degenerate},
       {"aspect_traces", "1", "look directions traced, all bodies and propagation paths", &R::aspect_traces},
+      {"roll_deg", "deg", "roll of the target's first body (of a rigid raft: the raft) in mid-interval", &R::roll_deg},
+      {"pitch_deg", "deg", "its pitch, > 0 = bow down", &R::pitch_deg},
+      {"yaw_deg", "deg", "its yaw", &R::yaw_deg},
+      {"heave_m", "m", "heave of its centre of rotation", &R::heave_m},
+      {"roll_rate_deg_s", "deg/s", "rate of roll_deg", &R::roll_rate_deg_s},
+      {"pitch_rate_deg_s", "deg/s", "rate of pitch_deg", &R::pitch_rate_deg_s},
+      {"yaw_rate_deg_s", "deg/s", "rate of yaw_deg", &R::yaw_rate_deg_s},
+      {"heave_rate_mps", "m/s", "rate of heave_m", &R::heave_rate_mps},
   };
   return columns;
 }

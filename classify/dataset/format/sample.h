@@ -33,6 +33,8 @@ struct SampleRecord {
   double peak_period_s = 0;
   double gamma = 0;
   double propagation_deg = 0;
+  double swell_wave_height_m = 0;
+  double depth_m = 0;
   std::int64_t view = 0;
   double azimuth_deg = 0;
   double elevation_deg = 0;
@@ -41,6 +43,7 @@ struct SampleRecord {
   double start_s = 0;
   std::int64_t seed = 0;
   std::int64_t sea_key = 0;
+  std::int64_t sea_id = 0;
   std::int64_t first_motion_key = 0;
   std::int64_t radar_key = 0;
   std::int64_t unused_carriers = 0;
@@ -57,6 +60,14 @@ struct SampleRecord {
   std::int64_t centres = 0;
   std::int64_t degenerate = 0;
   std::int64_t aspect_traces = 0;
+  double roll_deg = 0;
+  double pitch_deg = 0;
+  double yaw_deg = 0;
+  double heave_m = 0;
+  double roll_rate_deg_s = 0;
+  double pitch_rate_deg_s = 0;
+  double yaw_rate_deg_s = 0;
+  double heave_rate_mps = 0;
   std::vector<DrawnValue<double>> drawn_numbers = {};  // by their keys
   std::vector<DrawnValue<std::string>> drawn_words = {};
 };
