@@ -8,6 +8,7 @@
 
 #include "classify/cnn/network_input.h"
 #include "classify/dataset/format/sample_faults.h"
+#include "classify/model/blanked_map.h"
 #include "sim/core/process/error.h"
 
 namespace seaglint {
@@ -79,6 +80,7 @@ enum ProbeIndex {
   kCcf,
   kSigmaR,
   kSigmaV,
+  kBlanked,
   kProbes
 };
 
@@ -110,6 +112,15 @@ std::vector<Probe> empty_probes(std::size_t bands) {
                      {{"sigma_r_m"}, {}}};
   probes[kSigmaV] = {
       "sigma_v alone", ProbeKind::kFeature, "velocity spread of the centres found: motion", {{"sigma_v_mps"}, {}}};
+  probes[kBlanked] = {"blanked map",
+                      ProbeKind::kShape,
+                      "cells more than 6 m outside of the centres' ranges, relative to their mean: what the target "
+                      "leaks into the rest of its map",
+                      {{}, {}}};
+  for (int distance = 0; distance < kBlankedDistances; ++distance) {
+    for (int velocity = 0; velocity < kBlankedVelocities; ++velocity)
+      probes[kBlanked].features.names.push_back(fmt::format("distance_{}_velocity_{}_db", distance, velocity));
+  }
   return probes;
 }
 
@@ -176,6 +187,7 @@ LearningTable load_learning_table(const DatasetReader& data, const LearningSpec&
       add(kCcf, record.ccf);
       add(kSigmaR, record.sigma_r_m);
       add(kSigmaV, record.sigma_v_mps);
+      for (const double level : blanked_levels_db(sample, shard.axes)) add(kBlanked, level);
       codes.push_back(sample.hop_code);
       for (const std::uint16_t carrier : sample.hop_code) carriers = std::max<std::size_t>(carriers, carrier + 1u);
     }

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "classify/cnn/layers.h"
+#include "classify/model/logistic.h"
 #include "sim/core/process/address_space.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
@@ -35,6 +36,7 @@ struct Job {
 
 struct JobResult {
   std::vector<Prediction> predictions[3];  // handmade, cnn, fused
+  std::vector<Prediction> linear[3];       // of logistic regression
   std::size_t train_rows[3] = {0, 0, 0};
   std::optional<Network> network;
   std::vector<Booster> boosters;
@@ -54,9 +56,10 @@ FeatureMatrix to_matrix(const Embeddings& embeddings) {
   return matrix;
 }
 
-std::vector<Prediction> predict_rows(const Booster& booster, const FeatureMatrix& features, const LearningTable& table,
+template <class Model>
+std::vector<Prediction> predict_rows(const Model& model, const FeatureMatrix& features, const LearningTable& table,
                                      const std::vector<std::size_t>& rows) {
-  const std::vector<double> probabilities = booster.predict(select_rows(features, rows));
+  const std::vector<double> probabilities = model.predict(select_rows(features, rows));
   std::vector<Prediction> predictions;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const std::size_t row = rows[i];
@@ -122,6 +125,9 @@ JobResult run_job(const Job& job, const LearningTable& table, const LearningSpec
     const Booster booster =
         Booster::train(select_rows(*features[group], rows.trees), select(table.labels, rows.trees), spec, stop);
     result.predictions[group] = predict_rows(booster, *features[group], table, result.split.test);
+    const LogisticModel linear =
+        LogisticModel::train(select_rows(*features[group], rows.trees), select(table.labels, rows.trees));
+    result.linear[group] = predict_rows(linear, *features[group], table, result.split.test);
     result.boosters.push_back(booster);
   }
   return result;
@@ -207,10 +213,11 @@ Study run_study(const LearningTable& table, const LearningSpec& spec, double tra
       stop);
 
   // Job numbers: protocol slowest, then primary and alternative fusion, then repeat.
-  const auto pooled = [&](std::size_t protocol, std::size_t fusion, int group) {
+  const auto pooled = [&](std::size_t protocol, std::size_t fusion, int group,
+                          std::vector<Prediction> (JobResult::*kind)[3] = &JobResult::predictions) {
     std::vector<Prediction> predictions;
     for (std::size_t repeat = 0; repeat < repeats; ++repeat) {
-      const auto& more = done[(protocol * 2 + fusion) * repeats + repeat].predictions[group];
+      const auto& more = (done[(protocol * 2 + fusion) * repeats + repeat].*kind)[group];
       predictions.insert(predictions.end(), more.begin(), more.end());
     }
     return predictions;
@@ -247,6 +254,14 @@ Study run_study(const LearningTable& table, const LearningSpec& spec, double tra
     study.groups.push_back(std::move(result));
   }
   study.probes = run_probes(table, spec, train_fraction, seed, evaluate, progress, stop);
+  for (int group = 0; group < 3; ++group) {
+    const std::size_t fusion = group == 0 && spec.fusion == Fusion::kSplit ? 1 : 0;  // of the primary
+    for (std::size_t protocol = 0; protocol < 2; ++protocol) {
+      study.groups[static_cast<std::size_t>(group)].outcomes[protocol].linear =
+          evaluate(pooled(protocol, fusion, group, &JobResult::linear),
+                   done[(protocol * 2 + fusion) * repeats].train_rows[group]);
+    }
+  }
 
   const JobResult& random = done[0];
   JobResult& group = done[2 * repeats];

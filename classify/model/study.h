@@ -27,6 +27,7 @@ struct Outcome {
   Protocol protocol = Protocol::kGroup;
   Evaluation primary;         // hand-made: trees on all training rows; others: the scenario's fusion
   Evaluation alternative;     // hand-made: trees on their rows of fusion `split`; others: the other fusion
+  Evaluation linear;          // logistic regression in place of the trees of the primary
   std::vector<RocPoint> roc;  // of the primary
 };
 

@@ -76,6 +76,7 @@ ordered_json to_json(const Study& study, const LearningSpec& spec) {
     for (const Outcome& outcome : group.outcomes) {
       entry[name(outcome.protocol)] = to_object(outcome.primary);
       entry[name(outcome.protocol)]["roc"] = to_object(outcome.roc);
+      entry[name(outcome.protocol)]["logistic_regression"] = to_object(outcome.linear);
       others[name(outcome.protocol)] = to_object(outcome.alternative);
     }
     entry[handmade ? "fewer_rows" : fusion_name(other)] = others;

@@ -90,9 +90,9 @@ std::size_t SamplePlan::sample(const SampleAddress& address) const {
       static_cast<std::size_t>(address.sea_state) * realisations_ + static_cast<std::size_t>(address.realisation);
   const std::size_t view_interval = static_cast<std::size_t>(address.view) * static_cast<std::size_t>(intervals_) +
                                     static_cast<std::size_t>(address.interval);
-  const auto number = static_cast<std::size_t>(std::ranges::find(classes_, address.target) - classes_.begin());
-  SEAGLINT_CHECK(number < classes_.size(), fmt::format("target {} has no samples", address.target));
-  const std::size_t place = view_interval * classes_.size() + number;
+  const auto which = static_cast<std::size_t>(std::ranges::find(classes_, address.target) - classes_.begin());
+  SEAGLINT_CHECK(which < classes_.size(), fmt::format("target {} has no samples", address.target));
+  const std::size_t place = view_interval * classes_.size() + which;
   const std::vector<std::uint32_t> order = this->order(realisation_number);
   const auto found = std::find(order.begin(), order.end(), place);
   SEAGLINT_CHECK(found != order.end(), fmt::format("place {} of {}", place, per_realisation_));

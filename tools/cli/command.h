@@ -37,6 +37,7 @@ void add_export(CommandOptions& program, CommandContext& context);
 void add_card(CommandOptions& program, CommandContext& context);
 void add_train(CommandOptions& program, CommandContext& context);
 void add_run(CommandOptions& program, CommandContext& context);
+void add_benchmark(CommandOptions& program, CommandContext& context);
 void add_report(CommandOptions& program, CommandContext& context);
 
 }  // namespace seaglint

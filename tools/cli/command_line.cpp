@@ -61,6 +61,7 @@ void add_commands(CommandOptions& program, CommandContext& context) {
   add_card(program, context);
   add_train(program, context);
   add_run(program, context);
+  add_benchmark(program, context);
   add_report(program, context);
 }
 

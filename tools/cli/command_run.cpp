@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "classify/model/study_text.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/standard_output.h"
 #include "tools/cli/arguments.h"
@@ -34,8 +35,9 @@ void add_run(CommandOptions& program, CommandContext& context) {
     context.work = [arguments, &context] {
       const Scenario scenario = arguments->scenario.read();
       try {
-        print_out("{}",
-                  run_scenario(scenario, arguments->directory, {arguments->resume, context.threads}, &context.stop));
+        const RunResult run =
+            run_scenario(scenario, arguments->directory, {arguments->resume, context.threads}, &context.stop);
+        print_out("{}\n{}", accuracy_table(run.study), run.times);
       } catch (const Interrupted&) {
         throw WorkError(fmt::format("interrupted; whole shards are kept, go on by the same command with --resume ({})",
                                     arguments->directory));

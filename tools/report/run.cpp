@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "classify/model/study_text.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/scenario/sample_plan.h"
@@ -82,8 +81,8 @@ void check_learnable(const Scenario& scenario, const SamplePlan& plan) {
 
 }  // namespace
 
-std::string run_scenario(const Scenario& scenario, const fs::path& directory, const RunOptions& options,
-                         const StopFlag* stop) {
+RunResult run_scenario(const Scenario& scenario, const fs::path& directory, const RunOptions& options,
+                       const StopFlag* stop) {
   const SamplePlan plan(scenario);
   check_learnable(scenario, plan);
   require_directory(directory, options.resume);
@@ -111,15 +110,15 @@ std::string run_scenario(const Scenario& scenario, const fs::path& directory, co
   for (const auto& [stage, seconds] : clock.seconds()) metrics["run"]["seconds"][stage] = seconds;
   write_file(directory / kMetricsFile, metrics.dump(2) + "\n");
   write_file(directory / "scenario.yaml", effective_yaml(scenario));
-  clock.add("report", write_report(directory, scenario, plan, pipeline->targets(),
-                                   {collector.with_embeddings(model.study.embeddings), std::move(metrics)},
-                                   options.threads, stop));
+  clock.add("report",
+            write_report(directory, scenario, plan, pipeline->targets(),
+                         {collector.with_embeddings(model.study.embeddings), metrics}, options.threads, stop));
 
-  std::string text = accuracy_table(model.study) + "\n";
+  std::string text;
   for (const auto& [stage, seconds] : clock.seconds()) text += fmt::format("{:<10}{:8.1f} s\n", stage, seconds);
   if (made.kept > 0) text += fmt::format("{} of {} maps were there already\n", made.kept, made.kept + made.made);
   text += fmt::format("\nReport: {}\n", (directory / kReportFile).string());
-  return text;
+  return {std::move(model.study), std::move(metrics), std::move(text)};
 }
 
 }  // namespace seaglint

@@ -5,8 +5,10 @@
 //   DIR/report.html, metrics.json, *.png, *.svg, scenario.yaml; DIR/data the data set; DIR/model the model
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 
+#include "classify/model/study.h"
 #include "sim/core/process/parallel.h"
 #include "sim/scenario/scenario.h"
 
@@ -17,9 +19,14 @@ struct RunOptions {
   int threads = 0;  // 0 = all processors
 };
 
-// Returns the text for the terminal: accuracy table, seconds per stage, path of the report. Without `resume` the
-// directory must be new or empty.
-std::string run_scenario(const Scenario& scenario, const std::filesystem::path& directory, const RunOptions& options,
-                         const StopFlag* stop = nullptr);
+struct RunResult {
+  Study study;
+  nlohmann::ordered_json metrics;  // as in metrics.json
+  std::string times;               // seconds per stage, maps that were there already, path of the report
+};
+
+// Without `resume` the directory must be new or empty.
+RunResult run_scenario(const Scenario& scenario, const std::filesystem::path& directory, const RunOptions& options,
+                       const StopFlag* stop = nullptr);
 
 }  // namespace seaglint

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Verdicts on the paper's claims, and what a benchmark states, on studies with known scores.
+#include "tools/benchmark/benchmark_result.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "sim/core/process/error.h"
+#include "tools/benchmark/benchmark.h"
+
+namespace seaglint {
+namespace {
+
+using testing::HasSubstr;
+
+Scores scores_of(double accuracy, double half = 0.02) {
+  Scores scores;
+  scores.rows = 1000;
+  scores.groups = 50;
+  scores.accuracy = accuracy;
+  scores.accuracy_95 = {accuracy - half, accuracy + half};
+  return scores;
+}
+
+Evaluation evaluation_of(std::vector<double> by_height, double half = 0.02) {
+  Evaluation evaluation;
+  double sum = 0;
+  const double heights[] = {0.1, 1, 2};
+  for (std::size_t i = 0; i < by_height.size(); ++i) {
+    evaluation.by_wave_height.push_back({heights[i], scores_of(by_height[i], half)});
+    sum += by_height[i];
+  }
+  evaluation.scores = scores_of(sum / static_cast<double>(by_height.size()), half);
+  return evaluation;
+}
+
+Study study_of(std::vector<double> handmade, std::vector<double> network, std::vector<double> fused,
+               std::vector<double> linear, double order_probe = 0.5) {
+  Study study;
+  for (const auto& [name, values] : {std::pair{"handmade", handmade}, {"cnn", network}, {"fused", fused}}) {
+    FeatureGroupResult group;
+    group.name = name;
+    group.outcomes.resize(2);
+    group.outcomes[1].primary = evaluation_of(values);
+    group.outcomes[1].linear = evaluation_of(linear);
+    study.groups.push_back(group);
+  }
+  const Evaluation chance = evaluation_of({0.5});
+  study.probes = {{"sample order", ProbeKind::kBlind, "", {chance, evaluation_of({order_probe})}},
+                  {"sigma_r alone", ProbeKind::kFeature, "", {chance, chance}},
+                  {"MWR alone", ProbeKind::kFeature, "", {chance, evaluation_of({0.97})}}};
+  return study;
+}
+
+std::vector<Verdict> verdicts(const Study& study) {
+  std::vector<Verdict> all;
+  for (const Claim& claim : claims_of(study)) all.push_back(claim.verdict);
+  return all;
+}
+
+constexpr Verdict kYes = Verdict::kHeld, kNo = Verdict::kNotHeld, kOpen = Verdict::kUndecided;
+
+TEST(BenchmarkClaims, FollowTheFiguresAndTheirIntervals) {
+  EXPECT_EQ(verdicts(study_of({0.8, 0.99, 0.99}, {0.7, 0.9, 0.92}, {0.82, 0.99, 0.99}, {0.7, 0.9, 0.95})),
+            (std::vector<Verdict>{kYes, kYes, kYes, kYes, kYes}));
+  EXPECT_EQ(verdicts(study_of({0.9, 0.8, 0.7}, {0.99, 0.99, 0.99}, {0.9, 0.9, 0.9}, {0.95, 0.95, 0.95}, 0.7)),
+            (std::vector<Verdict>{kNo, kNo, kNo, kNo, kNo}));
+  EXPECT_EQ(verdicts(study_of({0.86, 0.86, 0.87}, {0.5, 0.5, 0.5}, {0.86, 0.86, 0.86}, {0.5, 0.5, 0.5}))[0], kOpen);
+  EXPECT_EQ(verdicts(study_of({0.86, 0.86, 0.87}, {0.5, 0.5, 0.5}, {0.86, 0.86, 0.86}, {0.5, 0.5, 0.5}))[1], kOpen);
+  EXPECT_EQ(verdicts(study_of({0.86, 0.86, 0.87}, {0.5, 0.5, 0.5}, {0.86, 0.86, 0.86}, {0.5, 0.5, 0.5}))[2], kOpen);
+}
+
+TEST(BenchmarkFloor, LeavesOutTheFeaturesOfMotion) {
+  const std::vector<FloorEntry> floor = floor_of(study_of({0.9}, {0.9}, {0.9}, {0.9}, 0.6));
+  ASSERT_EQ(floor.size(), 2u);
+  EXPECT_EQ(floor[0].name, "sample order");
+  EXPECT_TRUE(floor[0].leaks);
+  EXPECT_EQ(floor[1].name, "sigma_r alone");
+  EXPECT_FALSE(floor[1].leaks);
+}
+
+TEST(BenchmarkJson, HasBaselinesFloorAndClaims) {
+  const Study study = study_of({0.8, 0.99, 0.98}, {0.7, 0.9, 0.92}, {0.82, 0.99, 0.99}, {0.7, 0.9, 0.95});
+  const nlohmann::ordered_json json = benchmark_json(study);
+  EXPECT_NEAR(json["baselines"]["handmade"]["by"]["0.1"]["accuracy"].get<double>(), 0.8, 1e-12);
+  EXPECT_NEAR(json["baselines"]["fused_logistic"]["by"]["2"]["accuracy"].get<double>(), 0.95, 1e-12);
+  EXPECT_EQ(json["baselines"].size(), 6u);
+  EXPECT_FALSE(json["floor"]["sample order"]["leaks"].get<bool>());
+  ASSERT_EQ(json["claims"].size(), 5u);
+  EXPECT_TRUE(json["claims"][2]["held"].get<bool>());
+  EXPECT_THAT(json["claims"][2]["why"].get<std::string>(), HasSubstr("80.0 / 99.0 / 98.0 % at Hs 0.1 / 1 / 2 m"));
+  EXPECT_THAT(benchmark_text(study), HasSubstr("handmade_logistic"));
+  EXPECT_THAT(benchmark_row("a", 720, 60, study), HasSubstr("| `a` | 720, 60 | 80.0 / 99.0 / 98.0 |"));
+}
+
+TEST(Benchmark, OfAnUnknownNameIsRefusedWithTheNearest) {
+  try {
+    read_benchmark("rigid_twn", false, {});
+    ADD_FAILURE() << "not refused";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("did you mean 'rigid_twin'?"));
+  }
+}
+
+// Every benchmark is a valid scenario at both sizes, and learnable: two classes of equal numbers of maps.
+TEST(Benchmark, EveryShippedOneIsAScenarioAtBothSizes) {
+  EXPECT_FALSE(benchmark_names().empty());
+  for (const std::string& name : benchmark_names()) {
+    for (const bool small : {false, true}) {
+      const Scenario scenario = read_benchmark(name, small, {});
+      EXPECT_EQ(scenario.name, name);
+      EXPECT_EQ(scenario.targets.size(), 2u);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace seaglint

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/benchmark/benchmark_result.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+namespace seaglint {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr std::size_t kUnseenSeas = 1;  // index of the group protocol
+constexpr double kPaperHandmade = 0.86;
+
+const Outcome& outcome_of(const Study& study, const std::string& group) {
+  const auto found = std::ranges::find(study.groups, group, &FeatureGroupResult::name);
+  return found->outcomes[kUnseenSeas];
+}
+
+// Name, evaluation.
+std::vector<std::pair<std::string, const Evaluation*>> baselines(const Study& study) {
+  std::vector<std::pair<std::string, const Evaluation*>> all;
+  for (const auto& [name, group] : {std::pair{"handmade", "handmade"}, {"network", "cnn"}, {"fused", "fused"}})
+    all.emplace_back(name, &outcome_of(study, group).primary);
+  for (const auto& [name, group] :
+       {std::pair{"handmade_logistic", "handmade"}, {"network_logistic", "cnn"}, {"fused_logistic", "fused"}})
+    all.emplace_back(name, &outcome_of(study, group).linear);
+  return all;
+}
+
+ordered_json number(double value) { return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr); }
+
+ordered_json to_object(const Evaluation& evaluation) {
+  const auto figures = [](const Scores& scores) {
+    return ordered_json{{"accuracy", number(scores.accuracy)},
+                        {"interval", {number(scores.accuracy_95.low), number(scores.accuracy_95.high)}}};
+  };
+  ordered_json json = figures(evaluation.scores);
+  for (const WaveHeightScores& entry : evaluation.by_wave_height)
+    json["by"][fmt::format("{:g}", entry.wave_height_m)] = figures(entry.scores);
+  return json;
+}
+
+std::string percent(const Scores& scores) { return fmt::format("{:.1f}", 100 * scores.accuracy); }
+
+std::string with_interval(double accuracy, const ConfidenceInterval& interval) {
+  if (!std::isfinite(interval.low)) return fmt::format("{:.1f}", 100 * accuracy);
+  return fmt::format("{:.1f} ({:.0f}-{:.0f})", 100 * accuracy, 100 * interval.low, 100 * interval.high);
+}
+
+// "80.0 / 99.0 / 99.2", by wave height.
+std::string by_height(const Evaluation& evaluation) {
+  std::vector<std::string> values;
+  for (const WaveHeightScores& entry : evaluation.by_wave_height) values.push_back(percent(entry.scores));
+  return fmt::format("{}", fmt::join(values, " / "));
+}
+
+std::string heights(const Evaluation& evaluation) {
+  std::vector<std::string> values;
+  for (const WaveHeightScores& entry : evaluation.by_wave_height)
+    values.push_back(fmt::format("{:g}", entry.wave_height_m));
+  return fmt::format("{}", fmt::join(values, " / "));
+}
+
+// Whether a is at least b: undecided when it is less by no more than the interval of 95 % of the two estimates'
+// difference, taken as independent.
+Verdict at_least(const Scores& a, const Scores& b) {
+  if (a.accuracy >= b.accuracy) return Verdict::kHeld;
+  const double error = std::hypot(estimate_of(a).standard_error, estimate_of(b).standard_error);
+  return b.accuracy - a.accuracy <= 1.96 * error ? Verdict::kUndecided : Verdict::kNotHeld;
+}
+
+Verdict both(Verdict a, Verdict b) {
+  if (a == Verdict::kNotHeld || b == Verdict::kNotHeld) return Verdict::kNotHeld;
+  return a == Verdict::kHeld && b == Verdict::kHeld ? Verdict::kHeld : Verdict::kUndecided;
+}
+
+Claim above_the_papers_accuracy(const Study& study) {
+  const Scores& scores = outcome_of(study, "handmade").primary.scores;
+  Claim claim{"hand-made features are above 86 %", Verdict::kUndecided,
+              with_interval(scores.accuracy, scores.accuracy_95) + " %"};
+  if (scores.accuracy_95.low > kPaperHandmade) claim.verdict = Verdict::kHeld;
+  if (scores.accuracy_95.high < kPaperHandmade) claim.verdict = Verdict::kNotHeld;
+  return claim;
+}
+
+Claim both_are_best(const Study& study) {
+  const Scores &fused = outcome_of(study, "fused").primary.scores,
+               &handmade = outcome_of(study, "handmade").primary.scores,
+               &network = outcome_of(study, "cnn").primary.scores;
+  return {"hand-made and learned features together are the best",
+          both(at_least(fused, handmade), at_least(fused, network)),
+          fmt::format("fused {}, hand-made {}, network {} %", percent(fused), percent(handmade), percent(network))};
+}
+
+// From the lowest to the highest waves.
+Claim rises_with_the_waves(const Study& study) {
+  const Evaluation& handmade = outcome_of(study, "handmade").primary;
+  Claim claim{"hand-made features rise with the wave height", Verdict::kUndecided,
+              fmt::format("{} % at Hs {} m", by_height(handmade), heights(handmade))};
+  if (handmade.by_wave_height.size() < 2) return claim;
+  const Scores &low = handmade.by_wave_height.front().scores, &high = handmade.by_wave_height.back().scores;
+  const double error = std::hypot(estimate_of(low).standard_error, estimate_of(high).standard_error);
+  if (high.accuracy - low.accuracy > 1.96 * error) claim.verdict = Verdict::kHeld;
+  if (high.accuracy < low.accuracy) claim.verdict = Verdict::kNotHeld;
+  return claim;
+}
+
+Claim trees_are_superior(const Study& study) {
+  Claim claim{"trees are no worse than logistic regression", Verdict::kHeld, ""};
+  for (const auto& [name, group] : {std::pair{"hand-made", "handmade"}, {"network", "cnn"}, {"fused", "fused"}}) {
+    const Outcome& outcome = outcome_of(study, group);
+    claim.verdict = both(claim.verdict, at_least(outcome.primary.scores, outcome.linear.scores));
+    claim.why += fmt::format("{}{} {} and {}", claim.why.empty() ? "" : ", ", name, percent(outcome.primary.scores),
+                             percent(outcome.linear.scores));
+  }
+  claim.why += " %";
+  return claim;
+}
+
+Claim motion_alone_tells(const Study& study) {
+  Claim claim{"nothing but motion tells the class", Verdict::kHeld, ""};
+  for (const FloorEntry& entry : floor_of(study)) {
+    if (!std::isfinite(entry.interval.low)) claim.verdict = both(claim.verdict, Verdict::kUndecided);
+    if (!entry.leaks) continue;
+    claim.verdict = Verdict::kNotHeld;
+    claim.why += fmt::format("{}{} {} %", claim.why.empty() ? "" : ", ", entry.name, percent(entry.scores));
+  }
+  if (claim.why.empty()) claim.why = "every quantity is at chance";
+  return claim;
+}
+
+const char* text(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kHeld: return "held";
+    case Verdict::kNotHeld: return "not held";
+    case Verdict::kUndecided: return "undecided";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::vector<FloorEntry> floor_of(const Study& study) {
+  std::vector<FloorEntry> entries;
+  std::vector<Estimate> estimates;
+  for (const ProbeResult& probe : study.probes) {
+    if (probe.kind == ProbeKind::kFeature && probe.name != "sigma_r alone") continue;
+    entries.push_back({probe.name, probe.evaluations[kUnseenSeas].scores, {}});
+    estimates.push_back(estimate_of(entries.back().scores));
+  }
+  const std::vector<ConfidenceInterval> intervals = holm_intervals(estimates);
+  const std::vector<bool> rejected = holm_rejections(estimates);
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    entries[i].interval = intervals[i];
+    entries[i].leaks = rejected[i];
+  }
+  return entries;
+}
+
+std::vector<Claim> claims_of(const Study& study) {
+  return {above_the_papers_accuracy(study), both_are_best(study), rises_with_the_waves(study),
+          trees_are_superior(study), motion_alone_tells(study)};
+}
+
+ordered_json benchmark_json(const Study& study) {
+  ordered_json json;
+  for (const auto& [name, evaluation] : baselines(study)) json["baselines"][name] = to_object(*evaluation);
+  const std::vector<FloorEntry> floor = floor_of(study);
+  for (const FloorEntry& entry : floor) {
+    const auto probe = std::ranges::find(study.probes, entry.name, &ProbeResult::name);
+    ordered_json object = to_object(probe->evaluations[kUnseenSeas]);
+    object["interval"] = {number(entry.interval.low), number(entry.interval.high)};
+    object["leaks"] = entry.leaks;
+    json["floor"][entry.name] = object;
+  }
+  json["claims"] = ordered_json::array();
+  for (const Claim& claim : claims_of(study)) {
+    ordered_json object{{"claim", claim.text}};
+    object["held"] =
+        claim.verdict == Verdict::kUndecided ? ordered_json(nullptr) : ordered_json(claim.verdict == Verdict::kHeld);
+    object["why"] = claim.why;
+    json["claims"].push_back(object);
+  }
+  return json;
+}
+
+std::string benchmark_text(const Study& study) {
+  std::string all = "Accuracy in % on unseen seas (95 % interval by bootstrap over seas)\n\n";
+  all += fmt::format("  {:<28}{:>18}  by Hs\n", "", "all");
+  for (const auto& [name, evaluation] : baselines(study)) {
+    all +=
+        fmt::format("  {:<28}{:>18}  {}\n", name,
+                    with_interval(evaluation->scores.accuracy, evaluation->scores.accuracy_95), by_height(*evaluation));
+  }
+  all += "\nWithout motion (intervals by Holm over all of them; * = differs from chance)\n\n";
+  for (const FloorEntry& entry : floor_of(study)) {
+    all += fmt::format("  {:<28}{:>18}{}\n", entry.name, with_interval(entry.scores.accuracy, entry.interval),
+                       entry.leaks ? " *" : "");
+  }
+  all += "\nThe paper's claims on this data set\n\n";
+  for (const Claim& claim : claims_of(study))
+    all += fmt::format("  {:<52} {:<10} {}\n", claim.text, text(claim.verdict), claim.why);
+  return all;
+}
+
+std::string benchmark_row(const std::string& name, std::size_t maps, std::size_t seas, const Study& study) {
+  const std::vector<FloorEntry> floor = floor_of(study);
+  const auto highest = std::ranges::max_element(
+      floor, {}, [](const FloorEntry& entry) { return std::abs(entry.scores.accuracy - 0.5); });
+  const auto cell = [&](const char* group) { return by_height(outcome_of(study, group).primary); };
+  return fmt::format("| `{}` | {}, {} | {} | {} | {} | {} {} |\n", name, maps, seas, cell("handmade"), cell("cnn"),
+                     cell("fused"), highest->name, percent(highest->scores));
+}
+
+}  // namespace seaglint

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// What a benchmark states: accuracies of the baselines on unseen seas, what the class can be told from without motion,
+// and the claims of the paper on this data set.
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "classify/model/simultaneous.h"
+#include "classify/model/study.h"
+
+namespace seaglint {
+
+// A quantity that tells the class without the target's motion, classified alone on unseen seas.
+struct FloorEntry {
+  std::string name;
+  Scores scores;
+  ConfidenceInterval interval;  // Holm's, over all entries; NaN with one sea
+  bool leaks = false;           // Holm's procedure rejects chance
+};
+
+// All probes of a study but the features of motion (MWR, CCF, sigma_v).
+std::vector<FloorEntry> floor_of(const Study& study);
+
+enum class Verdict { kHeld, kNotHeld, kUndecided };
+
+// A claim of the paper on this data set.
+struct Claim {
+  std::string text;
+  Verdict verdict = Verdict::kUndecided;  // undecided: the intervals of 95 % overlap
+  std::string why;                        // the figures
+};
+
+// In this order: hand-made features above 86 %; both together no worse than either; hand-made features rise with the
+// wave height; trees no worse than logistic regression; nothing but motion tells the class.
+std::vector<Claim> claims_of(const Study& study);
+
+// Members `baselines` and `floor` (name -> accuracy, interval, by wave height) and `claims`. Fractions; null where
+// undefined.
+nlohmann::ordered_json benchmark_json(const Study& study);
+
+// The same as a table for the terminal, and as a row of scenarios/README.md.
+std::string benchmark_text(const Study& study);
+std::string benchmark_row(const std::string& name, std::size_t maps, std::size_t seas, const Study& study);
+
+}  // namespace seaglint
