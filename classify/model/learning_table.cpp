@@ -2,9 +2,11 @@
 #include "classify/model/learning_table.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "classify/cnn/network_input.h"
 #include "classify/dataset/format/sample_faults.h"
@@ -200,12 +202,44 @@ LearningTable load_learning_table(const DatasetReader& data, const LearningSpec&
     auto& values = table.probes[kHopCode].features.values;
     values.insert(values.end(), counts.begin(), counts.end());
   }
+  return table;
+}
+
+void append(LearningTable& table, LearningTable&& more) {
+  const auto move_to = [](auto& values, auto& others) {
+    values.insert(values.end(), std::make_move_iterator(others.begin()), std::make_move_iterator(others.end()));
+    others = {};
+  };
+  for (std::size_t i = 0; i < table.probes.size(); ++i) {
+    FeatureMatrix &features = table.probes[i].features, &others = more.probes[i].features;
+    if (features.names != others.names) {
+      throw InputError(fmt::format("data sets of {} and {} bands of carriers: must use equally many carriers",
+                                   features.columns(), others.columns()));
+    }
+    move_to(features.values, others.values);
+  }
+  move_to(table.groups, more.groups);
+  move_to(table.samples, more.samples);
+  move_to(table.labels, more.labels);
+  move_to(table.wave_heights_m, more.wave_heights_m);
+  move_to(table.azimuths_deg, more.azimuths_deg);
+  move_to(table.handmade.values, more.handmade.values);
+  move_to(table.inputs, more.inputs);
+  table.degenerate += more.degenerate;
+}
+
+void require_learnable(const LearningTable& table, const std::string& data) {
   const std::size_t ships = static_cast<std::size_t>(std::count(table.labels.begin(), table.labels.end(), 1));
   if (ships == 0 || ships == table.rows()) {
-    throw InputError(fmt::format("{}: all {} maps carry the label {}; learning needs both classes",
-                                 data.directory().string(), table.rows(), ships == 0 ? 0 : 1));
+    throw InputError(fmt::format("{}: all {} maps carry the label {}; learning needs both classes", data, table.rows(),
+                                 ships == 0 ? 0 : 1));
   }
-  return table;
+  for (std::size_t column = 0; column < table.handmade.columns(); ++column) {
+    for (std::size_t row = 1; row < table.rows(); ++row)
+      if (table.handmade.row(row)[column] != table.handmade.row(0)[column]) return;
+  }
+  throw InputError(fmt::format("{}: every feature has one value in all {} maps: nothing can be learnt from {}", data,
+                               table.rows(), fmt::join(table.handmade.names, ", ")));
 }
 
 }  // namespace seaglint

@@ -4,12 +4,13 @@
 // A data set as input of the learning: one row per map.
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "classify/dataset/directory/dataset_reader.h"
 #include "classify/model/booster.h"
-#include "classify/model/split.h"
+#include "classify/model/division.h"
 #include "sim/core/process/parallel.h"
 
 namespace seaglint {
@@ -42,13 +43,23 @@ struct LearningTable {
   FeatureMatrix handmade;     // mwr, ccf, sigma_r, sigma_v
   std::vector<float> inputs;  // of the network, [map][kInputCells]
   std::vector<Probe> probes;
-  std::size_t degenerate = 0;  // maps with fewer than 3 centres
+  std::size_t degenerate = 0;              // maps with fewer than 3 centres
+  std::optional<Division> other_division;  // of the group protocol, in place of that by sea
 
   std::size_t rows() const { return labels.size(); }
+  Division division() const { return other_division ? *other_division : division_by_sea(groups); }
 };
 
-// Reads every shard once and passes it to `use` if given. Throws InputError when a shard is invalid, a sample has a
-// fault (classify/dataset/format/sample_faults.h; with its number), or there are not two classes.
+// Appends the rows of another data set. Throws InputError when the carriers of both differ (in the probe of the hop
+// code).
+void append(LearningTable& table, LearningTable&& more);
+
+// Throws InputError, naming `data`, when the maps are not of two classes, or every hand-made feature has one value in
+// all maps.
+void require_learnable(const LearningTable& table, const std::string& data);
+
+// Reads every shard once and passes it to `use` if given. Throws InputError when a shard is invalid or a sample has a
+// fault (classify/dataset/format/sample_faults.h; with its number).
 LearningTable load_learning_table(const DatasetReader& data, const LearningSpec& spec, const StopFlag* stop = nullptr,
                                   const std::function<void(const Shard&)>& use = {});
 

@@ -125,6 +125,28 @@ Scores score(std::span<const Prediction> predictions, int bootstrap_samples, std
   return scores;
 }
 
+Calibration calibration(std::span<const Prediction> predictions) {
+  constexpr std::size_t kBins = 10;
+  Calibration result;
+  for (std::size_t i = 0; i < kBins; ++i) result.bins.push_back({static_cast<double>(i) / kBins, 0, 0, 0});
+  for (const Prediction& p : predictions) {
+    const auto place = static_cast<std::size_t>(std::clamp(p.probability, 0.0, 1.0) * kBins);
+    CalibrationBin& bin = result.bins[std::min(place, kBins - 1)];
+    ++bin.rows;
+    bin.mean_probability += p.probability;
+    bin.ships += p.label == 1 ? 1 : 0;
+  }
+  double sum = 0;
+  for (CalibrationBin& bin : result.bins) {
+    sum += std::abs(bin.mean_probability - bin.ships);
+    const double rows = static_cast<double>(bin.rows);
+    bin.mean_probability = bin.rows == 0 ? kNan : bin.mean_probability / rows;
+    bin.ships = bin.rows == 0 ? kNan : bin.ships / rows;
+  }
+  result.expected_error = predictions.empty() ? kNan : sum / static_cast<double>(predictions.size());
+  return result;
+}
+
 std::vector<WaveHeightScores> score_by_wave_height(std::span<const Prediction> predictions, int bootstrap_samples,
                                                    std::uint64_t seed, std::uint64_t bootstrap_index) {
   std::map<double, std::vector<Prediction>> by_height;

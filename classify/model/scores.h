@@ -48,6 +48,22 @@ struct RocPoint {
 // by the next: less than 2 most points. Empty when a class is missing.
 std::vector<RocPoint> roc_curve(std::span<const Prediction> predictions, std::size_t most = 200);
 
+// Predictions whose probability of label 1 lies within one tenth.
+struct CalibrationBin {
+  double lowest = 0;  // 0, 0.1, ... 0.9; the last one includes 1
+  std::size_t rows = 0;
+  double mean_probability = 0;  // of label 1; NaN without rows
+  double ships = 0;             // fraction of label 1; NaN without rows
+};
+
+struct Calibration {
+  std::vector<CalibrationBin> bins;
+  // Mean over the rows of |mean probability - fraction of label 1| of their bin (Naeini, Cooper and Hauskrecht 2015);
+  // NaN without rows.
+  double expected_error = 0;
+};
+Calibration calibration(std::span<const Prediction> predictions);
+
 struct WaveHeightScores {
   double wave_height_m = 0;
   Scores scores;

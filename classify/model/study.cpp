@@ -7,6 +7,7 @@
 
 #include "classify/cnn/layers.h"
 #include "classify/model/logistic.h"
+#include "classify/model/model_card.h"
 #include "sim/core/process/address_space.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
@@ -44,18 +45,6 @@ struct JobResult {
   Split split;
 };
 
-FeatureMatrix to_matrix(const Embeddings& embeddings) {
-  FeatureMatrix matrix;
-  for (std::size_t k = 0; k < embeddings.size; ++k) matrix.names.push_back(fmt::format("lambda_{}", k + 1));
-  matrix.names.push_back("logit");
-  for (std::size_t i = 0; i < embeddings.logits.size(); ++i) {
-    const auto begin = embeddings.values.begin() + static_cast<std::ptrdiff_t>(i * embeddings.size);
-    matrix.values.insert(matrix.values.end(), begin, begin + static_cast<std::ptrdiff_t>(embeddings.size));
-    matrix.values.push_back(embeddings.logits[i]);
-  }
-  return matrix;
-}
-
 template <class Model>
 std::vector<Prediction> predict_rows(const Model& model, const FeatureMatrix& features, const LearningTable& table,
                                      const std::vector<std::size_t>& rows) {
@@ -88,21 +77,26 @@ struct JobRows {
   std::vector<std::size_t> trees;
 };
 
-JobRows rows_of(const Job& job, std::span<const RowGroup> groups, const LearningSpec& spec, double train_fraction,
+JobRows rows_of(const Job& job, const Division& division, const LearningSpec& spec, double train_fraction,
                 std::uint64_t seed) {
-  JobRows rows{split_rows(groups, job.protocol, train_fraction, seed, job.repeat), {}, {}};
+  JobRows rows{divide(division, job.protocol, train_fraction, seed, job.repeat), {}, {}};
   if (job.fusion == Fusion::kInSample) {
     rows.network = rows.trees = rows.split.train;
   } else {
-    const Split fusion = split_for_fusion(groups, rows.split, job.protocol, spec.network_fraction, seed, job.repeat);
+    const Split fusion =
+        split_for_fusion(division.units, rows.split, job.protocol, spec.network_fraction, seed, job.repeat);
     rows.network = fusion.train;
     rows.trees = fusion.test;
   }
   if (rows.network.empty() || rows.trees.empty() || rows.split.test.empty()) {
-    throw InputError(fmt::format(
-        "dataset: {} maps in too few seas leave nothing to train or to test on when they are split by {}; raise "
-        "dataset.realisations_per_case",
-        groups.size(), job.protocol == Protocol::kRandom ? "rows" : "seas"));
+    const bool by_sea = job.protocol == Protocol::kRandom || division.by == "sea";
+    throw InputError(
+        fmt::format("dataset: {} maps in too few {} leave nothing to train or to test on when they are split by {}{}",
+                    division.units.size(), by_sea ? "seas" : "values of " + division.by,
+                    job.protocol == Protocol::kRandom ? "rows"
+                    : by_sea                          ? "seas"
+                                                      : division.by,
+                    by_sea ? "; raise dataset.realisations_per_case" : ""));
   }
   return rows;
 }
@@ -110,13 +104,13 @@ JobRows rows_of(const Job& job, std::span<const RowGroup> groups, const Learning
 JobResult run_job(const Job& job, const LearningTable& table, const LearningSpec& spec, double train_fraction,
                   std::uint64_t seed, const StopFlag* stop) {
   JobResult result;
-  const JobRows rows = rows_of(job, table.groups, spec, train_fraction, seed);
+  const JobRows rows = rows_of(job, table.division(), spec, train_fraction, seed);
   result.split = rows.split;
 
   const std::uint64_t index =
       (job.repeat * 2 + (job.protocol == Protocol::kGroup ? 1 : 0)) * 2 + (job.fusion == Fusion::kSplit ? 0 : 1);
   result.network = Network::train(table.inputs, rows.network, table.labels, spec, seed, index, stop);
-  result.embeddings = to_matrix(result.network->embed(table.inputs));
+  result.embeddings = embedding_matrix(result.network->embed(table.inputs));
 
   const FeatureMatrix fused = join_columns(table.handmade, result.embeddings);
   const FeatureMatrix* features[3] = {&table.handmade, &result.embeddings, &fused};
@@ -133,13 +127,16 @@ JobResult run_job(const Job& job, const LearningTable& table, const LearningSpec
   return result;
 }
 
-// Bootstrap keys: a block of 1000 per evaluation.
+// Bootstrap keys: a block of 1000 per evaluation, in the order primary and alternative of the random, then of the group
+// protocol, of each group of features; then the probes.
+constexpr std::uint64_t kBootstrapBlock = 1000;
+
 class Evaluator {
  public:
   Evaluator(const LearningSpec& spec, std::uint64_t seed) : spec_(spec), seed_(seed) {}
 
   Evaluation operator()(const std::vector<Prediction>& predictions, std::size_t train_rows) {
-    const std::uint64_t index = 1000 * next_++;
+    const std::uint64_t index = kBootstrapBlock * next_++;
     return {score(predictions, spec_.bootstrap_samples, seed_, index),
             score_by_wave_height(predictions, spec_.bootstrap_samples, seed_, index), train_rows};
   }
@@ -160,7 +157,7 @@ std::vector<ProbeResult> run_probes(const LearningTable& table, const LearningSp
       std::size_t train_rows = 0;
       for (int repeat = 0; repeat < spec.split_repeats; ++repeat) {
         const Split split =
-            split_rows(table.groups, protocol, train_fraction, seed, static_cast<std::uint64_t>(repeat));
+            divide(table.division(), protocol, train_fraction, seed, static_cast<std::uint64_t>(repeat));
         const Booster booster =
             Booster::train(select_rows(probe.features, split.train), select(table.labels, split.train), spec, stop);
         const std::vector<Prediction> more = predict_rows(booster, probe.features, table, split.test);
@@ -175,22 +172,41 @@ std::vector<ProbeResult> run_probes(const LearningTable& table, const LearningSp
   return results;
 }
 
-std::string splits_csv(const LearningTable& table, const std::vector<Split>& splits) {
-  std::string text = "sample,group,label,random,by_group\n";
+std::string splits_csv(const LearningTable& table, std::span<const DataRow> rows, const std::vector<Split>& splits) {
+  std::string text = "data_set,sample,group,seed,sea_key,label,random,by_group\n";
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const auto side = [row](const Split& split) {
-      return std::binary_search(split.train.begin(), split.train.end(), row) ? "train" : "test";
+      if (std::binary_search(split.train.begin(), split.train.end(), row)) return "train";
+      return std::binary_search(split.test.begin(), split.test.end(), row) ? "test" : "unused";
     };
-    text += fmt::format("{},{},{},{},{}\n", table.samples[row], table.groups[row].group, table.labels[row],
-                        side(splits[0]), side(splits[1]));
+    const SampleRecord& record = rows[row].record;
+    text += fmt::format("{},{},{},{},{},{},{},{}\n", rows[row].data_set, record.sample, table.groups[row].group,
+                        record.seed, record.sea_key, table.labels[row], side(splits[0]), side(splits[1]));
   }
   return text;
 }
 
 }  // namespace
 
+std::uint64_t bootstrap_index(std::size_t group, Protocol protocol) {
+  return kBootstrapBlock * (4 * group + (protocol == Protocol::kGroup ? 2 : 0));
+}
+
+FeatureMatrix embedding_matrix(const Embeddings& embeddings) {
+  FeatureMatrix matrix;
+  for (std::size_t k = 0; k < embeddings.size; ++k) matrix.names.push_back(fmt::format("lambda_{}", k + 1));
+  matrix.names.push_back("logit");
+  for (std::size_t i = 0; i < embeddings.logits.size(); ++i) {
+    const auto begin = embeddings.values.begin() + static_cast<std::ptrdiff_t>(i * embeddings.size);
+    matrix.values.insert(matrix.values.end(), begin, begin + static_cast<std::ptrdiff_t>(embeddings.size));
+    matrix.values.push_back(embeddings.logits[i]);
+  }
+  return matrix;
+}
+
 void check_splits(std::span<const RowGroup> rows, const LearningSpec& spec, double train_fraction, std::uint64_t seed) {
-  for (const Job& job : all_jobs(spec)) rows_of(job, rows, spec, train_fraction, seed);
+  const Division division = division_by_sea(rows);
+  for (const Job& job : all_jobs(spec)) rows_of(job, division, spec, train_fraction, seed);
 }
 
 Study run_study(const LearningTable& table, const LearningSpec& spec, double train_fraction, std::uint64_t seed,
@@ -268,20 +284,22 @@ Study run_study(const LearningTable& table, const LearningSpec& spec, double tra
   study.network = std::move(group.network);
   study.splits = {random.split, group.split};
   study.embeddings = std::move(group.embeddings);
+  study.division = table.division().text;
   return study;
 }
 
 std::vector<std::string> model_files() {
-  std::vector<std::string> files{kNetworkFile, kSplitsFile};
+  std::vector<std::string> files{kNetworkFile, kSplitsFile, kModelFile};
   for (const char* name : kGroupNames) files.push_back(fmt::format("{}.json", name));
   return files;
 }
 
-void save_models(const Study& study, const LearningTable& table, const std::filesystem::path& model_directory) {
+void save_models(const Study& study, const LearningTable& table, std::span<const DataRow> rows,
+                 const std::filesystem::path& model_directory) {
   for (std::size_t group = 0; group < 3; ++group)
     study.trees[group].save(model_directory / fmt::format("{}.json", kGroupNames[group]));
   study.network->save(model_directory / kNetworkFile);
-  write_file(model_directory / kSplitsFile, splits_csv(table, study.splits));
+  write_file(model_directory / kSplitsFile, splits_csv(table, rows, study.splits));
 }
 
 }  // namespace seaglint

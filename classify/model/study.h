@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "classify/cnn/network.h"
+#include "classify/model/data_rows.h"
 #include "classify/model/learning_table.h"
 #include "classify/model/scores.h"
 
@@ -53,7 +54,14 @@ struct Study {
   std::vector<Booster> trees;      // handmade, cnn, fused
   std::vector<Split> splits;       // random, then group, of the first repeat
   FeatureMatrix embeddings;        // of all rows, of the network: embedding values, then the logit
+  std::string division;            // how the group protocol divides
 };
+
+// The network's outputs as columns lambda_1, lambda_2, ..., logit.
+FeatureMatrix embedding_matrix(const Embeddings& embeddings);
+
+// Random index of the interval of a primary result (score()): `group` of Study::groups.
+std::uint64_t bootstrap_index(std::size_t group, Protocol protocol);
 
 // Throws InputError when a split of rows in these groups would have an empty side; needs no maps.
 void check_splits(std::span<const RowGroup> rows, const LearningSpec& spec, double train_fraction, std::uint64_t seed);
@@ -66,11 +74,13 @@ inline constexpr const char* kSplitsFile = "splits.csv";
 Study run_study(const LearningTable& table, const LearningSpec& spec, double train_fraction, std::uint64_t seed,
                 int threads, const StopFlag* stop = nullptr);
 
-// Names of the files that save_models() writes.
+// Names of the files that save_models() and save_model_card() write.
 std::vector<std::string> model_files();
 
-// Writes network.bin, handmade.json, cnn.json, fused.json and splits.csv of the table's study. Throws WorkError when a
-// file cannot be written.
-void save_models(const Study& study, const LearningTable& table, const std::filesystem::path& model_directory);
+// Writes network.bin, handmade.json, cnn.json, fused.json and splits.csv of the table's study; `rows`: those of the
+// table. In splits.csv, `random` and `by_group` are train, test or unused. Throws WorkError when a file cannot be
+// written.
+void save_models(const Study& study, const LearningTable& table, std::span<const DataRow> rows,
+                 const std::filesystem::path& model_directory);
 
 }  // namespace seaglint

@@ -15,6 +15,30 @@ using nlohmann::ordered_json;
 // JSON has no NaN: an undefined value is null.
 ordered_json number(double value) { return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr); }
 
+ordered_json to_object(const Evaluation& evaluation) {
+  ordered_json json = to_object(evaluation.scores);
+  json["train_rows"] = evaluation.train_rows;
+  json["by_wave_height"] = ordered_json::array();
+  for (const WaveHeightScores& entry : evaluation.by_wave_height) {
+    ordered_json row;
+    row["significant_wave_height_m"] = entry.wave_height_m;
+    row.update(to_object(entry.scores));
+    json["by_wave_height"].push_back(row);
+  }
+  return json;
+}
+
+const char* fusion_name(Fusion fusion) { return fusion == Fusion::kSplit ? "split" : "in_sample"; }
+
+}  // namespace
+
+std::string percent(const Scores& scores) {
+  if (!std::isfinite(scores.accuracy)) return "-";
+  if (!std::isfinite(scores.accuracy_95.low)) return fmt::format("{:.1f}", 100 * scores.accuracy);
+  return fmt::format("{:.1f} ({:.0f}-{:.0f})", 100 * scores.accuracy, 100 * scores.accuracy_95.low,
+                     100 * scores.accuracy_95.high);
+}
+
 ordered_json to_object(const Scores& scores) {
   ordered_json json;
   json["rows"] = scores.rows;
@@ -30,19 +54,6 @@ ordered_json to_object(const Scores& scores) {
   return json;
 }
 
-ordered_json to_object(const Evaluation& evaluation) {
-  ordered_json json = to_object(evaluation.scores);
-  json["train_rows"] = evaluation.train_rows;
-  json["by_wave_height"] = ordered_json::array();
-  for (const WaveHeightScores& entry : evaluation.by_wave_height) {
-    ordered_json row;
-    row["significant_wave_height_m"] = entry.wave_height_m;
-    row.update(to_object(entry.scores));
-    json["by_wave_height"].push_back(row);
-  }
-  return json;
-}
-
 ordered_json to_object(const std::vector<RocPoint>& curve) {
   ordered_json json{{"false_alarms", ordered_json::array()}, {"detections", ordered_json::array()}};
   for (const RocPoint& point : curve) {
@@ -51,17 +62,6 @@ ordered_json to_object(const std::vector<RocPoint>& curve) {
   }
   return json;
 }
-
-const char* fusion_name(Fusion fusion) { return fusion == Fusion::kSplit ? "split" : "in_sample"; }
-
-std::string percent(const Scores& scores) {
-  if (!std::isfinite(scores.accuracy)) return "-";
-  if (!std::isfinite(scores.accuracy_95.low)) return fmt::format("{:.1f}", 100 * scores.accuracy);
-  return fmt::format("{:.1f} ({:.0f}-{:.0f})", 100 * scores.accuracy, 100 * scores.accuracy_95.low,
-                     100 * scores.accuracy_95.high);
-}
-
-}  // namespace
 
 ordered_json to_json(const Study& study, const LearningSpec& spec) {
   ordered_json json;
@@ -100,8 +100,7 @@ ordered_json to_json(const Study& study, const LearningSpec& spec) {
 std::string accuracy_table(const Study& study) {
   std::string text = "Accuracy in % (95 % interval by bootstrap over seas), XGBoost on three groups of features\n\n";
   for (std::size_t protocol = 0; protocol < 2; ++protocol) {
-    text += protocol == 0 ? "random split of the maps (the paper's protocol)\n"
-                          : "\nsplit by sea realisation (no test sea was seen in training)\n";
+    text += protocol == 0 ? "random split of the maps (the paper's protocol)\n" : "\n" + study.division + "\n";
     text += fmt::format("  {:<10}{:>18}{:>18}{:>18}\n", "Hs [m]", "hand-made", "CNN", "fused");
     const auto& heights = study.groups.front().outcomes[protocol].primary.by_wave_height;
     for (std::size_t i = 0; i <= heights.size(); ++i) {

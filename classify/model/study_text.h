@@ -14,6 +14,13 @@ namespace seaglint {
 // Table of accuracies by wave height as plain text.
 std::string accuracy_table(const Study& study);
 
+// "93.3 (88-98)": accuracy in % with its 95 % interval, if there is one; "-" without rows.
+std::string percent(const Scores& scores);
+
+// JSON objects of scores and of a receiver operating characteristic; undefined values are null.
+nlohmann::ordered_json to_object(const Scores& scores);
+nlohmann::ordered_json to_object(const std::vector<RocPoint>& curve);
+
 // The study as a JSON object with the members handmade, cnn, fused, probes, network.
 nlohmann::ordered_json to_json(const Study& study, const LearningSpec& spec);
 

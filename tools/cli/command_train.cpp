@@ -15,7 +15,9 @@ namespace seaglint {
 namespace {
 
 struct Arguments {
-  std::string data;
+  std::vector<std::string> data;
+  std::string by = "sea";
+  std::vector<std::string> hold_out;
   std::string model;
   std::vector<std::string> set;
 };
@@ -32,22 +34,52 @@ std::vector<Override> learning_overrides(const std::vector<std::string>& set) {
   return overrides;
 }
 
+DivisionRequest division_request(const Arguments& arguments) {
+  DivisionRequest request{arguments.by, {}};
+  for (const std::string& text : arguments.hold_out) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw InputError(fmt::format("--hold-out {}: must be COLUMN=VALUE or COLUMN=LOW:HIGH", text));
+    request.hold_out.push_back({text.substr(0, equals), text.substr(equals + 1)});
+  }
+  return request;
+}
+
 }  // namespace
 
 void add_train(CommandOptions& program, CommandContext& context) {
   CommandOptions command =
       program.add_command("train", "Train network and trees on a data set and evaluate them on unseen maps and seas");
   auto arguments = std::make_shared<Arguments>();
-  command.add_option("DIR", arguments->data, "Data set made by `seaglint generate` or `seaglint run`").required();
+  command
+      .add_option("DIR", arguments->data,
+                  "Data sets made by `seaglint generate` or `seaglint run`; learning, split and seed are those of the "
+                  "first one's scenario")
+      .required()
+      .repeatable("DIR");
   command.add_option("-o,--output", arguments->model, "Directory of the model").required();
   command.add_option("--set", arguments->set, "Replace a value of the data set's scenario (repeatable)")
       .repeatable("learning.KEY=VALUE");
+  command
+      .add_option("--by", arguments->by,
+                  "Column whose values are on one side of the split each, in place of the sea realisation: any column "
+                  "of the samples, or data_set (numbered from 0)")
+      .show_default();
+  command
+      .add_option("--hold-out", arguments->hold_out,
+                  "Values that are tested only and never trained on, for the classes that have them; LOW:HIGH for an "
+                  "interval (repeatable: any of one column's values, all columns)")
+      .repeatable("COLUMN=VALUE");
   add_threads_option(command, context);
-  command.footer("Example:\n  seaglint train build/points -o build/points-model --set learning.epochs=40");
+  command.footer(
+      "Example:\n  seaglint train build/points -o build/points-model --set learning.epochs=40\n"
+      "  seaglint train build/a build/b -o build/model --hold-out data_set=1");
   command.callback([arguments, &context] {
     context.work = [arguments, &context] {
-      const TrainedModel model = train_model(find_data_set(arguments->data), arguments->model,
-                                             learning_overrides(arguments->set), context.threads, &context.stop);
+      std::vector<std::filesystem::path> data_sets;
+      for (const std::string& data : arguments->data) data_sets.push_back(find_data_set(data));
+      const TrainedModel model = train_model(data_sets, arguments->model, learning_overrides(arguments->set),
+                                             division_request(*arguments), context.threads, &context.stop);
       print_out("{}\n{}: network, trees and {}\n", accuracy_table(model.study), arguments->model, kMetricsFile);
     };
   });

@@ -4,9 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <system_error>
+#include <utility>
 
 #include "classify/dataset/directory/dataset_writer.h"
+#include "classify/model/saved_model.h"
 #include "classify/model/study_text.h"
 #include "seaglint_version.h"
 #include "sim/core/process/error.h"
@@ -48,8 +51,17 @@ nlohmann::ordered_json section_of(const Scenario& scenario, const std::string& s
   return json;
 }
 
-nlohmann::ordered_json metrics_json(const Study& study, const LearningTable& table, const Scenario& scenario,
-                                    const Manifest& manifest) {
+// Data sets as they are read for learning.
+struct LearningData {
+  LearningTable table;
+  std::vector<DataRow> rows;  // of the table
+  StoredAxes axes;
+  std::vector<Manifest> manifests;
+};
+
+nlohmann::ordered_json metrics_json(const Study& study, const LearningData& data, const Scenario& scenario) {
+  const LearningTable& table = data.table;
+  const Manifest& manifest = data.manifests.front();
   nlohmann::ordered_json json = to_json(study, scenario.learning);
   json["scenario"] = scenario.name;
   json["version"] = kVersion;
@@ -60,6 +72,12 @@ nlohmann::ordered_json metrics_json(const Study& study, const LearningTable& tab
                   {"maps_with_fewer_than_3_centres", table.degenerate},
                   {"processors", manifest.processors},
                   {"scenario_sha256", manifest.scenario_sha256}};
+  if (data.manifests.size() > 1) {
+    for (const Manifest& other : data.manifests)
+      json["data"]["sets"].push_back(
+          {{"scenario", other.scenario}, {"maps", other.samples}, {"scenario_sha256", other.scenario_sha256}});
+  }
+  if (table.other_division) json["division"] = study.division;
   return json;
 }
 
@@ -77,35 +95,137 @@ void require_own_directory(const fs::path& directory) {
   }
 }
 
-}  // namespace
+std::string joined(const std::vector<fs::path>& paths) {
+  std::string text;
+  for (const fs::path& path : paths) text += (text.empty() ? "" : ", ") + path.string();
+  return text;
+}
 
-TrainedModel train_model(const DatasetReader& data, const Scenario& scenario, const fs::path& model_directory,
-                         int threads, const StopFlag* stop, const std::function<void(const Shard&)>& use) {
-  require_own_directory(model_directory);
-  const LearningTable table = load_learning_table(data, scenario.learning, stop, use);
+// Reads a data set; each shard is passed to `use` if given.
+void read_data(LearningData& data, const DatasetReader& reader, const LearningSpec& spec, const StopFlag* stop,
+               const std::function<void(const Shard&)>& use) {
+  const std::size_t number = data.manifests.size();
+  LearningTable table = load_learning_table(reader, spec, stop, [&](const Shard& shard) {
+    append_rows(data.rows, number, shard);
+    if (number == 0) {
+      data.axes = shard.axes;
+    } else if (const std::string other = grid_difference(grid_of(shard.axes), grid_of(data.axes)); !other.empty()) {
+      throw InputError(
+          fmt::format("{}: maps of another grid than the first data set's: {}", reader.directory().string(), other));
+    }
+    if (use) use(shard);
+  });
+  if (number == 0) {
+    data.table = std::move(table);
+  } else {
+    append(data.table, std::move(table));
+  }
+  data.manifests.push_back(reader.manifest());
+}
+
+// Numbers of the seas of all data sets, in the sea state of the first map of each.
+std::vector<RowGroup> common_seas(std::span<const DataRow> rows, std::span<const RowGroup> groups) {
+  const std::vector<std::int64_t> seas = sea_numbers(rows);
+  std::map<std::int64_t, std::int64_t> state_of_sea;
+  std::map<std::pair<std::size_t, std::int64_t>, std::int64_t> states;  // of each data set
+  std::vector<RowGroup> result;
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    const std::pair<std::size_t, std::int64_t> own{rows[row].data_set, groups[row].sea_state};
+    const auto next = static_cast<std::int64_t>(states.size());
+    const std::int64_t state = states.try_emplace(own, next).first->second;
+    result.push_back({seas[row], state_of_sea.try_emplace(seas[row], state).first->second});
+  }
+  return result;
+}
+
+// Throws InputError when a side of the group protocol is empty or of one class only, in any repeat.
+void require_two_classes(const LearningTable& table, const Scenario& scenario) {
+  const Division division = table.division();
+  for (int repeat = 0; repeat < scenario.learning.split_repeats; ++repeat) {
+    const Split split = divide(division, Protocol::kGroup, scenario.dataset.train_fraction, scenario.seed,
+                               static_cast<std::uint64_t>(repeat));
+    for (const auto& [rows, use] : {std::pair(&split.train, "train"), std::pair(&split.test, "test")}) {
+      if (rows->empty()) throw InputError(fmt::format("{}: leaves no map to {} on", division.text, use));
+      const int label = table.labels[rows->front()];
+      if (std::all_of(rows->begin(), rows->end(), [&](std::size_t row) { return table.labels[row] == label; })) {
+        throw InputError(fmt::format("{}: leaves {} maps to {} on, all of class {} ({})", division.text, rows->size(),
+                                     use, label, class_names_by_label()[static_cast<std::size_t>(label)]));
+      }
+    }
+  }
+}
+
+TrainedModel train_on(const LearningData& data, const Scenario& scenario, const fs::path& model_directory, int threads,
+                      const StopFlag* stop) {
   make_directory(model_directory);
   TrainedModel model;
-  model.study =
-      run_study(table, scenario.learning, scenario.dataset.train_fraction, scenario.seed, thread_count(threads), stop);
-  model.metrics = metrics_json(model.study, table, scenario, data.manifest());
+  model.study = run_study(data.table, scenario.learning, scenario.dataset.train_fraction, scenario.seed,
+                          thread_count(threads), stop);
+  model.metrics = metrics_json(model.study, data, scenario);
+  ModelCard card = describe_model(model.study, data.table, data.rows, scenario, data.axes, kVersion);
+  for (const Manifest& manifest : data.manifests)
+    card.data_sets.push_back({manifest.scenario, manifest.scenario_sha256, manifest.seed, manifest.samples});
 
   // metrics.json marks a complete model: the earlier one is removed before any other file is replaced.
   const fs::path mark = model_directory / kMetricsFile;
   std::error_code error;
   fs::remove(mark, error);
   if (error) throw WorkError(fmt::format("{}: cannot remove: {}", mark.string(), error.message()));
-  save_models(model.study, table, model_directory);
-  write_file(model_directory / kEmbeddingsFile, embeddings_csv(table, model.study.embeddings));
+  save_models(model.study, data.table, data.rows, model_directory);
+  save_model_card(std::move(card), model_directory);
+  write_file(model_directory / kEmbeddingsFile, embeddings_csv(data.table, model.study.embeddings));
   write_file(mark, model.metrics.dump(2) + "\n");
   remove_leftovers(model_directory);
   return model;
 }
 
+}  // namespace
+
+TrainedModel train_model(const DatasetReader& data, const Scenario& scenario, const fs::path& model_directory,
+                         int threads, const StopFlag* stop, const std::function<void(const Shard&)>& use) {
+  require_own_directory(model_directory);
+  LearningData learning;
+  read_data(learning, data, scenario.learning, stop, use);
+  require_learnable(learning.table, data.directory().string());
+  return train_on(learning, scenario, model_directory, threads, stop);
+}
+
+TrainedModel train_model(const std::vector<fs::path>& data_sets, const fs::path& model_directory,
+                         const std::vector<Override>& overrides, const DivisionRequest& request, int threads,
+                         const StopFlag* stop) {
+  SEAGLINT_CHECK(!data_sets.empty(), "no data set");
+  require_own_directory(model_directory);
+  const Scenario scenario = read_scenario(data_sets.front() / kScenarioFile, overrides);
+  LearningData learning;
+  std::map<std::string, fs::path> scenarios;
+  for (const fs::path& data_set : data_sets) {
+    const DatasetReader reader(data_set);
+    warn(data_set_warnings(reader));
+    const auto [first, is_new] = scenarios.try_emplace(reader.manifest().scenario_sha256, data_set);
+    if (!is_new) {
+      throw InputError(
+          fmt::format("{}: the same maps as {}: of one scenario", data_set.string(), first->second.string()));
+    }
+    const std::string other =
+        settings_difference(settings_of(read_scenario(data_set / kScenarioFile)), settings_of(scenario));
+    if (!other.empty())
+      throw InputError(
+          fmt::format("{}: other settings than {}: {}", data_set.string(), data_sets.front().string(), other));
+    read_data(learning, reader, scenario.learning, stop, {});
+  }
+  LearningTable& table = learning.table;
+  require_learnable(table, joined(data_sets));
+  if (data_sets.size() > 1) table.groups = common_seas(learning.rows, table.groups);
+  if (!request.is_default() || data_sets.size() > 1) {
+    if (!request.is_default()) table.other_division = make_division(learning.rows, table.groups, table.labels, request);
+    require_two_classes(table, scenario);
+  }
+  return train_on(learning, scenario, model_directory, threads, stop);
+}
+
 TrainedModel train_model(const fs::path& data_set, const fs::path& model_directory,
                          const std::vector<Override>& overrides, int threads, const StopFlag* stop) {
-  const DatasetReader data(data_set);
-  warn(data_set_warnings(data));
-  return train_model(data, read_scenario(data_set / kScenarioFile, overrides), model_directory, threads, stop);
+  return train_model(std::vector{data_set}, model_directory, overrides, DivisionRequest{}, threads, stop);
 }
 
 }  // namespace seaglint

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Writes a model directory from a data set: network, trees, splits, embeddings of all maps, and last metrics.json: a
-// directory without it is no complete model.
+// Writes a model directory from one or more data sets: network, trees, splits, embeddings of all maps, model.json for
+// the application to other data (classify/model/saved_model.h), and last metrics.json: a directory without it is no
+// complete model.
 
 #include <filesystem>
 #include <functional>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "classify/dataset/directory/dataset_reader.h"
+#include "classify/model/division.h"
 #include "classify/model/study.h"
 #include "sim/core/process/parallel.h"
 #include "sim/scenario/scenario.h"
@@ -33,7 +35,15 @@ TrainedModel train_model(const DatasetReader& data, const Scenario& scenario,
                          const std::filesystem::path& model_directory, int threads, const StopFlag* stop = nullptr,
                          const std::function<void(const Shard&)>& use = {});
 
-// The same with the scenario stored in the data set, changed by `overrides`; prints data_set_warnings().
+// The same with several data sets and a division by other columns than the sea. Learning, split and seed are those of
+// the scenario of the first data set, changed by `overrides`. Prints data_set_warnings(). Throws InputError also when
+// maps or features of the data sets have different settings, two data sets are of one scenario, or the division leaves
+// nothing, or one class only, to train or to test on.
+TrainedModel train_model(const std::vector<std::filesystem::path>& data_sets,
+                         const std::filesystem::path& model_directory, const std::vector<Override>& overrides,
+                         const DivisionRequest& request, int threads, const StopFlag* stop = nullptr);
+
+// The same with one data set, divided by sea.
 TrainedModel train_model(const std::filesystem::path& data_set, const std::filesystem::path& model_directory,
                          const std::vector<Override>& overrides, int threads, const StopFlag* stop = nullptr);
 

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "classify/model/data_rows.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "sim/core/process/error.h"
+#include "sim/core/text/suggestion.h"
+
+namespace seaglint {
+
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr const char* kDataSet = "data_set";
+constexpr const char* kSea = "sea";
+
+const SampleColumn* find_column(const std::string& name) {
+  for (const SampleColumn& column : sample_columns())
+    if (column.name == name) return &column;
+  return nullptr;
+}
+
+// The value of a numeric column; nothing for a column of text.
+std::optional<double> number_in(const SampleRecord& record, const SampleColumn& column) {
+  if (const auto* whole = std::get_if<std::int64_t SampleRecord::*>(&column.member))
+    return static_cast<double>(record.**whole);
+  if (const auto* real = std::get_if<double SampleRecord::*>(&column.member)) return record.**real;
+  return std::nullopt;
+}
+
+[[noreturn]] void refuse_column(const std::string& name) {
+  std::vector<std::string> names{kSea, kDataSet};
+  for (const SampleColumn& column : sample_columns()) names.push_back(column.name);
+  throw InputError(fmt::format("{}: no column of a data set: {}", name, suggestion(name, names)));
+}
+
+std::string interval_text(double lowest, double highest) {
+  return lowest == highest ? fmt::format("{:.6g}", lowest) : fmt::format("{:.4g} to {:.4g}", lowest, highest);
+}
+
+}  // namespace
+
+void append_rows(std::vector<DataRow>& rows, std::size_t data_set, const Shard& shard) {
+  for (const Sample& sample : shard.samples) rows.push_back({data_set, sample.record});
+}
+
+std::vector<std::int64_t> sea_numbers(std::span<const DataRow> rows) {
+  std::map<std::pair<std::int64_t, std::int64_t>, std::int64_t> numbers;
+  for (const DataRow& row : rows) numbers[{row.record.seed, row.record.sea_key}] = 0;
+  std::int64_t next = 0;
+  for (auto& entry : numbers) entry.second = next++;
+  std::vector<std::int64_t> result;
+  result.reserve(rows.size());
+  for (const DataRow& row : rows) result.push_back(numbers.at({row.record.seed, row.record.sea_key}));
+  return result;
+}
+
+ColumnOfRows column_of(std::span<const DataRow> rows, const std::string& name) {
+  ColumnOfRows values{name, "1", false, {}, {}};
+  if (name == kSea) {
+    for (const std::int64_t sea : sea_numbers(rows)) values.numbers.push_back(static_cast<double>(sea));
+    return values;
+  }
+  if (name == kDataSet) {
+    for (const DataRow& row : rows) values.numbers.push_back(static_cast<double>(row.data_set));
+    return values;
+  }
+  const SampleColumn* column = find_column(name);
+  if (column == nullptr) refuse_column(name);
+  if (const auto* text = std::get_if<std::string SampleRecord::*>(&column->member)) {
+    values.is_text = true;
+    values.unit.clear();
+    for (const DataRow& row : rows) values.texts.push_back(row.record.**text);
+    return values;
+  }
+  values.unit = column->unit;
+  for (const DataRow& row : rows) values.numbers.push_back(*number_in(row.record, *column));
+  return values;
+}
+
+std::vector<float> values_of(const SampleRecord& record, std::span<const std::string> names) {
+  std::vector<float> values;
+  values.reserve(names.size());
+  for (const std::string& name : names) {
+    const SampleColumn* column = find_column(name);
+    if (column == nullptr) refuse_column(name);
+    const std::optional<double> value = number_in(record, *column);
+    if (!value) throw InputError(fmt::format("{}: a column of text is no feature", name));
+    values.push_back(static_cast<float>(*value));
+  }
+  return values;
+}
+
+std::vector<ColumnBin> bins_of(const ColumnOfRows& column, std::size_t most_values, std::size_t bins) {
+  std::vector<ColumnBin> result;
+  if (column.is_text) {
+    std::map<std::string, std::vector<std::size_t>> by_text;
+    for (std::size_t row = 0; row < column.texts.size(); ++row) by_text[column.texts[row]].push_back(row);
+    for (auto& [text, rows] : by_text) result.push_back({text, kNan, kNan, std::move(rows)});
+    return result;
+  }
+  std::map<double, std::vector<std::size_t>> by_value;
+  std::vector<std::size_t> undefined;
+  std::size_t defined = 0;
+  for (std::size_t row = 0; row < column.numbers.size(); ++row) {
+    if (std::isnan(column.numbers[row])) {
+      undefined.push_back(row);
+    } else {
+      by_value[column.numbers[row]].push_back(row);
+      ++defined;
+    }
+  }
+  // A bin ends with the value after which the rows up to it are closest to its part of all rows.
+  const bool every_value = by_value.size() <= most_values;
+  std::size_t before = 0;
+  bool open = false;
+  for (const auto& [value, rows] : by_value) {
+    // Closer to the part without this value than with it: part - before < before + rows - part.
+    if (open && 2 * result.size() * defined < (2 * before + rows.size()) * bins) open = false;
+    if (!open) result.push_back({"", value, value, {}});
+    ColumnBin& bin = result.back();
+    bin.highest = value;
+    bin.rows.insert(bin.rows.end(), rows.begin(), rows.end());
+    before += rows.size();
+    open = !every_value && before * bins < result.size() * defined;
+  }
+  for (ColumnBin& bin : result) {
+    std::sort(bin.rows.begin(), bin.rows.end());
+    bin.text = interval_text(bin.lowest, bin.highest);
+  }
+  if (!undefined.empty()) result.push_back({"undefined", kNan, kNan, std::move(undefined)});
+  return result;
+}
+
+}  // namespace seaglint

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// Rows of one or more data sets with the values of their columns: what divisions, ranges and scores by column read.
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "classify/dataset/format/shard.h"
+
+namespace seaglint {
+
+// The metadata of a map and the data set, numbered from 0 in the order given, that it is from.
+struct DataRow {
+  std::size_t data_set = 0;
+  SampleRecord record;
+};
+
+// Appends the rows of a shard.
+void append_rows(std::vector<DataRow>& rows, std::size_t data_set, const Shard& shard);
+
+// The values of one column, one per row: numbers, or texts for a column of text.
+struct ColumnOfRows {
+  std::string name;
+  std::string unit;  // "1" if dimensionless, "" for text
+  bool is_text = false;
+  std::vector<double> numbers;  // NaN where the quantity is undefined, e.g. an SCR without clutter
+  std::vector<std::string> texts;
+};
+
+// `name`: a column of the samples (sample_columns()), "data_set" for the number of the data set, or "sea" for the
+// number of the sea realisation (sea_numbers()). Throws InputError for any other name, with the nearest one.
+ColumnOfRows column_of(std::span<const DataRow> rows, const std::string& name);
+
+// Number of each row's sea realisation, ascending in (seed, sea_key): maps of different data sets with the same seed
+// and key are in the same sea.
+std::vector<std::int64_t> sea_numbers(std::span<const DataRow> rows);
+
+// The values of these numeric columns in one row.
+std::vector<float> values_of(const SampleRecord& record, std::span<const std::string> names);
+
+// Rows of a column with one value or, in a continuous column, within one interval.
+struct ColumnBin {
+  std::string text;   // "0.5", "2 to 4.5", "ring"; "undefined" for NaN
+  double lowest = 0;  // of the bin's numbers; NaN for text and for undefined values
+  double highest = 0;
+  std::vector<std::size_t> rows;  // ascending
+};
+
+// One bin per value, ascending, for text and for at most most_values numbers; else `bins` bins of numbers with equal
+// numbers of rows, as far as rows of equal values stay together. Undefined values have a bin of their own, the last.
+std::vector<ColumnBin> bins_of(const ColumnOfRows& column, std::size_t most_values, std::size_t bins);
+
+}  // namespace seaglint
