@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "classify/dataset/directory/dataset_writer.h"
+#include "classify/model/model_card.h"
 #include "sim/core/process/data_folder.h"
 #include "sim/core/process/error.h"
 
@@ -12,6 +13,11 @@ namespace seaglint {
 std::filesystem::path find_data_set(const std::filesystem::path& directory) {
   const bool below = !exists(directory / kManifestFile) && exists(directory / "data" / kScenarioFile);
   return below ? directory / "data" : directory;
+}
+
+std::filesystem::path find_model(const std::filesystem::path& directory) {
+  const bool below = !exists(directory / kModelFile) && exists(directory / "model" / kModelFile);
+  return below ? directory / "model" : directory;
 }
 
 void add_threads_option(CommandOptions& command, CommandContext& context) {

@@ -15,6 +15,9 @@ namespace seaglint {
 // Directory of the data set: the given one, or its `data`, where `run` writes it.
 std::filesystem::path find_data_set(const std::filesystem::path& directory);
 
+// Directory of the model: the given one, or its `model`, where `run` writes it.
+std::filesystem::path find_model(const std::filesystem::path& directory);
+
 // Adds --threads to a command.
 void add_threads_option(CommandOptions& command, CommandContext& context);
 

@@ -36,6 +36,8 @@ void add_regenerate(CommandOptions& program, CommandContext& context);
 void add_export(CommandOptions& program, CommandContext& context);
 void add_card(CommandOptions& program, CommandContext& context);
 void add_train(CommandOptions& program, CommandContext& context);
+void add_evaluate(CommandOptions& program, CommandContext& context);
+void add_classify(CommandOptions& program, CommandContext& context);
 void add_run(CommandOptions& program, CommandContext& context);
 void add_benchmark(CommandOptions& program, CommandContext& context);
 void add_report(CommandOptions& program, CommandContext& context);

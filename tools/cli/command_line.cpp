@@ -60,6 +60,8 @@ void add_commands(CommandOptions& program, CommandContext& context) {
   add_export(program, context);
   add_card(program, context);
   add_train(program, context);
+  add_evaluate(program, context);
+  add_classify(program, context);
   add_run(program, context);
   add_benchmark(program, context);
   add_report(program, context);
