@@ -96,8 +96,9 @@ std::size_t SamplePlan::sample(const SampleAddress& address) const {
   const std::vector<std::uint32_t> order = this->order(realisation_number);
   const auto found = std::find(order.begin(), order.end(), place);
   SEAGLINT_CHECK(found != order.end(), fmt::format("place {} of {}", place, per_realisation_));
-  const std::size_t number = realisation_number * per_realisation_ + static_cast<std::size_t>(found - order.begin());
-  return number * per_interval_ + static_cast<std::size_t>(address.clutter);
+  const std::size_t interval_number =
+      realisation_number * per_realisation_ + static_cast<std::size_t>(found - order.begin());
+  return interval_number * per_interval_ + static_cast<std::size_t>(address.clutter);
 }
 
 DrawPlace SamplePlan::draw_place(const SampleAddress& at) const {
