@@ -41,6 +41,30 @@ std::optional<double> number_in(const SampleRecord& record, const SampleColumn& 
   throw InputError(fmt::format("{}: no column of a data set: {}", name, suggestion(name, names)));
 }
 
+// The value of a drawn key; null in a row of a scenario that does not draw it.
+template <class T>
+const T* drawn_value(const std::vector<DrawnValue<T>>& values, const std::string& key) {
+  const auto found = std::find_if(values.begin(), values.end(), [&](const auto& drawn) { return drawn.key == key; });
+  return found == values.end() ? nullptr : &found->value;
+}
+
+// The column of a drawn key; nothing where no row has it.
+std::optional<ColumnOfRows> drawn_column(std::span<const DataRow> rows, const std::string& key) {
+  ColumnOfRows numbers{key, "1", false, {}, {}}, words{key, "", true, {}, {}};
+  bool has_numbers = false, has_words = false;
+  for (const DataRow& row : rows) {
+    const double* number = drawn_value(row.record.drawn_numbers, key);
+    const std::string* word = drawn_value(row.record.drawn_words, key);
+    has_numbers = has_numbers || number != nullptr;
+    has_words = has_words || word != nullptr;
+    numbers.numbers.push_back(number ? *number : kNan);
+    words.texts.push_back(word ? *word : std::string());
+  }
+  if (has_words) return words;
+  if (has_numbers) return numbers;
+  return std::nullopt;
+}
+
 std::string interval_text(double lowest, double highest) {
   return lowest == highest ? fmt::format("{:.6g}", lowest) : fmt::format("{:.4g} to {:.4g}", lowest, highest);
 }
@@ -73,7 +97,10 @@ ColumnOfRows column_of(std::span<const DataRow> rows, const std::string& name) {
     return values;
   }
   const SampleColumn* column = find_column(name);
-  if (column == nullptr) refuse_column(name);
+  if (column == nullptr) {
+    if (std::optional<ColumnOfRows> drawn = drawn_column(rows, name)) return *drawn;
+    refuse_column(name);
+  }
   if (const auto* text = std::get_if<std::string SampleRecord::*>(&column->member)) {
     values.is_text = true;
     values.unit.clear();

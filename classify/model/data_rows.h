@@ -30,7 +30,8 @@ struct ColumnOfRows {
   std::vector<std::string> texts;
 };
 
-// `name`: a column of the samples (sample_columns()), "data_set" for the number of the data set, or "sea" for the
+// `name`: a column of the samples (sample_columns()), a key that the scenarios draw ("sea.peak_period_s"; undefined or
+// "" in rows of a data set that does not), "data_set" for the number of the data set, or "sea" for the
 // number of the sea realisation (sea_numbers()). Throws InputError for any other name, with the nearest one.
 ColumnOfRows column_of(std::span<const DataRow> rows, const std::string& name);
 

@@ -40,7 +40,9 @@ void require_output(const fs::path& directory) {
 
 std::string evaluate_model(const EvaluateRequest& request, const StopFlag* stop) {
   require_output(request.output);
-  for (const std::string& name : request.by) column_of({}, name);  // refuses an unknown one before any work
+  // Refuses an unknown column before any work; keys that are drawn are known when the rows are.
+  for (const std::string& name : request.by)
+    if (name.find('.') == std::string::npos) column_of({}, name);
   std::vector<DatasetReader> readers;
   std::map<std::string, std::string> scenarios;
   for (const fs::path& data_set : request.data_sets) {

@@ -141,6 +141,19 @@ TEST(DataRows, OfOneSeedAndKeyAreInOneSeaWhateverTheirDataSet) {
   EXPECT_THAT(sea_numbers(rows), ElementsAre(2, 2, 1, 0));
 }
 
+TEST(DataRows, HaveTheKeysThatTheirScenariosDraw) {
+  std::vector<DataRow> rows(3);
+  rows[0].record.drawn_numbers = {{"sea.peak_period_s", 7.5}};
+  rows[2].record.drawn_numbers = {{"sea.peak_period_s", 9}};
+  rows[2].record.drawn_words = {{"targets.decoys.layout", "ring"}};
+  const ColumnOfRows periods = column_of(rows, "sea.peak_period_s");
+  EXPECT_FALSE(periods.is_text);
+  EXPECT_EQ(periods.numbers[0], 7.5);
+  EXPECT_TRUE(std::isnan(periods.numbers[1]));
+  EXPECT_THAT(column_of(rows, "targets.decoys.layout").texts, ElementsAre("", "", "ring"));
+  EXPECT_THROW(column_of(rows, "sea.gamma"), InputError);
+}
+
 TEST(ColumnBins, OfManyValuesHaveEqualNumbersOfRowsAndKeepEqualValuesTogether) {
   ColumnOfRows column{"x", "m", false, {}, {}};
   for (int i = 99; i >= 0; --i) column.numbers.push_back(i);
