@@ -8,7 +8,7 @@
 namespace seaglint {
 namespace {
 
-using Maker = Layers* (*)(int, int, std::size_t, std::size_t);  // seaglint_torch_layers
+using Maker = Layers* (*)(const LayerSizes&);  // seaglint_torch_layers
 
 // From the folder of the program or PREFIX/lib/seaglint (the run path of what links this).
 Maker load() {
@@ -28,8 +28,6 @@ Maker maker() {
 
 void load_layers_library() { maker(); }
 
-std::unique_ptr<Layers> make_layers(int embedding_size, int threads, std::size_t rows, std::size_t columns) {
-  return std::unique_ptr<Layers>(maker()(embedding_size, threads, rows, columns));
-}
+std::unique_ptr<Layers> make_layers(const LayerSizes& sizes) { return std::unique_ptr<Layers>(maker()(sizes)); }
 
 }  // namespace seaglint

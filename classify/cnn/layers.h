@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The layers of a Network and their training in libtorch, which takes 0.4 s and 560 MB of address space to load: it is
+// The layers of a Network and their gradients in libtorch, which takes 0.4 s and 560 MB of address space to load: it is
 // loaded when the first layers are made. C++17, as the library's source (torch_layers.h).
 
 #include <cstddef>
@@ -20,26 +20,36 @@ struct Parameter {
   std::size_t outputs = 0;  // extent of the first dimension
 };
 
-// Throws WorkError for an error of the library, std::bad_alloc where memory is short.
+// Extents of the images; rows and columns are multiples of 8.
+struct LayerSizes {
+  std::size_t channels = 0, rows = 0, columns = 0;
+  int embedding_size = 0;
+};
+
+// One thread at a time; every function computes on the thread that calls it. Throws WorkError for an error of the
+// library, std::bad_alloc where memory is short.
 class Layers {
  public:
   virtual ~Layers() = default;
 
   virtual std::vector<Parameter> parameters() = 0;  // in the order of the layers
 
-  virtual void start_training(double learning_rate) = 0;  // Adam (Kingma and Ba 2015)
-  // One step with `count` maps [count][rows][columns] and their labels 0 or 1; mean binary cross-entropy before it.
-  virtual double train(const float* maps, const float* labels, std::size_t count) = 0;
+  // Sum of the binary cross-entropies of `count` images [count][channels][rows][columns] with labels 0 or 1; its
+  // gradient, of all parameters in their order, replaces `gradient`.
+  virtual double gradient(const float* images, const float* labels, std::size_t count,
+                          std::vector<float>& gradient) = 0;
+  virtual void start_training(double learning_rate) = 0;      // Adam (Kingma and Ba 2015)
+  virtual void step(const std::vector<float>& gradient) = 0;  // one step of it
+
   // Appends embeddings [count][embedding_size] and logits [count].
-  virtual void embed(const float* maps, std::size_t count, std::vector<float>& embeddings,
+  virtual void embed(const float* images, std::size_t count, std::vector<float>& embeddings,
                      std::vector<float>& logits) = 0;
 };
 
 // Loads libtorch, which stays loaded. Throws WorkError where it cannot be loaded.
 void load_layers_library();
 
-// Layers of maps of rows x columns cells. The weights are the library's until parameters() are set. Throws WorkError
-// where libtorch cannot be loaded.
-std::unique_ptr<Layers> make_layers(int embedding_size, int threads, std::size_t rows, std::size_t columns);
+// The weights are the library's until parameters() are set. Throws WorkError where libtorch cannot be loaded.
+std::unique_ptr<Layers> make_layers(const LayerSizes& sizes);
 
 }  // namespace seaglint

@@ -4,13 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <memory>
 #include <string>
 
+#include "classify/cnn/augmentation.h"
 #include "classify/cnn/layers.h"
-#include "classify/cnn/network_input.h"
 #include "sim/core/numbers/random.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
@@ -19,7 +20,8 @@ namespace seaglint {
 
 namespace {
 
-constexpr std::uint32_t kFormat = 0x53474e31;  // "SGN1"
+constexpr std::uint32_t kFormat = 0x53474e32;        // "SGN2"
+constexpr std::uint32_t kFormatOfMaps = 0x53474e31;  // "SGN1", whose input was the map itself
 
 // He's initialisation (He et al. 2015): normal of variance 2 / fan-in; biases zero, normalisation one.
 void initialise(Layers& layers, const RandomKey& key) {
@@ -35,67 +37,162 @@ void initialise(Layers& layers, const RandomKey& key) {
   }
 }
 
-// The maps of these rows, one after the other.
-std::vector<float> gather(std::span<const float> inputs, std::span<const std::size_t> rows) {
-  std::vector<float> maps(rows.size() * kInputCells);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    std::copy_n(inputs.begin() + static_cast<std::ptrdiff_t>(rows[i] * kInputCells), kInputCells,
-                maps.begin() + static_cast<std::ptrdiff_t>(i * kInputCells));
-  }
-  return maps;
+// Maps whose gradient one thread computes; the sum over them is always formed in this division.
+constexpr std::size_t kPart = 8;
+
+std::unique_ptr<Layers> new_layers(int embedding_size) {
+  return make_layers({kInputChannels, kInputRows, kInputColumns, embedding_size});
 }
+
+std::vector<float> weights_of(Layers& layers) {
+  std::vector<float> all;
+  for (const Parameter& parameter : layers.parameters())
+    all.insert(all.end(), parameter.values, parameter.values + parameter.count);
+  return all;
+}
+
+void set_weights(Layers& layers, const std::vector<float>& all) {
+  const float* place = all.data();
+  for (const Parameter& parameter : layers.parameters()) {
+    std::copy_n(place, parameter.count, parameter.values);
+    place += parameter.count;
+  }
+}
+
+// Mean binary cross-entropy of logits.
+double cross_entropy(const std::vector<float>& logits, std::span<const std::size_t> rows, std::span<const int> labels) {
+  double sum = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double towards = labels[rows[i]] == 1 ? logits[i] : -logits[i];
+    sum += std::max(-towards, 0.0) + std::log1p(std::exp(-std::abs(towards)));
+  }
+  return sum / static_cast<double>(rows.size());
+}
+
+// The gradient of a batch by parts of kPart maps, on several threads with one set of layers per part.
+class BatchTraining {
+ public:
+  BatchTraining(Layers& layers, const LearningSpec& spec) : layers_(layers), threads_(spec.threads) {
+    layers.start_training(spec.learning_rate);
+    const std::size_t parts = (static_cast<std::size_t>(spec.batch_size) + kPart - 1) / kPart;
+    for (std::size_t i = 0; threads_ > 1 && i < parts; ++i) copies_.push_back(new_layers(spec.embedding_size));
+  }
+
+  // One step with the images and labels of a batch; sum of the cross-entropies before it.
+  double step(const std::vector<float>& images, const std::vector<float>& labels) {
+    const std::size_t parts = (labels.size() + kPart - 1) / kPart;
+    std::vector<std::vector<float>> gradients(parts);
+    std::vector<double> losses(parts);
+    const std::vector<float> weights = weights_of(layers_);
+    const auto part = [&](Layers& layers, std::size_t i) {
+      const std::size_t begin = i * kPart, count = std::min(kPart, labels.size() - begin);
+      losses[i] = layers.gradient(&images[begin * kInputCells], &labels[begin], count, gradients[i]);
+    };
+    if (copies_.empty()) {
+      for (std::size_t i = 0; i < parts; ++i) part(layers_, i);
+    } else {
+      parallel_for(parts, threads_, [&](std::size_t i) {
+        set_weights(*copies_[i], weights);
+        part(*copies_[i], i);
+      });
+    }
+    std::vector<float> gradient(weights.size(), 0.0f);
+    double loss = 0;
+    for (std::size_t i = 0; i < parts; ++i) {
+      loss += losses[i];
+      for (std::size_t k = 0; k < gradient.size(); ++k)
+        gradient[k] += gradients[i][k] / static_cast<float>(labels.size());
+    }
+    layers_.step(gradient);
+    return loss;
+  }
+
+ private:
+  Layers& layers_;
+  int threads_;
+  std::vector<std::unique_ptr<Layers>> copies_;
+};
 
 }  // namespace
 
 struct Network::State {
-  State(int size, int thread_count)
-      : embedding_size(size),
-        threads(thread_count),
-        layers(make_layers(size, thread_count, kInputRows, kInputColumns)) {}
-  int embedding_size, threads;
+  State(int size, double floor) : embedding_size(size), floor_db(static_cast<float>(floor)), layers(new_layers(size)) {}
+
+  template <class MapOf>
+  Embeddings embed(std::size_t maps, const MapOf& map) {
+    constexpr std::size_t kBatch = 64;
+    Embeddings result;
+    result.size = static_cast<std::size_t>(embedding_size);
+    for (std::size_t begin = 0; begin < maps; begin += kBatch) {
+      const std::size_t end = std::min(begin + kBatch, maps);
+      std::vector<float> images;
+      for (std::size_t i = begin; i < end; ++i) {
+        const std::vector<float> input = network_input(map(i), floor_db);
+        images.insert(images.end(), input.begin(), input.end());
+      }
+      layers->embed(images.data(), end - begin, result.values, result.logits);
+    }
+    return result;
+  }
+
+  int embedding_size;
+  float floor_db;
   std::unique_ptr<Layers> layers;
-  std::vector<double> losses;
+  TrainingHistory history;
 };
 
-Network Network::train(std::span<const float> inputs, std::span<const std::size_t> rows, std::span<const int> labels,
+Network Network::train(std::span<const CentreList> maps, const NetworkRows& rows, std::span<const int> labels,
                        const LearningSpec& spec, std::uint64_t seed, std::uint64_t index, const StopFlag* stop) {
-  SEAGLINT_CHECK(!rows.empty() && inputs.size() == labels.size() * kInputCells,
-                 fmt::format("{} rows, {} labels, {} values", rows.size(), labels.size(), inputs.size()));
-  auto state = std::make_shared<State>(spec.embedding_size, spec.threads);
-  initialise(*state->layers, {seed, Stream::kNetwork, 2 * index});
-  Random order_of_batches({seed, Stream::kNetwork, 2 * index + 1});
-  state->layers->start_training(spec.learning_rate);
+  SEAGLINT_CHECK(!rows.fit.empty() && maps.size() == labels.size(),
+                 fmt::format("{} rows, {} labels, {} maps", rows.fit.size(), labels.size(), maps.size()));
+  auto state = std::make_shared<State>(spec.embedding_size, spec.map_floor_db);
+  Layers& layers = *state->layers;
+  TrainingHistory& history = state->history;
+  initialise(layers, {seed, Stream::kNetwork, 2 * index});
+  Random random({seed, Stream::kNetwork, 2 * index + 1});
+  BatchTraining training(layers, spec);
 
-  std::vector<std::size_t> order(rows.begin(), rows.end());
+  std::vector<std::size_t> order(rows.fit.begin(), rows.fit.end());
+  std::vector<float> best_weights;
+  double best_loss = 0;
   const std::size_t batch_size = static_cast<std::size_t>(spec.batch_size);
-  for (int epoch = 0; epoch < spec.epochs; ++epoch) {
-    for (std::size_t i = order.size(); i > 1; --i) {
-      std::swap(order[i - 1], order[order_of_batches.below(static_cast<std::uint32_t>(i))]);
-    }
+  for (int epoch = 1; epoch <= spec.epochs && epoch - history.epochs <= spec.patience; ++epoch) {
+    for (std::size_t i = order.size(); i > 1; --i)
+      std::swap(order[i - 1], order[random.below(static_cast<std::uint32_t>(i))]);
     double sum = 0;
     for (std::size_t begin = 0; begin < order.size(); begin += batch_size) {
       if (stop && *stop) throw Interrupted();
-      const std::span<const std::size_t> batch(order.data() + begin, std::min(batch_size, order.size() - begin));
-      std::vector<float> truth;
-      for (const std::size_t row : batch) truth.push_back(static_cast<float>(labels[row]));
-      const double loss = state->layers->train(gather(inputs, batch).data(), truth.data(), batch.size());
-      sum += loss * static_cast<double>(batch.size());
+      std::vector<float> images, truth;
+      for (std::size_t i = begin; i < std::min(begin + batch_size, order.size()); ++i) {
+        const CentreList varied = with_errors(observed_otherwise(maps[order[i]], random), random);
+        const std::vector<float> input = network_input(varied, state->floor_db, random_offset(random));
+        images.insert(images.end(), input.begin(), input.end());
+        truth.push_back(static_cast<float>(labels[order[i]]));
+      }
+      sum += training.step(images, truth);
     }
-    state->losses.push_back(sum / static_cast<double>(order.size()));
+    history.fit.push_back(sum / static_cast<double>(order.size()));
+
+    if (rows.validation.empty()) {
+      history.epochs = epoch;
+      continue;
+    }
+    const Embeddings unseen = state->embed(
+        rows.validation.size(), [&](std::size_t i) -> const CentreList& { return maps[rows.validation[i]]; });
+    const double loss = cross_entropy(unseen.logits, rows.validation, labels);
+    history.validation.push_back(loss);
+    if (history.epochs == 0 || loss < best_loss) {
+      best_loss = loss;
+      best_weights = weights_of(layers);
+      history.epochs = epoch;
+    }
   }
+  if (!best_weights.empty()) set_weights(layers, best_weights);
   return Network(std::move(state));
 }
 
-Embeddings Network::embed(std::span<const float> inputs) const {
-  constexpr std::size_t kBatch = 64;
-  Embeddings result;
-  result.size = static_cast<std::size_t>(state_->embedding_size);
-  const std::size_t maps = inputs.size() / kInputCells;
-  for (std::size_t begin = 0; begin < maps; begin += kBatch) {
-    state_->layers->embed(inputs.data() + begin * kInputCells, std::min(kBatch, maps - begin), result.values,
-                          result.logits);
-  }
-  return result;
+Embeddings Network::embed(std::span<const CentreList> maps) const {
+  return state_->embed(maps.size(), [&](std::size_t i) -> const CentreList& { return maps[i]; });
 }
 
 std::size_t Network::parameter_count() const {
@@ -104,21 +201,18 @@ std::size_t Network::parameter_count() const {
   return count;
 }
 
-const std::vector<double>& Network::losses() const { return state_->losses; }
+const TrainingHistory& Network::history() const { return state_->history; }
 
-// The file: kFormat, embedding size, thread count, number of weights (uint32 each), then the weights (float32) in the
-// order of the layers. The library's own archive would contain time stamps.
+// The file: kFormat, embedding size (uint32), floor in dB (float32), number of weights (uint32), the weights (float32)
+// in the order of the layers. The library's own archive would contain time stamps.
 void Network::save(const std::filesystem::path& file) const {
-  std::string bytes;
-  const auto append = [&bytes](const void* data, std::size_t count) {
-    bytes.append(static_cast<const char*>(data), count);
-  };
+  const std::vector<float> weights = weights_of(*state_->layers);
   const std::uint32_t head[4] = {kFormat, static_cast<std::uint32_t>(state_->embedding_size),
-                                 static_cast<std::uint32_t>(state_->threads),
-                                 static_cast<std::uint32_t>(parameter_count())};
-  append(head, sizeof head);
-  for (const Parameter& parameter : state_->layers->parameters())
-    append(parameter.values, parameter.count * sizeof(float));
+                                 std::bit_cast<std::uint32_t>(state_->floor_db),
+                                 static_cast<std::uint32_t>(weights.size())};
+  std::string bytes(sizeof head + weights.size() * sizeof(float), '\0');
+  std::memcpy(bytes.data(), head, sizeof head);
+  std::memcpy(bytes.data() + sizeof head, weights.data(), weights.size() * sizeof(float));
   write_file(file, bytes);
 }
 
@@ -130,17 +224,17 @@ Network Network::load(const std::filesystem::path& file) {
   };
   if (bytes.size() < sizeof head) fail("too short");
   std::memcpy(head, bytes.data(), sizeof head);
+  if (head[0] == kFormatOfMaps) fail("it is of an earlier version; train it again");
   if (head[0] != kFormat) fail("it begins otherwise");
-  if (head[1] < 1 || head[1] > 512 || head[2] < 1 || head[2] > 256) fail("its head is damaged");
-  auto state = std::make_shared<State>(static_cast<int>(head[1]), static_cast<int>(head[2]));
+  const auto floor_db = std::bit_cast<float>(head[2]);
+  if (head[1] < 1 || head[1] > 512 || !(floor_db >= -120 && floor_db < 0)) fail("its head is damaged");
+  auto state = std::make_shared<State>(static_cast<int>(head[1]), floor_db);
   Network network(state);
   if (head[3] != network.parameter_count() || bytes.size() != sizeof head + head[3] * sizeof(float))
     fail("it is truncated or has a tail");
-  const char* place = bytes.data() + sizeof head;
-  for (const Parameter& parameter : state->layers->parameters()) {
-    std::memcpy(parameter.values, place, parameter.count * sizeof(float));
-    place += parameter.count * sizeof(float);
-  }
+  std::vector<float> weights(head[3]);
+  std::memcpy(weights.data(), bytes.data() + sizeof head, weights.size() * sizeof(float));
+  set_weights(*state->layers, weights);
   return network;
 }
 

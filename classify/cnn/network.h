@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Small convolutional network that classifies a map as ship or array by its shape; its embedding is the paper's
-// lambda_CNN.
+// Small convolutional network that classifies a map as ship or array by the images of its scattering centres; its
+// embedding is the paper's lambda_CNN.
 
 #include <cstdint>
 #include <filesystem>
@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "classify/cnn/network_input.h"
 #include "sim/core/process/parallel.h"
 #include "sim/scenario/learning_spec.h"
 
@@ -22,23 +23,37 @@ struct Embeddings {
   std::vector<float> logits;  // [map]
 };
 
-// Three blocks of 3 x 3 convolution (8, 16, 32 channels), group normalisation and ReLU, the first two followed by 2 x 2
-// maximum pooling; mean and maximum of each channel over the plane, a dense layer of `embedding_size` with ReLU, one
-// logit. About 6,500 parameters.
+// Rows of the maps: weights follow `fit` only, `validation` selects the epoch whose weights are kept. Without
+// validation rows they are those of the last epoch.
+struct NetworkRows {
+  std::span<const std::size_t> fit;
+  std::span<const std::size_t> validation;
+};
+
+// Mean binary cross-entropies by epoch, and the number of epochs after which the weights were kept.
+struct TrainingHistory {
+  std::vector<double> fit;         // of the varied maps, while the weights change
+  std::vector<double> validation;  // of the maps themselves, after the epoch; empty without validation rows
+  int epochs = 0;
+};
+
+// Three blocks of 3 x 3 convolution (8, 16, 16 channels), group normalisation, ReLU and 2 x 2 maximum pooling; a dense
+// layer of `embedding_size` with leaky ReLU over all cells that are left, one logit. About 8,000 parameters.
 class Network {
  public:
-  // Trains on the given rows of `inputs` ([map][kInputCells]) with binary cross-entropy and Adam (Kingma and Ba 2015).
-  // Weights and the order of the batches come from stream kNetwork of (seed, index). Repeats bit for bit for one
+  // Trains with binary cross-entropy and Adam (Kingma and Ba 2015) on varied versions of the maps (augmentation.h), at
+  // most spec.epochs passes; ends when spec.patience epochs have not lowered the loss of the validation rows. Weights,
+  // the order of the batches and the variations come from stream kNetwork of (seed, index). Repeats bit for bit for any
   // spec.threads on one kind of processor. Throws Interrupted when *stop becomes true.
-  static Network train(std::span<const float> inputs, std::span<const std::size_t> rows, std::span<const int> labels,
+  static Network train(std::span<const CentreList> maps, const NetworkRows& rows, std::span<const int> labels,
                        const LearningSpec& spec, std::uint64_t seed, std::uint64_t index,
                        const StopFlag* stop = nullptr);
   static Network load(const std::filesystem::path& file);  // throws InputError when the file is not such a network
 
-  Embeddings embed(std::span<const float> inputs) const;  // [map][kInputCells]
-  void save(const std::filesystem::path& file) const;     // throws WorkError
+  Embeddings embed(std::span<const CentreList> maps) const;
+  void save(const std::filesystem::path& file) const;  // throws WorkError
   std::size_t parameter_count() const;
-  const std::vector<double>& losses() const;  // mean training loss per epoch; empty when loaded
+  const TrainingHistory& history() const;  // empty when loaded
 
  private:
   struct State;

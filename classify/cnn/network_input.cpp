@@ -6,51 +6,73 @@
 #include <algorithm>
 #include <cmath>
 
+#include "classify/features/velocity_line.h"
 #include "sim/core/process/error.h"
 
 namespace seaglint {
-
 namespace {
 
-// The cells [begin, end) that window i of `windows` averages; with few cells, windows overlap or repeat.
-struct Window {
-  std::size_t begin = 0;
-  std::size_t end = 0;
-};
+constexpr double kOverviewRange_m = 96;  // half of the default map.range_span_m
+constexpr double kVelocity_mps = 1;      // floats at Hs 2 m stay below 0.5 m/s
+constexpr double kZoomSpreads = 2.5;
+constexpr double kLeastSpread_m = 1;
+constexpr double kLinearUpTo_mps = 0.01;  // of the asinh axis; some errors of a centre 30 dB above the clutter
+constexpr double kBlur = 0.8;             // cells; a narrower Gaussian loses the place between two cells
+constexpr int kBlurReach = 3;             // cells, 9e-4 of its height
 
-Window window(std::size_t i, std::size_t windows, std::size_t cells) {
-  return {i * cells / windows, ((i + 1) * cells + windows - 1) / windows};
+// Position of x in -1..1 on an axis of `cells` cells.
+double place(double x, std::size_t cells, double offset) {
+  const auto count = static_cast<double>(cells);
+  return std::clamp(0.5 * (x + 1) * count - 0.5 + offset, 0.0, count - 1);
+}
+
+// Raises the plane to a Gaussian of this height about (row, column).
+void draw(float* plane, double row, double column, double height) {
+  const int row_0 = static_cast<int>(std::lround(row)), column_0 = static_cast<int>(std::lround(column));
+  for (int i = std::max(row_0 - kBlurReach, 0); i <= std::min(row_0 + kBlurReach, static_cast<int>(kInputRows) - 1);
+       ++i) {
+    for (int k = std::max(column_0 - kBlurReach, 0);
+         k <= std::min(column_0 + kBlurReach, static_cast<int>(kInputColumns) - 1); ++k) {
+      const double square = (i - row) * (i - row) + (k - column) * (k - column);
+      float& cell = plane[static_cast<std::size_t>(i) * kInputColumns + static_cast<std::size_t>(k)];
+      cell = std::max(cell, static_cast<float>(height * std::exp(-0.5 * square / (kBlur * kBlur))));
+    }
+  }
 }
 
 }  // namespace
 
-std::vector<float> network_input(std::span<const float> magnitude, std::size_t rows, std::size_t columns,
-                                 double floor_db) {
-  SEAGLINT_CHECK(magnitude.size() == rows * columns && rows > 0 && columns > 0 && floor_db < 0,
-                 fmt::format("{} values for {} x {}, floor {} dB", magnitude.size(), rows, columns, floor_db));
-  std::vector<double> power(kInputCells);
-  double total = 0;
-  for (std::size_t i = 0; i < kInputRows; ++i) {
-    const Window v = window(i, kInputRows, rows);
-    for (std::size_t k = 0; k < kInputColumns; ++k) {
-      const Window r = window(k, kInputColumns, columns);
-      double sum = 0;
-      for (std::size_t row = v.begin; row < v.end; ++row) {
-        for (std::size_t column = r.begin; column < r.end; ++column) {
-          const double value = magnitude[row * columns + column];
-          sum += value * value;
-        }
-      }
-      power[i * kInputColumns + k] = sum / static_cast<double>((v.end - v.begin) * (r.end - r.begin));
-      total += power[i * kInputColumns + k];
-    }
-  }
-
+std::vector<float> network_input(std::span<const ScatteringCentre> centres, double floor_db,
+                                 const ImageOffset& offset) {
+  SEAGLINT_CHECK(floor_db < 0, fmt::format("floor {} dB", floor_db));
   std::vector<float> input(kInputCells, 0.0f);
-  if (total <= 0) return input;
-  for (std::size_t i = 0; i < kInputCells; ++i) {
-    const double level_db = 10 * std::log10(std::max(power[i] / total, 1e-30));
-    input[i] = static_cast<float>(1 - std::max(level_db, floor_db) / floor_db);
+  double power = 0, sum = 0, mean_r = 0, mean_v = 0, variance_r = 0;
+  for (const ScatteringCentre& centre : centres) {
+    power += centre.amplitude_m * centre.amplitude_m;
+    sum += centre.amplitude_m;
+    mean_r += centre.amplitude_m * centre.range_m;
+    mean_v += centre.amplitude_m * centre.velocity_mps;
+  }
+  if (!(power > 0)) return input;
+  mean_r /= sum;
+  mean_v /= sum;
+  for (const ScatteringCentre& centre : centres)
+    variance_r += centre.amplitude_m / sum * (centre.range_m - mean_r) * (centre.range_m - mean_r);
+  const double zoom_m = kZoomSpreads * std::max(std::sqrt(variance_r), kLeastSpread_m);
+  const VelocityLine line = robust_velocity_line(centres);
+
+  float* const overview = input.data();
+  float* const zoom = input.data() + kInputRows * kInputColumns;
+  for (const ScatteringCentre& centre : centres) {
+    const double level_db = 20 * std::log10(std::max(centre.amplitude_m / std::sqrt(power), 1e-15));
+    const double height = std::max(1 - level_db / floor_db, 0.0);
+    const double range_m = centre.range_m - mean_r;
+    draw(overview, place((centre.velocity_mps - mean_v) / kVelocity_mps, kInputRows, offset.rows),
+         place(range_m / kOverviewRange_m, kInputColumns, offset.columns), height);
+    const double residual =
+        std::asinh(line.residual(centre) / kLinearUpTo_mps) / std::asinh(kVelocity_mps / kLinearUpTo_mps);
+    draw(zoom, place(residual, kInputRows, offset.rows), place(range_m / zoom_m, kInputColumns, offset.columns),
+         height);
   }
   return input;
 }

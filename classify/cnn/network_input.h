@@ -1,24 +1,40 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Input of the network: the shape of a map without its level. With a fixed signal-to-clutter ratio the absolute level
-// would reveal the class, so each map is divided by its own total energy first.
+// Input of the network: two images of a map's scattering centres, without their level, place and mean velocity. The
+// motions that separate a rigid body from free ones are fractions of a velocity cell, so that they show in the fitted
+// velocities of the centres, not in the cells of the map.
 
 #include <cstddef>
 #include <span>
 #include <vector>
 
+#include "classify/features/scattering_centres.h"
+
 namespace seaglint {
 
-inline constexpr std::size_t kInputRows = 64;      // velocity
-inline constexpr std::size_t kInputColumns = 128;  // range
-inline constexpr std::size_t kInputCells = kInputRows * kInputColumns;
+inline constexpr std::size_t kInputChannels = 2;
+inline constexpr std::size_t kInputRows = 32;     // velocity
+inline constexpr std::size_t kInputColumns = 64;  // range
+inline constexpr std::size_t kInputCells = kInputChannels * kInputRows * kInputColumns;
 
-// magnitude: [velocity][range], metres. Power is averaged over kInputRows x kInputColumns windows that cover the map,
-// divided by its sum, taken in dB, cut off at floor_db (below the whole map's energy, negative), and scaled to 0
-// (floor) .. 1 (all energy in one window). A map without energy gives zeros. Invariant to multiplication of the map by
-// a positive number, up to rounding.
-std::vector<float> network_input(std::span<const float> magnitude, std::size_t rows, std::size_t columns,
-                                 double floor_db);
+using CentreList = std::vector<ScatteringCentre>;
+
+// Displacement of the images on their grid, in cells.
+struct ImageOffset {
+  double rows = 0, columns = 0;
+};
+
+// [channel][velocity][range]. Each centre is a Gaussian of standard deviation 0.8 cells at its exact place; its height
+// falls from 1 at the total power of all centres to 0 at floor_db below it (negative), linearly in dB; of overlapping
+// ones the higher counts; centres beyond an axis are at its end. Axes, relative to the mean of the centres weighted by
+// amplitude:
+//   channel 0, overview   range +-96 m, velocity +-1 m/s, both linear
+//   channel 1, zoom       range +-2.5 standard deviations (at least 1 m each); velocity relative to
+//                         robust_velocity_line(), +-1 m/s, on the axis asinh(v / 0.01 m/s)
+// Invariant to multiplication of the amplitudes, to shifts in range and velocity and, in the zoom, to a constant
+// rotation of the target, up to rounding. Zeros without centres.
+std::vector<float> network_input(std::span<const ScatteringCentre> centres, double floor_db,
+                                 const ImageOffset& offset = {});
 
 }  // namespace seaglint

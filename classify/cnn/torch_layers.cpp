@@ -14,11 +14,13 @@
 namespace seaglint {
 namespace {
 
-constexpr int kChannels[3] = {8, 16, 32};
+constexpr int kChannels[3] = {8, 16, 16};
 constexpr int kGroups =
     4;  // of the group normalisation (Wu and He 2018): no running statistics, the same in training and use
+constexpr std::int64_t kPooling = 8;    // of rows and columns, by the three blocks together
+constexpr double kNegativeSlope = 0.1;  // of the embedding's rectifier (Maas et al. 2013): the gradient is never zero
 
-torch::nn::Conv2d convolution(int in, int out) {
+torch::nn::Conv2d convolution(std::int64_t in, int out) {
   return torch::nn::Conv2d(torch::nn::Conv2dOptions(in, out, 3).padding(1));
 }
 
@@ -29,8 +31,9 @@ torch::nn::Conv2d convolution(int in, int out) {
   throw WorkError("network: " + reason);
 }
 
-void make_deterministic(int threads) {
-  at::set_num_threads(threads);
+// The number of threads is a property of the thread that computes.
+void make_deterministic() {
+  at::set_num_threads(1);
   at::globalContext().setDeterministicAlgorithms(true, false);
 }
 
@@ -41,22 +44,27 @@ torch::Tensor tensor_of(const float* values, std::vector<std::int64_t> shape) {
 }
 
 struct Plane : torch::nn::Module {
-  explicit Plane(int embedding_size)
-      : conv1(register_module("conv1", convolution(1, kChannels[0]))),
+  explicit Plane(const LayerSizes& sizes)
+      : conv1(register_module("conv1", convolution(static_cast<std::int64_t>(sizes.channels), kChannels[0]))),
         conv2(register_module("conv2", convolution(kChannels[0], kChannels[1]))),
         conv3(register_module("conv3", convolution(kChannels[1], kChannels[2]))),
         norm1(register_module("norm1", torch::nn::GroupNorm(kGroups, kChannels[0]))),
         norm2(register_module("norm2", torch::nn::GroupNorm(kGroups, kChannels[1]))),
         norm3(register_module("norm3", torch::nn::GroupNorm(kGroups, kChannels[2]))),
-        dense(register_module("dense", torch::nn::Linear(2 * kChannels[2], embedding_size))),
-        last(register_module("last", torch::nn::Linear(embedding_size, 1))) {}
+        dense(register_module("dense", torch::nn::Linear(cells_after_pooling(sizes), sizes.embedding_size))),
+        last(register_module("last", torch::nn::Linear(sizes.embedding_size, 1))) {}
 
-  // maps: [n][1][rows][columns]
-  torch::Tensor embedding(torch::Tensor maps) {
-    maps = torch::max_pool2d(torch::relu(norm1(conv1(maps))), 2);
-    maps = torch::max_pool2d(torch::relu(norm2(conv2(maps))), 2);
-    maps = torch::relu(norm3(conv3(maps)));
-    return torch::relu(dense(torch::cat({maps.mean({2, 3}), maps.amax({2, 3})}, 1)));
+  static std::int64_t cells_after_pooling(const LayerSizes& sizes) {
+    return kChannels[2] * (static_cast<std::int64_t>(sizes.rows) / kPooling) *
+           (static_cast<std::int64_t>(sizes.columns) / kPooling);
+  }
+
+  // images: [n][channels][rows][columns]
+  torch::Tensor embedding(torch::Tensor images) {
+    images = torch::max_pool2d(torch::relu(norm1(conv1(images))), 2);
+    images = torch::max_pool2d(torch::relu(norm2(conv2(images))), 2);
+    images = torch::max_pool2d(torch::relu(norm3(conv3(images))), 2);
+    return torch::leaky_relu(dense(images.flatten(1)), kNegativeSlope);
   }
 
   torch::nn::Conv2d conv1, conv2, conv3;
@@ -66,17 +74,22 @@ struct Plane : torch::nn::Module {
 
 class TorchLayers : public Layers {
  public:
-  TorchLayers(int embedding_size, int threads, std::size_t rows, std::size_t columns)
-      : rows_(rows), columns_(columns), threads_(threads), plane_(embedding_size) {}
+  explicit TorchLayers(const LayerSizes& sizes) : sizes_(sizes), plane_(sizes) {}
 
   std::vector<Parameter> parameters() override;
+  double gradient(const float* images, const float* labels, std::size_t count, std::vector<float>& gradient) override;
   void start_training(double learning_rate) override;
-  double train(const float* maps, const float* labels, std::size_t count) override;
-  void embed(const float* maps, std::size_t count, std::vector<float>& embeddings, std::vector<float>& logits) override;
+  void step(const std::vector<float>& gradient) override;
+  void embed(const float* images, std::size_t count, std::vector<float>& embeddings,
+             std::vector<float>& logits) override;
 
  private:
-  std::size_t rows_, columns_;
-  int threads_;
+  torch::Tensor images_of(const float* values, std::size_t count) const {
+    return tensor_of(values, {static_cast<std::int64_t>(count), static_cast<std::int64_t>(sizes_.channels),
+                              static_cast<std::int64_t>(sizes_.rows), static_cast<std::int64_t>(sizes_.columns)});
+  }
+
+  LayerSizes sizes_;
   Plane plane_;
   std::unique_ptr<torch::optim::Adam> optimiser_;
 };
@@ -91,35 +104,48 @@ std::vector<Parameter> TorchLayers::parameters() {
   return all;
 }
 
-void TorchLayers::start_training(double learning_rate) try {
-  make_deterministic(threads_);
-  optimiser_ = std::make_unique<torch::optim::Adam>(plane_.parameters(), torch::optim::AdamOptions(learning_rate));
-} catch (const c10::Error& error) {
-  fail(error);
-}
-
-double TorchLayers::train(const float* maps, const float* labels, std::size_t count) try {
-  const auto n = static_cast<std::int64_t>(count);
-  const torch::Tensor truth = tensor_of(labels, {n});
-  const torch::Tensor inputs =
-      tensor_of(maps, {n, 1, static_cast<std::int64_t>(rows_), static_cast<std::int64_t>(columns_)});
-  optimiser_->zero_grad();
-  const torch::Tensor logits = plane_.last(plane_.embedding(inputs)).squeeze(1);
-  const torch::Tensor loss = torch::binary_cross_entropy_with_logits(logits, truth);
+double TorchLayers::gradient(const float* images, const float* labels, std::size_t count,
+                             std::vector<float>& gradient) try {
+  make_deterministic();
+  plane_.zero_grad();
+  const torch::Tensor logits = plane_.last(plane_.embedding(images_of(images, count))).squeeze(1);
+  const torch::Tensor loss = torch::binary_cross_entropy_with_logits(
+      logits, tensor_of(labels, {static_cast<std::int64_t>(count)}), {}, {}, at::Reduction::Sum);
   loss.backward();
-  optimiser_->step();
+  gradient.clear();
+  for (const torch::Tensor& parameter : plane_.parameters()) {
+    const torch::Tensor part = parameter.grad().contiguous();
+    gradient.insert(gradient.end(), part.data_ptr<float>(), part.data_ptr<float>() + part.numel());
+  }
   return loss.item<double>();
 } catch (const c10::Error& error) {
   fail(error);
 }
 
-void TorchLayers::embed(const float* maps, std::size_t count, std::vector<float>& embeddings,
+void TorchLayers::start_training(double learning_rate) try {
+  make_deterministic();
+  optimiser_ = std::make_unique<torch::optim::Adam>(plane_.parameters(), torch::optim::AdamOptions(learning_rate));
+} catch (const c10::Error& error) {
+  fail(error);
+}
+
+void TorchLayers::step(const std::vector<float>& gradient) try {
+  make_deterministic();
+  const float* place = gradient.data();
+  for (torch::Tensor parameter : plane_.parameters()) {
+    parameter.mutable_grad() = tensor_of(place, parameter.sizes().vec());
+    place += parameter.numel();
+  }
+  optimiser_->step();
+} catch (const c10::Error& error) {
+  fail(error);
+}
+
+void TorchLayers::embed(const float* images, std::size_t count, std::vector<float>& embeddings,
                         std::vector<float>& logits) try {
-  make_deterministic(threads_);
+  make_deterministic();
   torch::NoGradGuard no_gradient;
-  const torch::Tensor inputs = tensor_of(maps, {static_cast<std::int64_t>(count), 1, static_cast<std::int64_t>(rows_),
-                                                static_cast<std::int64_t>(columns_)});
-  const torch::Tensor embedding = plane_.embedding(inputs).contiguous();
+  const torch::Tensor embedding = plane_.embedding(images_of(images, count)).contiguous();
   const torch::Tensor logit = plane_.last(embedding).contiguous();
   embeddings.insert(embeddings.end(), embedding.data_ptr<float>(), embedding.data_ptr<float>() + embedding.numel());
   logits.insert(logits.end(), logit.data_ptr<float>(), logit.data_ptr<float>() + logit.numel());
@@ -130,8 +156,8 @@ void TorchLayers::embed(const float* maps, std::size_t count, std::vector<float>
 }  // namespace
 }  // namespace seaglint
 
-seaglint::Layers* seaglint_torch_layers(int embedding_size, int threads, std::size_t rows, std::size_t columns) try {
-  return new seaglint::TorchLayers(embedding_size, threads, rows, columns);
+seaglint::Layers* seaglint_torch_layers(const seaglint::LayerSizes& sizes) try {
+  return new seaglint::TorchLayers(sizes);
 } catch (const c10::Error& error) {
   seaglint::fail(error);
 }

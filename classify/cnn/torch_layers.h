@@ -6,6 +6,5 @@
 
 #include "classify/cnn/layers.h"
 
-// Layers of maps of rows x columns cells, owned by the caller. Throws WorkError, std::bad_alloc.
-extern "C" seaglint::Layers* seaglint_torch_layers(int embedding_size, int threads, std::size_t rows,
-                                                   std::size_t columns);
+// Layers of these sizes, owned by the caller. Throws WorkError, std::bad_alloc.
+extern "C" seaglint::Layers* seaglint_torch_layers(const seaglint::LayerSizes& sizes);

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <iterator>
 
-#include "classify/cnn/network_input.h"
 #include "classify/dataset/format/sample_faults.h"
+#include "classify/features/motion_features.h"
 #include "classify/model/blanked_map.h"
 #include "sim/core/process/error.h"
 
@@ -139,11 +139,18 @@ const char* name(ProbeKind kind) {
   return "";
 }
 
-LearningTable load_learning_table(const DatasetReader& data, const LearningSpec& spec, const StopFlag* stop,
+CentreList centres_of(const Sample& sample) {
+  CentreList centres;
+  for (const auto& [range_m, velocity_mps, amplitude_m] : sample.centre_list)
+    centres.push_back({range_m, velocity_mps, amplitude_m});
+  return centres;
+}
+
+LearningTable load_learning_table(const DatasetReader& data, const StopFlag* stop,
                                   const std::function<void(const Shard&)>& use) {
   LearningTable table;
   table.handmade.names = {"mwr", "ccf", "sigma_r_m", "sigma_v_mps"};
-  table.inputs.reserve(data.size() * kInputCells);
+  FeatureMatrix motion{{kMotionFeatureNames.begin(), kMotionFeatureNames.end()}, {}};
   std::size_t carriers = 1;
   std::vector<std::vector<std::uint16_t>> codes;
   table.probes = empty_probes(0);
@@ -168,9 +175,10 @@ LearningTable load_learning_table(const DatasetReader& data, const LearningSpec&
       for (const double feature : {record.mwr, record.ccf, record.sigma_r_m, record.sigma_v_mps})
         table.handmade.values.push_back(static_cast<float>(feature));
       table.degenerate += record.degenerate != 0 ? 1 : 0;
-      const std::vector<float> input =
-          network_input(sample.magnitude, shard.axes.velocity_mps.size(), shard.axes.range_m.size(), spec.map_floor_db);
-      table.inputs.insert(table.inputs.end(), input.begin(), input.end());
+      table.centres.push_back(centres_of(sample));
+      const MotionFeatures extra = motion_features(table.centres.back());
+      for (const double feature : {extra.rotation_per_s, extra.residual_mps, extra.explained, extra.on_line})
+        motion.values.push_back(static_cast<float>(feature));
 
       const MapLevels levels = map_levels(sample, shard.axes);
       const auto add = [&](ProbeIndex probe, double value) {
@@ -195,6 +203,7 @@ LearningTable load_learning_table(const DatasetReader& data, const LearningSpec&
     }
   }
 
+  table.extended = join_columns(table.handmade, motion);
   const std::size_t bands = std::min<std::size_t>(carriers, 16);
   table.probes[kHopCode].features.names = empty_probes(bands)[kHopCode].features.names;
   for (const auto& code : codes) {
@@ -224,7 +233,8 @@ void append(LearningTable& table, LearningTable&& more) {
   move_to(table.wave_heights_m, more.wave_heights_m);
   move_to(table.azimuths_deg, more.azimuths_deg);
   move_to(table.handmade.values, more.handmade.values);
-  move_to(table.inputs, more.inputs);
+  move_to(table.extended.values, more.extended.values);
+  move_to(table.centres, more.centres);
   table.degenerate += more.degenerate;
 }
 

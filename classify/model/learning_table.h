@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "classify/cnn/network_input.h"
 #include "classify/dataset/directory/dataset_reader.h"
 #include "classify/model/booster.h"
 #include "classify/model/division.h"
@@ -40,8 +41,9 @@ struct LearningTable {
   std::vector<int> labels;
   std::vector<double> wave_heights_m;
   std::vector<double> azimuths_deg;
-  FeatureMatrix handmade;     // mwr, ccf, sigma_r, sigma_v
-  std::vector<float> inputs;  // of the network, [map][kInputCells]
+  FeatureMatrix handmade;           // mwr, ccf, sigma_r, sigma_v
+  FeatureMatrix extended;           // the same and motion_features()
+  std::vector<CentreList> centres;  // of every map, input of the network
   std::vector<Probe> probes;
   std::size_t degenerate = 0;              // maps with fewer than 3 centres
   std::optional<Division> other_division;  // of the group protocol, in place of that by sea
@@ -49,6 +51,9 @@ struct LearningTable {
   std::size_t rows() const { return labels.size(); }
   Division division() const { return other_division ? *other_division : division_by_sea(groups); }
 };
+
+// The stored centres of a map, input of the network.
+CentreList centres_of(const Sample& sample);
 
 // Appends the rows of another data set. Throws InputError when the carriers of both differ (in the probe of the hop
 // code).
@@ -60,7 +65,7 @@ void require_learnable(const LearningTable& table, const std::string& data);
 
 // Reads every shard once and passes it to `use` if given. Throws InputError when a shard is invalid or a sample has a
 // fault (classify/dataset/format/sample_faults.h; with its number).
-LearningTable load_learning_table(const DatasetReader& data, const LearningSpec& spec, const StopFlag* stop = nullptr,
+LearningTable load_learning_table(const DatasetReader& data, const StopFlag* stop = nullptr,
                                   const std::function<void(const Shard&)>& use = {});
 
 }  // namespace seaglint

@@ -115,7 +115,7 @@ void require_applicable(const ModelCard& card, const fs::path& data_set, const S
 void apply_model(const SavedModel& model, const Shard& shard, const fs::path& file, std::size_t data_set,
                  AppliedRows& result) {
   FeatureMatrix handmade{model.card.features, {}};
-  std::vector<float> inputs;
+  std::vector<CentreList> maps;
   for (const Sample& sample : shard.samples) {
     std::vector<std::string> faults = sample_faults(sample);
     if (sample.record.label < 0 || sample.record.label >= static_cast<std::int64_t>(model.card.classes.size()))
@@ -125,11 +125,9 @@ void apply_model(const SavedModel& model, const Shard& shard, const fs::path& fi
       throw InputError(fmt::format("{}: sample {}: {}", file.string(), sample.record.sample, faults.front()));
     const std::vector<float> values = values_of(sample.record, model.card.features);
     handmade.values.insert(handmade.values.end(), values.begin(), values.end());
-    const std::vector<float> input = network_input(sample.magnitude, shard.axes.velocity_mps.size(),
-                                                   shard.axes.range_m.size(), model.spec.map_floor_db);
-    inputs.insert(inputs.end(), input.begin(), input.end());
+    maps.push_back(centres_of(sample));
   }
-  const FeatureMatrix embeddings = embedding_matrix(model.network.embed(inputs));
+  const FeatureMatrix embeddings = embedding_matrix(model.network.embed(maps));
   const FeatureMatrix fused = join_columns(handmade, embeddings);
   const std::array<const FeatureMatrix*, 3> columns{&handmade, &embeddings, &fused};
   for (std::size_t i = 0; i < columns.size(); ++i) {

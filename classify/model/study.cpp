@@ -18,7 +18,9 @@ namespace seaglint {
 namespace {
 
 constexpr Protocol kProtocols[2] = {Protocol::kRandom, Protocol::kGroup};
-constexpr const char* kGroupNames[3] = {"handmade", "cnn", "fused"};
+constexpr std::size_t kGroups = 4;
+constexpr const char* kGroupNames[kGroups] = {"handmade", "cnn", "fused", "extended"};
+constexpr bool kHasNetwork[kGroups] = {false, true, true, false};
 
 Fusion other_fusion(Fusion fusion) { return fusion == Fusion::kSplit ? Fusion::kInSample : Fusion::kSplit; }
 
@@ -36,11 +38,11 @@ struct Job {
 };
 
 struct JobResult {
-  std::vector<Prediction> predictions[3];  // handmade, cnn, fused
-  std::vector<Prediction> linear[3];       // of logistic regression
-  std::size_t train_rows[3] = {0, 0, 0};
+  std::vector<Prediction> predictions[kGroups];
+  std::vector<Prediction> linear[kGroups];  // of logistic regression
+  std::size_t train_rows[kGroups] = {};
   std::optional<Network> network;
-  std::vector<Booster> boosters;
+  std::vector<Booster> boosters;  // of every group
   FeatureMatrix embeddings;
   Split split;
 };
@@ -70,25 +72,23 @@ std::vector<Job> all_jobs(const LearningSpec& spec) {
   return jobs;
 }
 
-// The rows of a job; its scores are those of `test`.
+// The rows of a job; its scores are those of split.test. Weights of the network are fitted to `fit`; `validation`, of
+// other seas under the group protocol, selects its epoch.
 struct JobRows {
   Split split;
-  std::vector<std::size_t> network;
+  std::vector<std::size_t> fit, validation;
   std::vector<std::size_t> trees;
 };
 
 JobRows rows_of(const Job& job, const Division& division, const LearningSpec& spec, double train_fraction,
                 std::uint64_t seed) {
-  JobRows rows{divide(division, job.protocol, train_fraction, seed, job.repeat), {}, {}};
-  if (job.fusion == Fusion::kInSample) {
-    rows.network = rows.trees = rows.split.train;
-  } else {
-    const Split fusion =
-        split_for_fusion(division.units, rows.split, job.protocol, spec.network_fraction, seed, job.repeat);
-    rows.network = fusion.train;
-    rows.trees = fusion.test;
-  }
-  if (rows.network.empty() || rows.trees.empty() || rows.split.test.empty()) {
+  JobRows rows;
+  rows.split = divide(division, job.protocol, train_fraction, seed, job.repeat);
+  Split fusion = split_for_fusion(division.units, rows.split, job.protocol, spec.network_fraction, seed, job.repeat);
+  rows.fit = std::move(fusion.train);
+  rows.validation = std::move(fusion.test);
+  rows.trees = job.fusion == Fusion::kInSample ? rows.split.train : rows.validation;
+  if (rows.fit.empty() || rows.validation.empty() || rows.split.test.empty()) {
     const bool by_sea = job.protocol == Protocol::kRandom || division.by == "sea";
     throw InputError(
         fmt::format("dataset: {} maps in too few {} leave nothing to train or to test on when they are split by {}{}",
@@ -101,20 +101,30 @@ JobRows rows_of(const Job& job, const Division& division, const LearningSpec& sp
   return rows;
 }
 
+// With fusion `in_sample` the network is fitted once more, to all training rows, for the number of epochs that the
+// validation rows selected.
+Network train_network(const Job& job, const JobRows& rows, const LearningTable& table, const LearningSpec& spec,
+                      std::uint64_t seed, const StopFlag* stop) {
+  const std::uint64_t index =
+      (job.repeat * 2 + (job.protocol == Protocol::kGroup ? 1 : 0)) * 2 + (job.fusion == Fusion::kSplit ? 0 : 1);
+  Network network = Network::train(table.centres, {rows.fit, rows.validation}, table.labels, spec, seed, index, stop);
+  if (job.fusion == Fusion::kSplit) return network;
+  LearningSpec as_selected = spec;
+  as_selected.epochs = network.history().epochs;
+  return Network::train(table.centres, {rows.split.train, {}}, table.labels, as_selected, seed, index, stop);
+}
+
 JobResult run_job(const Job& job, const LearningTable& table, const LearningSpec& spec, double train_fraction,
                   std::uint64_t seed, const StopFlag* stop) {
   JobResult result;
   const JobRows rows = rows_of(job, table.division(), spec, train_fraction, seed);
   result.split = rows.split;
-
-  const std::uint64_t index =
-      (job.repeat * 2 + (job.protocol == Protocol::kGroup ? 1 : 0)) * 2 + (job.fusion == Fusion::kSplit ? 0 : 1);
-  result.network = Network::train(table.inputs, rows.network, table.labels, spec, seed, index, stop);
-  result.embeddings = embedding_matrix(result.network->embed(table.inputs));
+  result.network = train_network(job, rows, table, spec, seed, stop);
+  result.embeddings = embedding_matrix(result.network->embed(table.centres));
 
   const FeatureMatrix fused = join_columns(table.handmade, result.embeddings);
-  const FeatureMatrix* features[3] = {&table.handmade, &result.embeddings, &fused};
-  for (int group = 0; group < 3; ++group) {
+  const FeatureMatrix* features[kGroups] = {&table.handmade, &result.embeddings, &fused, &table.extended};
+  for (std::size_t group = 0; group < kGroups; ++group) {
     result.train_rows[group] = rows.trees.size();
     const Booster booster =
         Booster::train(select_rows(*features[group], rows.trees), select(table.labels, rows.trees), spec, stop);
@@ -229,8 +239,8 @@ Study run_study(const LearningTable& table, const LearningSpec& spec, double tra
       stop);
 
   // Job numbers: protocol slowest, then primary and alternative fusion, then repeat.
-  const auto pooled = [&](std::size_t protocol, std::size_t fusion, int group,
-                          std::vector<Prediction> (JobResult::*kind)[3] = &JobResult::predictions) {
+  const auto pooled = [&](std::size_t protocol, std::size_t fusion, std::size_t group,
+                          std::vector<Prediction> (JobResult::*kind)[kGroups] = &JobResult::predictions) {
     std::vector<Prediction> predictions;
     for (std::size_t repeat = 0; repeat < repeats; ++repeat) {
       const auto& more = (done[(protocol * 2 + fusion) * repeats + repeat].*kind)[group];
@@ -241,15 +251,14 @@ Study run_study(const LearningTable& table, const LearningSpec& spec, double tra
 
   Study study;
   Evaluator evaluate(spec, seed);
-  for (int group = 0; group < 3; ++group) {
+  for (std::size_t group = 0; group < kGroups; ++group) {
     FeatureGroupResult result;
     result.name = kGroupNames[group];
     for (std::size_t protocol = 0; protocol < 2; ++protocol) {
       Outcome outcome;
       outcome.protocol = kProtocols[protocol];
-      // Hand-made features need no network: their primary result uses every training row, as `in_sample` does for the
-      // trees.
-      const bool swap = group == 0 && spec.fusion == Fusion::kSplit;
+      // Without the network the primary result uses every training row, as `in_sample` does for the trees.
+      const bool swap = !kHasNetwork[group] && spec.fusion == Fusion::kSplit;
       for (std::size_t place = 0; place < 2; ++place) {
         const std::size_t fusion = swap ? 1 - place : place;
         const std::vector<Prediction> predictions = pooled(protocol, fusion, group);
@@ -258,11 +267,12 @@ Study run_study(const LearningTable& table, const LearningSpec& spec, double tra
         if (place == 0) outcome.roc = roc_curve(predictions);
         if (place == 0 && kProtocols[protocol] == Protocol::kGroup) {
           const JobResult& first = done[(protocol * 2 + fusion) * repeats];
-          const FeatureMatrix& embeddings = first.embeddings;
-          if (group != 1) result.columns = table.handmade.names;
-          if (group != 0) result.columns.insert(result.columns.end(), embeddings.names.begin(), embeddings.names.end());
-          result.gain = first.boosters[static_cast<std::size_t>(group)].gains(result.columns.size());
-          study.trees.push_back(first.boosters[static_cast<std::size_t>(group)]);
+          const auto& made = group == 3 ? table.extended.names : table.handmade.names;
+          if (group != 1) result.columns = made;
+          if (kHasNetwork[group])
+            result.columns.insert(result.columns.end(), first.embeddings.names.begin(), first.embeddings.names.end());
+          result.gain = first.boosters[group].gains(result.columns.size());
+          study.trees.push_back(first.boosters[group]);
         }
       }
       result.outcomes.push_back(outcome);
@@ -270,10 +280,10 @@ Study run_study(const LearningTable& table, const LearningSpec& spec, double tra
     study.groups.push_back(std::move(result));
   }
   study.probes = run_probes(table, spec, train_fraction, seed, evaluate, progress, stop);
-  for (int group = 0; group < 3; ++group) {
-    const std::size_t fusion = group == 0 && spec.fusion == Fusion::kSplit ? 1 : 0;  // of the primary
+  for (std::size_t group = 0; group < kGroups; ++group) {
+    const std::size_t fusion = !kHasNetwork[group] && spec.fusion == Fusion::kSplit ? 1 : 0;  // of the primary
     for (std::size_t protocol = 0; protocol < 2; ++protocol) {
-      study.groups[static_cast<std::size_t>(group)].outcomes[protocol].linear =
+      study.groups[group].outcomes[protocol].linear =
           evaluate(pooled(protocol, fusion, group, &JobResult::linear),
                    done[(protocol * 2 + fusion) * repeats].train_rows[group]);
     }
@@ -296,7 +306,7 @@ std::vector<std::string> model_files() {
 
 void save_models(const Study& study, const LearningTable& table, std::span<const DataRow> rows,
                  const std::filesystem::path& model_directory) {
-  for (std::size_t group = 0; group < 3; ++group)
+  for (std::size_t group = 0; group < kGroups; ++group)
     study.trees[group].save(model_directory / fmt::format("{}.json", kGroupNames[group]));
   study.network->save(model_directory / kNetworkFile);
   write_file(model_directory / kSplitsFile, splits_csv(table, rows, study.splits));

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Evaluation of a data set: three groups of features (hand-made, network, both), each with the same trees, under two
-// protocols (random rows as in the paper, whole seas) and two fusions of network and trees, with probes for leaks of
-// the class.
+// Evaluation of a data set: four groups of features (the paper's hand-made ones, network, both; hand-made with
+// motion_features()), each with the same trees, under two protocols (random rows as in the paper, whole seas) and two
+// fusions of network and trees, with probes for leaks of the class.
 
 #include <filesystem>
 #include <optional>
@@ -26,14 +26,16 @@ struct Evaluation {
 // Results of one group of features under one protocol.
 struct Outcome {
   Protocol protocol = Protocol::kGroup;
-  Evaluation primary;         // hand-made: trees on all training rows; others: the scenario's fusion
-  Evaluation alternative;     // hand-made: trees on their rows of fusion `split`; others: the other fusion
+  // Without the network (hand-made, extended): trees on all training rows, and on their rows of fusion `split`; with
+  // it: the scenario's fusion and the other one.
+  Evaluation primary;
+  Evaluation alternative;
   Evaluation linear;          // logistic regression in place of the trees of the primary
   std::vector<RocPoint> roc;  // of the primary
 };
 
 struct FeatureGroupResult {
-  std::string name;  // handmade, cnn, fused
+  std::string name;  // handmade, cnn, fused, extended
   std::vector<std::string> columns;
   std::vector<double> gain;       // fraction of the trees' gain per column, group protocol, first repeat
   std::vector<Outcome> outcomes;  // random, then group
@@ -48,10 +50,10 @@ struct ProbeResult {
 
 // The models are those of the group protocol, main fusion, first repeat.
 struct Study {
-  std::vector<FeatureGroupResult> groups;  // handmade, cnn, fused
+  std::vector<FeatureGroupResult> groups;  // handmade, cnn, fused, extended
   std::vector<ProbeResult> probes;
   std::optional<Network> network;  // always set in a finished study
-  std::vector<Booster> trees;      // handmade, cnn, fused
+  std::vector<Booster> trees;      // handmade, cnn, fused, extended
   std::vector<Split> splits;       // random, then group, of the first repeat
   FeatureMatrix embeddings;        // of all rows, of the network: embedding values, then the logit
   std::string division;            // how the group protocol divides
@@ -77,7 +79,7 @@ Study run_study(const LearningTable& table, const LearningSpec& spec, double tra
 // Names of the files that save_models() and save_model_card() write.
 std::vector<std::string> model_files();
 
-// Writes network.bin, handmade.json, cnn.json, fused.json and splits.csv of the table's study; `rows`: those of the
+// Writes network.bin, handmade.json, cnn.json, fused.json, extended.json and splits.csv of the table's study; `rows`: those of the
 // table. In splits.csv, `random` and `by_group` are train, test or unused. Throws WorkError when a file cannot be
 // written.
 void save_models(const Study& study, const LearningTable& table, std::span<const DataRow> rows,

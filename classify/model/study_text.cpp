@@ -70,8 +70,8 @@ ordered_json to_json(const Study& study, const LearningSpec& spec) {
     ordered_json entry;
     entry["columns"] = group.columns;
     entry["gain"] = group.gain;
-    const bool handmade = group.name == "handmade";
-    if (!handmade) entry["fusion"] = fusion_name(spec.fusion);
+    const bool network = group.name == "cnn" || group.name == "fused";
+    if (network) entry["fusion"] = fusion_name(spec.fusion);
     ordered_json others;
     for (const Outcome& outcome : group.outcomes) {
       entry[name(outcome.protocol)] = to_object(outcome.primary);
@@ -79,7 +79,7 @@ ordered_json to_json(const Study& study, const LearningSpec& spec) {
       entry[name(outcome.protocol)]["logistic_regression"] = to_object(outcome.linear);
       others[name(outcome.protocol)] = to_object(outcome.alternative);
     }
-    entry[handmade ? "fewer_rows" : fusion_name(other)] = others;
+    entry[network ? fusion_name(other) : "fewer_rows"] = others;
     json[group.name] = entry;
   }
   json["probes"] = ordered_json::array();
@@ -90,18 +90,19 @@ ordered_json to_json(const Study& study, const LearningSpec& spec) {
     json["probes"].push_back(entry);
   }
   json["split_repeats"] = spec.split_repeats;
+  const TrainingHistory& history = study.network->history();
   json["network"] = {{"parameters", study.network->parameter_count()},
-                     {"epochs", spec.epochs},
-                     {"threads", spec.threads},
-                     {"training_loss", study.network->losses()}};
+                     {"epochs", history.epochs},
+                     {"training_loss", history.fit},
+                     {"validation_loss", history.validation}};
   return json;
 }
 
 std::string accuracy_table(const Study& study) {
-  std::string text = "Accuracy in % (95 % interval by bootstrap over seas), XGBoost on three groups of features\n\n";
+  std::string text = "Accuracy in % (95 % interval by bootstrap over seas), XGBoost on four groups of features\n\n";
   for (std::size_t protocol = 0; protocol < 2; ++protocol) {
     text += protocol == 0 ? "random split of the maps (the paper's protocol)\n" : "\n" + study.division + "\n";
-    text += fmt::format("  {:<10}{:>18}{:>18}{:>18}\n", "Hs [m]", "hand-made", "CNN", "fused");
+    text += fmt::format("  {:<10}{:>18}{:>18}{:>18}{:>18}\n", "Hs [m]", "hand-made", "CNN", "fused", "extended");
     const auto& heights = study.groups.front().outcomes[protocol].primary.by_wave_height;
     for (std::size_t i = 0; i <= heights.size(); ++i) {
       text += fmt::format("  {:<10}", i < heights.size() ? fmt::format("{:g}", heights[i].wave_height_m) : "all");

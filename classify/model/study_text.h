@@ -21,7 +21,7 @@ std::string percent(const Scores& scores);
 nlohmann::ordered_json to_object(const Scores& scores);
 nlohmann::ordered_json to_object(const std::vector<RocPoint>& curve);
 
-// The study as a JSON object with the members handmade, cnn, fused, probes, network.
+// The study as a JSON object with the members handmade, cnn, fused, extended, probes, network.
 nlohmann::ordered_json to_json(const Study& study, const LearningSpec& spec);
 
 }  // namespace seaglint

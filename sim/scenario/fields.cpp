@@ -337,6 +337,7 @@ void visit(LearningSpec& spec, FieldVisitor& v) {
   visit_choice(v, "fusion", spec.fusion, {"split", "in_sample"});
   v.number("network_fraction", spec.network_fraction, within(0.1, 0.9));
   v.integer("epochs", spec.epochs, within(1, 10000));
+  v.integer("patience", spec.patience, within(1, 10000));
   v.integer("batch_size", spec.batch_size, within(1, 4096));
   v.number("learning_rate", spec.learning_rate, within(1e-6, 1));
   v.integer("embedding_size", spec.embedding_size, within(1, 512));

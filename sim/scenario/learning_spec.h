@@ -31,14 +31,14 @@ enum class Fusion { kSplit, kInSample };
 struct LearningSpec {
   Fusion fusion = Fusion::kSplit;
   double network_fraction = 0.6;  // of the training groups, for the network, when fusion is split; 0.1 <= x <= 0.9
-  int epochs = 20;                // 1 <= x <= 10000
+  int epochs = 60;                // at most, 1 <= x <= 10000
+  int patience = 10;              // epochs without a smaller loss of the validation rows, 1 <= x <= 10000
   int batch_size = 32;            // 1 <= x <= 4096
-  double learning_rate = 0.001;   // of the network, 1e-6 <= x <= 1
+  double learning_rate = 0.002;   // of the network, 1e-6 <= x <= 1
   int embedding_size = 8;         // 1 <= x <= 512
-  int threads =
-      1;  // of the network, fixed and recorded: results differ bitwise with the number of threads; 1 <= x <= 256
-  double map_floor_db = -40;  // floor of the network's input, relative to the total energy of the map, -120 <= x < 0
-  int trees = 200;            // XGBoost parameters from here on: table II of the paper
+  int threads = 1;                // of each network's training, whose result does not depend on it; 1 <= x <= 256
+  double map_floor_db = -40;      // floor of the network's images, relative to the power of all centres, -120 <= x < 0
+  int trees = 200;                // XGBoost parameters from here on: table II of the paper
   int max_depth = 6;
   double tree_learning_rate = 0.05;
   double subsample = 0.8;

@@ -102,10 +102,10 @@ std::string joined(const std::vector<fs::path>& paths) {
 }
 
 // Reads a data set; each shard is passed to `use` if given.
-void read_data(LearningData& data, const DatasetReader& reader, const LearningSpec& spec, const StopFlag* stop,
+void read_data(LearningData& data, const DatasetReader& reader, const StopFlag* stop,
                const std::function<void(const Shard&)>& use) {
   const std::size_t number = data.manifests.size();
-  LearningTable table = load_learning_table(reader, spec, stop, [&](const Shard& shard) {
+  LearningTable table = load_learning_table(reader, stop, [&](const Shard& shard) {
     append_rows(data.rows, number, shard);
     if (number == 0) {
       data.axes = shard.axes;

@@ -346,9 +346,8 @@ std::string provenance_table(const ordered_json& metrics) {
   rows.push_back({"processor", escape_html(fmt::format("{}", fmt::join(processors, "; ")))});
   const auto& network = metrics.at("network");
   rows.push_back(
-      {"network", fmt::format("{} parameters, {} epochs, {} thread{}", network.at("parameters").get<std::size_t>(),
-                              network.at("epochs").get<int>(), network.at("threads").get<int>(),
-                              network.at("threads").get<int>() == 1 ? "" : "s")});
+      {"network", fmt::format("{} parameters, weights of epoch {}", network.at("parameters").get<std::size_t>(),
+                              network.at("epochs").get<int>())});
   const auto& losses = network.at("training_loss");
   if (!losses.empty())
     rows.push_back({"network’s training loss, first and last epoch",

@@ -138,7 +138,7 @@ TEST_F(Training, WithoutItsLastFileHasNoMetrics) {
 // Clutter 20 dB below the target in every map and noise 30 dB below the clutter: 1/R = 10^-2 + 10^-5, 19.9957 dB. Noise
 // is measured: 64 pulses of its power scatter by less than a tenth, which is 4e-4 dB here.
 TEST_F(Training, ProbesTheRatioOfTargetToClutterAndNoise) {
-  const LearningTable table = load_learning_table(DatasetReader(folder_ / "data"), LearningSpec{});
+  const LearningTable table = load_learning_table(DatasetReader(folder_ / "data"));
   const auto probe = std::find_if(table.probes.begin(), table.probes.end(),
                                   [](const Probe& p) { return p.name == "signal to clutter and noise"; });
   ASSERT_NE(probe, table.probes.end());
