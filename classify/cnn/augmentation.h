@@ -17,8 +17,9 @@ namespace seaglint {
 // Residuals from the line of velocity over range keep their magnitude.
 CentreList observed_otherwise(std::span<const ScatteringCentre> centres, Random& random);
 
-// Adds errors of estimation, normal: 0.02 m in range, 0.001 m/s in velocity, 1 dB in amplitude; those of a centre some
-// 30 dB above clutter and noise in its cell.
+// Adds errors of estimation, normal: 0.001 m/s in velocity, that of a centre 32 dB above clutter and noise in its cell
+// (Cramer-Rao bound, sqrt(3)/(2 pi) cells / sqrt(SNR)); 0.02 m in range and 1 dB in amplitude, above that bound, as
+// scatterers in one cell interfere.
 CentreList with_errors(CentreList centres, Random& random);
 
 // Range and velocity shift of the images, uniform within +-2 columns and +-0.5 rows.

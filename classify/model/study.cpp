@@ -240,7 +240,7 @@ Study run_study(const LearningTable& table, const LearningSpec& spec, double tra
 
   // Job numbers: protocol slowest, then primary and alternative fusion, then repeat.
   const auto pooled = [&](std::size_t protocol, std::size_t fusion, std::size_t group,
-                          std::vector<Prediction> (JobResult::*kind)[kGroups] = &JobResult::predictions) {
+                          std::vector<Prediction>(JobResult::*kind)[kGroups] = &JobResult::predictions) {
     std::vector<Prediction> predictions;
     for (std::size_t repeat = 0; repeat < repeats; ++repeat) {
       const auto& more = (done[(protocol * 2 + fusion) * repeats + repeat].*kind)[group];

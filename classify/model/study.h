@@ -79,9 +79,9 @@ Study run_study(const LearningTable& table, const LearningSpec& spec, double tra
 // Names of the files that save_models() and save_model_card() write.
 std::vector<std::string> model_files();
 
-// Writes network.bin, handmade.json, cnn.json, fused.json, extended.json and splits.csv of the table's study; `rows`: those of the
-// table. In splits.csv, `random` and `by_group` are train, test or unused. Throws WorkError when a file cannot be
-// written.
+// Writes network.bin, handmade.json, cnn.json, fused.json, extended.json and splits.csv of the table's study; `rows`:
+// those of the table. In splits.csv, `random` and `by_group` are train, test or unused. Throws WorkError when a file
+// cannot be written.
 void save_models(const Study& study, const LearningTable& table, std::span<const DataRow> rows,
                  const std::filesystem::path& model_directory);
 

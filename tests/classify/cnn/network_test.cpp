@@ -17,8 +17,8 @@
 namespace seaglint {
 namespace {
 
-// Geometry-matched pairs: four equal reflectors 40 m apart, seen at an angle, with the errors of a centre 35 dB above
-// clutter. Label 1: welded to a body that rotates; label 0: each with a velocity of its own. Both have the same
+// Geometry-matched pairs: four equal reflectors 40 m apart, seen at an angle, with the velocity error of a centre 36 dB
+// above clutter. Label 1: welded to a body that rotates; label 0: each with a velocity of its own. Both have the same
 // velocity spreads on average, so that neither number, range nor velocity spread separates them.
 struct MatchedSet {
   std::vector<CentreList> maps;

@@ -123,6 +123,20 @@ TEST_F(Training, RecordsItsSettings) {
             effective_yaml(read_scenario(folder_ / "data" / "scenario.yaml", overrides)));
 }
 
+TEST_F(Training, DependsNeitherOnItsThreadsNorOnThoseOfANetwork) {
+  train_model(folder_ / "data", folder_ / "one", {{"learning.epochs", "2"}}, 1);
+  train_model(folder_ / "data", folder_ / "several", {{"learning.epochs", "2"}, {"learning.threads", "3"}}, 2);
+  for (const std::string& name : model_files())
+    EXPECT_EQ(read_file(folder_ / "several" / name), read_file(folder_ / "one" / name)) << name;
+  EXPECT_EQ(read_file(folder_ / "several" / kEmbeddingsFile), read_file(folder_ / "one" / kEmbeddingsFile));
+  const auto metrics = [](const char* model) {
+    nlohmann::json json = nlohmann::json::parse(read_file(folder_ / model / kMetricsFile));
+    EXPECT_EQ(json.at("learning").erase("threads"), 1u);
+    return json;
+  };
+  EXPECT_EQ(metrics("several"), metrics("one"));
+}
+
 TEST_F(Training, WithoutItsLastFileHasNoMetrics) {
   train({});
   fs::remove(folder_ / "model" / kEmbeddingsFile);
