@@ -132,6 +132,23 @@ TEST(Scores, AreThoseOfASmallExampleByHand) {
   EXPECT_EQ(scores.confusion[0][1], 1u);
 }
 
+// 40 drawn heights 0.05, 0.10, ... 2.00 m: four bins of ten, with the means 0.275, 0.775, ... m; few heights as they
+// are.
+TEST(Scores, OfManyWaveHeightsAreThoseOfBins) {
+  std::vector<Prediction> predictions;
+  for (int i = 1; i <= 40; ++i) predictions.push_back({i, i, 0.05 * i, i % 2, i <= 10 ? 0.5 : i % 2 == 1 ? 0.9 : 0.1});
+  const std::vector<WaveHeightScores> bins = score_by_wave_height(predictions, 10, 1, 0);
+  ASSERT_EQ(bins.size(), 4u);
+  const double means[] = {0.28, 0.78, 1.28, 1.78};
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_NEAR(bins[i].wave_height_m, means[i], 0.0051);
+    EXPECT_EQ(bins[i].scores.rows, 10u);
+    EXPECT_NEAR(bins[i].scores.accuracy, i == 0 ? 0.5 : 1, 1e-12);
+  }
+  const std::vector<WaveHeightScores> few = score_by_wave_height(std::span(predictions).first(3), 10, 1, 0);
+  EXPECT_EQ(few.size(), 3u);
+}
+
 TEST(Roc, IsThatOfASmallExampleByHand) {
   const auto curve = roc_curve(predictions_of({{1, 0.9}, {1, 0.4}, {0, 0.4}, {0, 0.1}, {0, 0.7}, {1, 0.95}}));
   // Thresholds 0.95 and 0.9: ships alone, a straight line; 0.7: one array; 0.4: a ship and an array together; 0.1.
