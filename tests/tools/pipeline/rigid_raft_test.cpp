@@ -34,7 +34,7 @@ targets:
   t: {{label: 1, mesh: {}, {}}}
 {}
 clutter: {{enabled: false}}
-dataset: {{maps_per_case: 2, realisations_per_case: 1}}
+dataset: {{maps_per_case: 16, realisations_per_case: 8}}
 )",
                                     azimuth_deg, kReflector, target, more),
                         (folder / "raft.yaml").string());
@@ -163,6 +163,26 @@ TEST_F(RigidRaft, IsTheSameForAnyNumberOfThreadsAndInEveryRun) {
   const auto threaded =
       simulate_target(raft.spec, raft.body, one.plan().sea_states()[0], scene->sea, 10, scenario.seed, 0, 0, 3);
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(threaded[i].pose(7.7).p, scene->bodies[0][i].pose(7.7).p);
+}
+
+TEST_F(RigidRaft, IsOneInTheSeasThatDrawRigidBodies) {
+  const Pipeline pipeline(
+      scene_of("layout: {line: {count: 2, spacing_m: 40}, bodies: choice(independent rigid)}, "
+               "motion: {model: float, diameter_m: 1}"));
+  int rafts = 0;
+  for (int realisation = 0; realisation < 8; ++realisation) {
+    const auto scene = pipeline.scene(0, realisation);
+    const std::vector<Trajectory>& bodies = scene->bodies[0];
+    const bool is_raft = (*scene->targets)[0].spec.bodies == LayoutBodies::kRigid;
+    EXPECT_EQ(bodies[0].sample(5).angles == bodies[1].sample(5).angles, is_raft);
+    // The centre of flotation of a float is below its reflector, that of a raft between them.
+    const Vec3 centre = is_raft ? Vec3(20, 0, -0.75) : Vec3(0, 0, -0.75);
+    const Pose pose = bodies[0].pose(5);
+    EXPECT_LT((pose.p + pose.R * centre - (Vec3(-20, 0, 0.75) + centre)).norm(), 1e-12);
+    rafts += is_raft;
+  }
+  EXPECT_GT(rafts, 0);
+  EXPECT_LT(rafts, 8);
 }
 
 TEST_F(RigidRaft, NeedsTheDimensionsThatNoMeshGives) {
