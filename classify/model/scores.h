@@ -73,8 +73,8 @@ struct WaveHeightScores {
 Scores score(std::span<const Prediction> predictions, int bootstrap_samples, std::uint64_t seed,
              std::uint64_t bootstrap_index);
 
-// The same per wave height, ascending. More than kMostWaveHeights different heights, which a scenario draws, are divided
-// into at most kWaveHeightBins bins of about equal numbers of rows, whose wave_height_m is the mean to 0.01 m.
+// The same per wave height, ascending. More than kMostWaveHeights different heights, which a scenario draws, are
+// divided into at most kWaveHeightBins bins of about equal numbers of rows, whose wave_height_m is the mean to 0.01 m.
 inline constexpr std::size_t kMostWaveHeights = 10, kWaveHeightBins = 4;
 std::vector<WaveHeightScores> score_by_wave_height(std::span<const Prediction> predictions, int bootstrap_samples,
                                                    std::uint64_t seed, std::uint64_t bootstrap_index);

@@ -185,7 +185,7 @@ TrainedModel train_model(const DatasetReader& data, const Scenario& scenario, co
                          int threads, const StopFlag* stop, const std::function<void(const Shard&)>& use) {
   require_own_directory(model_directory);
   LearningData learning;
-  read_data(learning, data, scenario.learning, stop, use);
+  read_data(learning, data, stop, use);
   require_learnable(learning.table, data.directory().string());
   return train_on(learning, scenario, model_directory, threads, stop);
 }
@@ -211,7 +211,7 @@ TrainedModel train_model(const std::vector<fs::path>& data_sets, const fs::path&
     if (!other.empty())
       throw InputError(
           fmt::format("{}: other settings than {}: {}", data_set.string(), data_sets.front().string(), other));
-    read_data(learning, reader, scenario.learning, stop, {});
+    read_data(learning, reader, stop, {});
   }
   LearningTable& table = learning.table;
   require_learnable(table, joined(data_sets));
