@@ -97,6 +97,8 @@ std::vector<std::string> class_names_by_label() { return {"array", "ship"}; }
 std::map<std::string, SectionSettings> settings_of(const Scenario& scenario) {
   std::map<std::string, SectionSettings> settings;
   for (const char* section : {"map", "features", "learning"}) settings[section] = section_values(scenario, section);
+  // The number of threads changes no result.
+  std::erase_if(settings["learning"], [](const auto& entry) { return entry.first == "threads"; });
   return settings;
 }
 

@@ -64,7 +64,8 @@ struct ModelCard {
 // The names of the classes, by label.
 std::vector<std::string> class_names_by_label();
 
-// Sections of the scenario on which features and the network's input depend, and the settings of the learning.
+// Sections of the scenario on which features and the network's input depend, and the settings of the learning but
+// for the number of threads, which changes no result.
 std::map<std::string, SectionSettings> settings_of(const Scenario& scenario);
 
 // "" when both have the same keys and values in the sections `map` and `features`, else the first difference:

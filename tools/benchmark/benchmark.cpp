@@ -20,6 +20,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kFolder = "scenarios/benchmark";
+constexpr int kSmallSeas = 6, kSmallIntervals = 2;  // of each sea state; of each sea
 
 }  // namespace
 
@@ -38,12 +39,16 @@ Scenario read_benchmark(const std::string& name, bool small, const std::vector<O
   if (std::ranges::find(names, name) == names.end()) {
     throw InputError(fmt::format("{}: no benchmark of this name; {}", name, suggestion(name, names)));
   }
+  const fs::path file = data_folder() / kFolder / (name + ".yaml");
   std::vector<Override> all;
   if (small) {
-    all = {{"dataset.realisations_per_case", "6"}, {"dataset.maps_per_case", "12"}, {"learning.split_repeats", "2"}};
+    const int maps = kSmallSeas * kSmallIntervals * read_scenario(file).dataset.maps_per_interval;
+    all = {{"dataset.realisations_per_case", std::to_string(kSmallSeas)},
+           {"dataset.maps_per_case", std::to_string(maps)},
+           {"learning.split_repeats", "2"}};
   }
   all.insert(all.end(), overrides.begin(), overrides.end());
-  return read_scenario(data_folder() / kFolder / (name + ".yaml"), all);
+  return read_scenario(file, all);
 }
 
 std::string run_benchmark(const std::string& name, bool small, const Scenario& scenario, const fs::path& directory,

@@ -19,9 +19,9 @@ inline constexpr const char* kBenchmarkFile = "benchmark.json";
 // Names of the benchmarks that come with the program.
 std::vector<std::string> benchmark_names();
 
-// The scenario of a benchmark by name, changed by `overrides`. With `small` first dataset.realisations_per_case is
-// reduced to 6, dataset.maps_per_case to 12 and learning.split_repeats to 2: a trial in a minute, whose figures say
-// little. Throws InputError for an unknown name, with the nearest one.
+// The scenario of a benchmark by name, changed by `overrides`. With `small` it has first 6 seas of each sea state with
+// 2 intervals each, and learning.split_repeats 2: a trial in a minute, whose figures say little. Throws InputError for
+// an unknown name, with the nearest one.
 Scenario read_benchmark(const std::string& name, bool small, const std::vector<Override>& overrides);
 
 // Makes the data set, trains and evaluates, and writes benchmark.json last. Returns the text for the terminal. Errors

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "classify/model/simultaneous.h"
 #include "classify/model/study.h"
+#include "tools/benchmark/simultaneous.h"
 
 namespace seaglint {
 

@@ -12,14 +12,27 @@ namespace seaglint {
 
 namespace {
 
-// Allocates nothing.
+[[noreturn]] void end_out_of_memory() {
+  constexpr std::string_view kLine = "seaglint: out of memory\n";
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kLine.data(), kLine.size());
+  ::_exit(1);
+}
+
+// Where there is no memory for an exception either, the program ends without one (Itanium C++ ABI, 2.4.2).
+bool is_exhausted() {
+  constexpr std::size_t kExceptionBytes = 256;
+  void* volatile block = std::malloc(kExceptionBytes);
+  const bool exhausted = block == nullptr;
+  std::free(block);
+  return exhausted;
+}
+
 [[noreturn]] void end_program() {
   try {
     if (std::current_exception()) throw;
+    if (is_exhausted()) end_out_of_memory();
   } catch (const std::bad_alloc&) {
-    constexpr std::string_view kLine = "seaglint: out of memory\n";
-    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kLine.data(), kLine.size());
-    ::_exit(1);
+    end_out_of_memory();
   } catch (...) {
   }
   std::abort();

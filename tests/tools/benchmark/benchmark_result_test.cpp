@@ -63,7 +63,7 @@ std::vector<Verdict> verdicts(const Study& study) {
 constexpr Verdict kYes = Verdict::kHeld, kNo = Verdict::kNotHeld, kOpen = Verdict::kUndecided;
 
 TEST(BenchmarkClaims, FollowTheFiguresAndTheirIntervals) {
-  EXPECT_EQ(verdicts(study_of({0.8, 0.99, 0.99}, {0.7, 0.9, 0.92}, {0.82, 0.99, 0.99}, {0.7, 0.9, 0.95})),
+  EXPECT_EQ(verdicts(study_of({0.8, 0.99, 0.99}, {0.7, 0.9, 0.92}, {0.82, 0.99, 0.99}, {0.7, 0.8, 0.9})),
             (std::vector<Verdict>{kYes, kYes, kYes, kYes, kYes}));
   EXPECT_EQ(verdicts(study_of({0.9, 0.8, 0.7}, {0.99, 0.99, 0.99}, {0.9, 0.9, 0.9}, {0.95, 0.95, 0.95}, 0.7)),
             (std::vector<Verdict>{kNo, kNo, kNo, kNo, kNo}));

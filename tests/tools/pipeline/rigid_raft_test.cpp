@@ -21,7 +21,7 @@
 namespace seaglint {
 namespace {
 
-constexpr const char* kReflector = "assets/icosahedral_reflector.glb";
+constexpr const char* kReflector = SEAGLINT_SOURCE_DIR "/assets/icosahedral_reflector.glb";
 
 // The target `t` in Hs 2 m, and `more` targets.
 Scenario scene_of(const std::string& target, const std::string& more = "", double azimuth_deg = 60,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Holm's procedure on its definition, and its family-wise error over many sets of chance accuracies.
-#include "classify/model/simultaneous.h"
+#include "tools/benchmark/simultaneous.h"
 
 #include <gtest/gtest.h>
 

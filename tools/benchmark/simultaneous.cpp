@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "classify/model/simultaneous.h"
+#include "tools/benchmark/simultaneous.h"
 
 #include <algorithm>
 #include <cmath>
