@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "classify/dataset/format/drawn_columns.h"
 #include "sim/core/process/error.h"
 #include "sim/core/text/suggestion.h"
 
@@ -50,7 +51,7 @@ const T* drawn_value(const std::vector<DrawnValue<T>>& values, const std::string
 
 // The column of a drawn key; nothing where no row has it.
 std::optional<ColumnOfRows> drawn_column(std::span<const DataRow> rows, const std::string& key) {
-  ColumnOfRows numbers{key, "1", false, {}, {}}, words{key, "", true, {}, {}};
+  ColumnOfRows numbers{key, drawn_text(key).units, false, {}, {}}, words{key, "", true, {}, {}};
   bool has_numbers = false, has_words = false;
   for (const DataRow& row : rows) {
     const double* number = drawn_value(row.record.drawn_numbers, key);

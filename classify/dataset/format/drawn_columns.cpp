@@ -19,8 +19,9 @@ constexpr const char* kWords = "drawn_words";
 
 // Ends of keys with their units, longer ones first where one ends with another.
 constexpr std::pair<std::string_view, const char*> kUnits[] = {
-    {"_mps", "m/s"}, {"_deg", "deg"}, {"_db", "dB"}, {"_mm", "mm"}, {"_km", "km"},     {"_us", "us"},   {"_m2", "m2"},
-    {"_m3", "m3"},   {"_kg", "kg"},   {"_m", "m"},   {"_s", "s"},   {"_c", "Celsius"}, {"_psu", "psu"},
+    {"_deg_s", "deg/s"}, {"_mps", "m/s"}, {"_deg", "deg"},   {"_db", "dB"},   {"_mm", "mm"},
+    {"_km", "km"},       {"_us", "us"},   {"_m2", "m2"},     {"_m3", "m3"},   {"_kg", "kg"},
+    {"_m", "m"},         {"_s", "s"},     {"_c", "Celsius"}, {"_psu", "psu"},
 };
 
 std::vector<std::string> keys_of(const Hdf5Reader& file, const char* attribute) {
