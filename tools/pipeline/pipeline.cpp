@@ -17,8 +17,6 @@ namespace seaglint {
 
 namespace {
 
-constexpr std::size_t kScenesKept = 8, kResponsesKept = 16;
-
 // Motion of a body at time t.
 void store_motion(const Trajectory& body, double t, SampleRecord& record) {
   const MotionSample motion = body.sample(t);
@@ -58,21 +56,6 @@ void store_signal(const GeneratedSample& made, bool complex_maps, Sample& stored
 
 }  // namespace
 
-// A scene that one thread generates while others wait for it.
-struct Pipeline::SceneSlot {
-  int sea_state = 0;
-  int realisation = 0;
-  std::once_flag made;
-  std::shared_ptr<const Scene> scene;
-};
-
-// The response that the maps of an interval and target share; the first caller computes it.
-struct Pipeline::ResponseSlot {
-  std::size_t first_sample = 0;
-  std::once_flag made;
-  std::shared_ptr<const BodyResponse> response;
-};
-
 namespace {
 
 // Throws InputError for an observation whose drawn values contradict each other.
@@ -95,21 +78,7 @@ Pipeline::Pipeline(Scenario scenario, SamplePlan plan)
 }
 
 std::shared_ptr<const Scene> Pipeline::scene(int sea_state, int realisation) const {
-  std::shared_ptr<SceneSlot> slot;
-  {
-    const std::lock_guard lock(scenes_mutex_);
-    for (const auto& known : scenes_) {
-      if (known->sea_state == sea_state && known->realisation == realisation) slot = known;
-    }
-    if (!slot) {
-      slot = std::make_shared<SceneSlot>();
-      slot->sea_state = sea_state;
-      slot->realisation = realisation;
-      if (scenes_.size() == kScenesKept) scenes_.erase(scenes_.begin());
-      scenes_.push_back(slot);
-    }
-  }
-  std::call_once(slot->made, [&] {
+  return scenes_.get({sea_state, realisation}, [&] {
     auto targets = targets_;
     if (!scenario_.variations.empty()) {
       const Scenario drawn = plan_.drawn(scenario_, {.sea_state = sea_state, .realisation = realisation});
@@ -117,9 +86,8 @@ std::shared_ptr<const Scene> Pipeline::scene(int sea_state, int realisation) con
     }
     Scene scene = make_scene(scenario_, plan_, *targets, sea_state, realisation);
     scene.targets = std::move(targets);
-    slot->scene = std::make_shared<const Scene>(std::move(scene));
+    return scene;
   });
-  return slot->scene;
 }
 
 BodyResponse Pipeline::target_response(std::size_t index, const Observation& seen, const StopFlag* stop) {
@@ -208,29 +176,9 @@ PulseTrain Pipeline::pulse_train(std::size_t sample) const {
 
 GeneratedSample Pipeline::generate_sample(std::size_t sample, const StopFlag* stop) const {
   const PulseTrain train = pulse_train(sample);
-  return received_sample(sample, train, *shared_response(sample, train, stop));
-}
-
-std::shared_ptr<const BodyResponse> Pipeline::shared_response(std::size_t sample, const PulseTrain& train,
-                                                              const StopFlag* stop) const {
-  const auto made = [&] { return std::make_shared<const BodyResponse>(response(plan_.address(sample), train, stop)); };
-  if (plan_.maps_per_interval() == 1) return made();
-  const std::size_t first = plan_.first_of_interval(sample);
-  std::shared_ptr<ResponseSlot> slot;
-  {
-    const std::lock_guard lock(responses_mutex_);
-    for (const auto& known : responses_) {
-      if (known->first_sample == first) slot = known;
-    }
-    if (!slot) {
-      slot = std::make_shared<ResponseSlot>();
-      slot->first_sample = first;
-      if (responses_.size() == kResponsesKept) responses_.erase(responses_.begin());
-      responses_.push_back(slot);
-    }
-  }
-  std::call_once(slot->made, [&] { slot->response = made(); });
-  return slot->response;
+  const auto made = [&] { return response(plan_.address(sample), train, stop); };
+  if (plan_.maps_per_interval() == 1) return received_sample(sample, train, made());
+  return received_sample(sample, train, *responses_.get(plan_.first_of_interval(sample), made));
 }
 
 GeneratedSample Pipeline::received_sample(std::size_t sample, const PulseTrain& train,

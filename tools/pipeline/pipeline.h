@@ -5,7 +5,6 @@
 // stage.
 
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -20,6 +19,7 @@
 #include "sim/scattering/response/body_response.h"
 #include "sim/scenario/sample_plan.h"
 #include "tools/pipeline/scene.h"
+#include "tools/pipeline/shared_results.h"
 
 namespace seaglint {
 
@@ -80,10 +80,6 @@ class Pipeline {
   // H of a target: the sum over its bodies, or its ideal points.
   static BodyResponse target_response(std::size_t target, const Observation& seen, const StopFlag* stop);
 
-  // response() of a sample's interval, computed once for its maps.
-  std::shared_ptr<const BodyResponse> shared_response(std::size_t sample, const PulseTrain& train,
-                                                      const StopFlag* stop) const;
-
   // The echo of a sample. Throws InputError, naming target and sample, when it has no power.
   Echo echo_of(std::size_t sample, const GeneratedSample& made, const BodyResponse& response, const Scene& scene) const;
 
@@ -93,12 +89,8 @@ class Pipeline {
   std::shared_ptr<const std::vector<Target>> targets_;
   double range_window_m_ = 0;
 
-  struct SceneSlot;
-  mutable std::mutex scenes_mutex_;
-  mutable std::vector<std::shared_ptr<SceneSlot>> scenes_;  // most recently made last
-  struct ResponseSlot;
-  mutable std::mutex responses_mutex_;
-  mutable std::vector<std::shared_ptr<ResponseSlot>> responses_;  // likewise
+  mutable SharedResults<std::pair<int, int>, Scene> scenes_{8};     // by sea state and realisation
+  mutable SharedResults<std::size_t, BodyResponse> responses_{16};  // by the first sample of an interval and target
 };
 
 // The axes of a map.

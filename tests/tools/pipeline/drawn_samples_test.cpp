@@ -48,8 +48,8 @@ TEST(DrawnSamples, HaveTheirValuesAsColumns) {
     EXPECT_EQ(record.azimuth_deg, number(record, "view.azimuth_deg"));
     EXPECT_EQ(record.significant_wave_height_m, number(record, "sea.significant_wave_height_m"));
     EXPECT_NEAR(record.scr_per_pulse_db, number(record, "clutter.scr_db"), 1e-6);
-    // The point's place along the line of sight and its amplitude, in a clutter 10 dB below a pulse's echo and farther
-    // below the peak.
+    // The peak of a point is its amplitude but for 15 % up to half a cell beside the peak of a Hann lobe in range, 1 %
+    // of clutter 10 dB below one pulse and some 40 dB below the peak, and carriers that no pulse uses.
     const double amplitude = record.label == 1 ? 2 : number(record, "targets.far.points.0.amplitude_m");
     EXPECT_NEAR(record.peak_m, amplitude, 0.25 * amplitude);
     if (record.label == 0) amplitudes.insert(amplitude);
