@@ -2,7 +2,7 @@
 #pragma once
 
 // What a map has outside of its target: clutter, noise, and what the processing leaks into them (range side lobes of
-// the hop pedestal). If it tells the class of a target whose geometry is matched, the data set has a leak.
+// the hop pedestal). Where it separates targets of equal geometry, the data set has a leak.
 
 #include <vector>
 

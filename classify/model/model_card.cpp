@@ -11,6 +11,7 @@
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/core/text/json_keys.h"
+#include "sim/core/text/json_number.h"
 #include "sim/core/text/json_problem.h"
 #include "sim/core/text/shown.h"
 #include "sim/scenario/writer.h"
@@ -38,7 +39,7 @@ std::string axis_difference(const char* name, const AxisExtent& axis, const Axis
 }
 
 // JSON has no NaN: an undefined value is null.
-ordered_json number(double value) { return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr); }
+
 double number(const ordered_json& json) {
   return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
 }
@@ -55,12 +56,12 @@ ordered_json to_array(const std::vector<ValueRange>& ranges, const std::vector<s
   for (const ValueRange& range : ranges) {
     ordered_json entry{{"name", range.name},
                        {"units", range.unit},
-                       {"lowest", number(range.lowest)},
-                       {"highest", number(range.highest)},
+                       {"lowest", number_or_null(range.lowest)},
+                       {"highest", number_or_null(range.highest)},
                        {"undefined_in_some", range.has_undefined}};
     for (std::size_t label = 0; label < classes.size(); ++label)
       for (const double quantile : range.by_label[label])
-        entry["quantiles_5_50_95"][classes[label]].push_back(number(quantile));
+        entry["quantiles_5_50_95"][classes[label]].push_back(number_or_null(quantile));
     json.push_back(std::move(entry));
   }
   return json;

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <utility>
 
+#include "classify/model/data_rows.h"
 #include "sim/core/numbers/quantile.h"
 #include "sim/core/numbers/random.h"
 
@@ -147,38 +148,21 @@ Calibration calibration(std::span<const Prediction> predictions) {
   return result;
 }
 
-namespace {
-
-// Drawn heights: bins of about equal numbers of rows, by their mean height to 0.01 m. Rows of one height stay together.
-std::map<double, std::vector<Prediction>> bins_of_heights(const std::map<double, std::vector<Prediction>>& by_height,
-                                                          std::size_t rows) {
-  std::map<double, std::vector<Prediction>> bins;
-  std::vector<Prediction> bin;
-  double sum = 0;
-  std::size_t before = 0;
-  for (const auto& [height, same] : by_height) {
-    bin.insert(bin.end(), same.begin(), same.end());
-    sum += height * static_cast<double>(same.size());
-    before += same.size();
-    if (before * kWaveHeightBins < rows * (bins.size() + 1)) continue;
-    std::vector<Prediction>& kept = bins[std::round(100 * sum / static_cast<double>(bin.size())) / 100];
-    kept.insert(kept.end(), bin.begin(), bin.end());
-    bin.clear();
-    sum = 0;
-  }
-  return bins;
-}
-
-}  // namespace
-
 std::vector<WaveHeightScores> score_by_wave_height(std::span<const Prediction> predictions, int bootstrap_samples,
                                                    std::uint64_t seed, std::uint64_t bootstrap_index) {
-  std::map<double, std::vector<Prediction>> by_height;
-  for (const Prediction& p : predictions) by_height[p.wave_height_m].push_back(p);
-  if (by_height.size() > kMostWaveHeights) by_height = bins_of_heights(by_height, predictions.size());
+  ColumnOfRows heights{"significant_wave_height_m", "m", false, {}, {}};
+  for (const Prediction& p : predictions) heights.numbers.push_back(p.wave_height_m);
   std::vector<WaveHeightScores> result;
-  for (const auto& [height, rows] : by_height) {
-    result.push_back({height, score(rows, bootstrap_samples, seed, bootstrap_index + 1 + result.size())});
+  for (const ColumnBin& bin : bins_of(heights, kMostWaveHeights, kWaveHeightBins)) {
+    std::vector<Prediction> rows;
+    double sum = 0;
+    for (const std::size_t row : bin.rows) {
+      rows.push_back(predictions[row]);
+      sum += predictions[row].wave_height_m;
+    }
+    const double mean = std::round(100 * sum / static_cast<double>(rows.size())) / 100;
+    result.push_back({bin.lowest == bin.highest ? bin.lowest : mean,
+                      score(rows, bootstrap_samples, seed, bootstrap_index + 1 + result.size())});
   }
   return result;
 }

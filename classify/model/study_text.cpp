@@ -6,14 +6,13 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "sim/core/text/json_number.h"
+
 namespace seaglint {
 
 namespace {
 
 using nlohmann::ordered_json;
-
-// JSON has no NaN: an undefined value is null.
-ordered_json number(double value) { return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr); }
 
 ordered_json to_object(const Evaluation& evaluation) {
   ordered_json json = to_object(evaluation.scores);
@@ -43,10 +42,10 @@ ordered_json to_object(const Scores& scores) {
   ordered_json json;
   json["rows"] = scores.rows;
   json["groups"] = scores.groups;
-  json["accuracy"] = number(scores.accuracy);
-  json["accuracy_95"] = {number(scores.accuracy_95.low), number(scores.accuracy_95.high)};
-  json["auc"] = number(scores.auc);
-  json["log_loss"] = number(scores.log_loss);
+  json["accuracy"] = number_or_null(scores.accuracy);
+  json["accuracy_95"] = {number_or_null(scores.accuracy_95.low), number_or_null(scores.accuracy_95.high)};
+  json["auc"] = number_or_null(scores.auc);
+  json["log_loss"] = number_or_null(scores.log_loss);
   json["confusion"] = {{"array_as_array", scores.confusion[0][0]},
                        {"array_as_ship", scores.confusion[0][1]},
                        {"ship_as_array", scores.confusion[1][0]},

@@ -9,6 +9,10 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "classify/model/study_text.h"
+#include "sim/core/numbers/random.h"
+#include "sim/core/text/json_number.h"
+
 namespace seaglint {
 
 namespace {
@@ -34,12 +38,11 @@ std::vector<std::pair<std::string, const Evaluation*>> baselines(const Study& st
   return all;
 }
 
-ordered_json number(double value) { return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr); }
-
 ordered_json to_object(const Evaluation& evaluation) {
   const auto figures = [](const Scores& scores) {
-    return ordered_json{{"accuracy", number(scores.accuracy)},
-                        {"interval", {number(scores.accuracy_95.low), number(scores.accuracy_95.high)}}};
+    return ordered_json{
+        {"accuracy", number_or_null(scores.accuracy)},
+        {"interval", {number_or_null(scores.accuracy_95.low), number_or_null(scores.accuracy_95.high)}}};
   };
   ordered_json json = figures(evaluation.scores);
   for (const WaveHeightScores& entry : evaluation.by_wave_height)
@@ -47,17 +50,12 @@ ordered_json to_object(const Evaluation& evaluation) {
   return json;
 }
 
-std::string percent(const Scores& scores) { return fmt::format("{:.1f}", 100 * scores.accuracy); }
-
-std::string with_interval(double accuracy, const ConfidenceInterval& interval) {
-  if (!std::isfinite(interval.low)) return fmt::format("{:.1f}", 100 * accuracy);
-  return fmt::format("{:.1f} ({:.0f}-{:.0f})", 100 * accuracy, 100 * interval.low, 100 * interval.high);
-}
+std::string rounded(const Scores& scores) { return fmt::format("{:.1f}", 100 * scores.accuracy); }
 
 // "80.0 / 99.0 / 99.2", by wave height.
 std::string by_height(const Evaluation& evaluation) {
   std::vector<std::string> values;
-  for (const WaveHeightScores& entry : evaluation.by_wave_height) values.push_back(percent(entry.scores));
+  for (const WaveHeightScores& entry : evaluation.by_wave_height) values.push_back(rounded(entry.scores));
   return fmt::format("{}", fmt::join(values, " / "));
 }
 
@@ -68,12 +66,16 @@ std::string heights(const Evaluation& evaluation) {
   return fmt::format("{}", fmt::join(values, " / "));
 }
 
-// Whether a is at least b: undecided when it is less by no more than the interval of 95 % of the two estimates'
-// difference, taken as independent.
+// Half of the interval of 95 % of a - b, taken as independent, which is no smaller than that of estimates on the same
+// maps, as they are positively correlated.
+double half_interval(const Scores& a, const Scores& b) {
+  return normal_quantile(0.975) * std::hypot(estimate_of(a).standard_error, estimate_of(b).standard_error);
+}
+
+// Whether a is at least b: undecided when it is less by no more than half_interval().
 Verdict at_least(const Scores& a, const Scores& b) {
   if (a.accuracy >= b.accuracy) return Verdict::kHeld;
-  const double error = std::hypot(estimate_of(a).standard_error, estimate_of(b).standard_error);
-  return b.accuracy - a.accuracy <= 1.96 * error ? Verdict::kUndecided : Verdict::kNotHeld;
+  return b.accuracy - a.accuracy <= half_interval(a, b) ? Verdict::kUndecided : Verdict::kNotHeld;
 }
 
 Verdict both(Verdict a, Verdict b) {
@@ -83,8 +85,7 @@ Verdict both(Verdict a, Verdict b) {
 
 Claim above_the_papers_accuracy(const Study& study) {
   const Scores& scores = outcome_of(study, "handmade").primary.scores;
-  Claim claim{"hand-made features are above 86 %", Verdict::kUndecided,
-              with_interval(scores.accuracy, scores.accuracy_95) + " %"};
+  Claim claim{"hand-made features are above 86 %", Verdict::kUndecided, percent(scores) + " %"};
   if (scores.accuracy_95.low > kPaperHandmade) claim.verdict = Verdict::kHeld;
   if (scores.accuracy_95.high < kPaperHandmade) claim.verdict = Verdict::kNotHeld;
   return claim;
@@ -96,7 +97,7 @@ Claim both_are_best(const Study& study) {
                &network = outcome_of(study, "cnn").primary.scores;
   return {"hand-made and learned features together are the best",
           both(at_least(fused, handmade), at_least(fused, network)),
-          fmt::format("fused {}, hand-made {}, network {} %", percent(fused), percent(handmade), percent(network))};
+          fmt::format("fused {}, hand-made {}, network {} %", rounded(fused), rounded(handmade), rounded(network))};
 }
 
 // From the lowest to the highest waves.
@@ -106,8 +107,7 @@ Claim rises_with_the_waves(const Study& study) {
               fmt::format("{} % at Hs {} m", by_height(handmade), heights(handmade))};
   if (handmade.by_wave_height.size() < 2) return claim;
   const Scores &low = handmade.by_wave_height.front().scores, &high = handmade.by_wave_height.back().scores;
-  const double error = std::hypot(estimate_of(low).standard_error, estimate_of(high).standard_error);
-  if (high.accuracy - low.accuracy > 1.96 * error) claim.verdict = Verdict::kHeld;
+  if (high.accuracy - low.accuracy > half_interval(high, low)) claim.verdict = Verdict::kHeld;
   if (high.accuracy < low.accuracy) claim.verdict = Verdict::kNotHeld;
   return claim;
 }
@@ -117,20 +117,20 @@ Claim trees_are_superior(const Study& study) {
   for (const auto& [name, group] : {std::pair{"hand-made", "handmade"}, {"network", "cnn"}, {"fused", "fused"}}) {
     const Outcome& outcome = outcome_of(study, group);
     claim.verdict = both(claim.verdict, at_least(outcome.primary.scores, outcome.linear.scores));
-    claim.why += fmt::format("{}{} {} and {}", claim.why.empty() ? "" : ", ", name, percent(outcome.primary.scores),
-                             percent(outcome.linear.scores));
+    claim.why += fmt::format("{}{} {} and {}", claim.why.empty() ? "" : ", ", name, rounded(outcome.primary.scores),
+                             rounded(outcome.linear.scores));
   }
   claim.why += " %";
   return claim;
 }
 
-Claim motion_alone_tells(const Study& study) {
-  Claim claim{"nothing but motion tells the class", Verdict::kHeld, ""};
+Claim motion_alone_separates(const Study& study) {
+  Claim claim{"motion alone separates the classes", Verdict::kHeld, ""};
   for (const FloorEntry& entry : floor_of(study)) {
-    if (!std::isfinite(entry.interval.low)) claim.verdict = both(claim.verdict, Verdict::kUndecided);
+    if (!std::isfinite(entry.scores.accuracy_95.low)) claim.verdict = both(claim.verdict, Verdict::kUndecided);
     if (!entry.leaks) continue;
     claim.verdict = Verdict::kNotHeld;
-    claim.why += fmt::format("{}{} {} %", claim.why.empty() ? "" : ", ", entry.name, percent(entry.scores));
+    claim.why += fmt::format("{}{} {} %", claim.why.empty() ? "" : ", ", entry.name, rounded(entry.scores));
   }
   if (claim.why.empty()) claim.why = "every quantity is at chance";
   return claim;
@@ -152,13 +152,13 @@ std::vector<FloorEntry> floor_of(const Study& study) {
   std::vector<Estimate> estimates;
   for (const ProbeResult& probe : study.probes) {
     if (probe.kind == ProbeKind::kFeature && probe.name != "sigma_r alone") continue;
-    entries.push_back({probe.name, probe.evaluations[kUnseenSeas].scores, {}});
+    entries.push_back({probe.name, probe.evaluations[kUnseenSeas].scores});
     estimates.push_back(estimate_of(entries.back().scores));
   }
   const std::vector<ConfidenceInterval> intervals = holm_intervals(estimates);
   const std::vector<bool> rejected = holm_rejections(estimates);
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    entries[i].interval = intervals[i];
+    entries[i].scores.accuracy_95 = intervals[i];
     entries[i].leaks = rejected[i];
   }
   return entries;
@@ -166,7 +166,7 @@ std::vector<FloorEntry> floor_of(const Study& study) {
 
 std::vector<Claim> claims_of(const Study& study) {
   return {above_the_papers_accuracy(study), both_are_best(study), rises_with_the_waves(study),
-          trees_are_superior(study), motion_alone_tells(study)};
+          trees_are_superior(study), motion_alone_separates(study)};
 }
 
 ordered_json benchmark_json(const Study& study) {
@@ -176,7 +176,7 @@ ordered_json benchmark_json(const Study& study) {
   for (const FloorEntry& entry : floor) {
     const auto probe = std::ranges::find(study.probes, entry.name, &ProbeResult::name);
     ordered_json object = to_object(probe->evaluations[kUnseenSeas]);
-    object["interval"] = {number(entry.interval.low), number(entry.interval.high)};
+    object["interval"] = {number_or_null(entry.scores.accuracy_95.low), number_or_null(entry.scores.accuracy_95.high)};
     object["leaks"] = entry.leaks;
     json["floor"][entry.name] = object;
   }
@@ -195,14 +195,11 @@ std::string benchmark_text(const Study& study) {
   std::string all = "Accuracy in % on unseen seas (95 % interval by bootstrap over seas)\n\n";
   all += fmt::format("  {:<28}{:>18}  by Hs\n", "", "all");
   for (const auto& [name, evaluation] : baselines(study)) {
-    all +=
-        fmt::format("  {:<28}{:>18}  {}\n", name,
-                    with_interval(evaluation->scores.accuracy, evaluation->scores.accuracy_95), by_height(*evaluation));
+    all += fmt::format("  {:<28}{:>18}  {}\n", name, percent(evaluation->scores), by_height(*evaluation));
   }
   all += "\nWithout motion (intervals by Holm over all of them; * = differs from chance)\n\n";
   for (const FloorEntry& entry : floor_of(study)) {
-    all += fmt::format("  {:<28}{:>18}{}\n", entry.name, with_interval(entry.scores.accuracy, entry.interval),
-                       entry.leaks ? " *" : "");
+    all += fmt::format("  {:<28}{:>18}{}\n", entry.name, percent(entry.scores), entry.leaks ? " *" : "");
   }
   all += "\nThe paper's claims on this data set\n\n";
   for (const Claim& claim : claims_of(study))
@@ -216,7 +213,7 @@ std::string benchmark_row(const std::string& name, std::size_t maps, std::size_t
       floor, {}, [](const FloorEntry& entry) { return std::abs(entry.scores.accuracy - 0.5); });
   const auto cell = [&](const char* group) { return by_height(outcome_of(study, group).primary); };
   return fmt::format("| `{}` | {}, {} | {} | {} | {} | {} {} |\n", name, maps, seas, cell("handmade"), cell("cnn"),
-                     cell("fused"), highest->name, percent(highest->scores));
+                     cell("fused"), highest->name, rounded(highest->scores));
 }
 
 }  // namespace seaglint

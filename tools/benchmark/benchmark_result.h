@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// What a benchmark states: accuracies of the baselines on unseen seas, what the class can be told from without motion,
-// and the claims of the paper on this data set.
+// What a benchmark states: accuracies of the baselines on unseen seas, of quantities other than motion, and the claims
+// of the paper on this data set.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -13,12 +13,11 @@
 
 namespace seaglint {
 
-// A quantity that tells the class without the target's motion, classified alone on unseen seas.
+// A quantity other than motion, classified alone on unseen seas.
 struct FloorEntry {
   std::string name;
-  Scores scores;
-  ConfidenceInterval interval;  // Holm's, over all entries; NaN with one sea
-  bool leaks = false;           // Holm's procedure rejects chance
+  Scores scores;       // accuracy_95: Holm's interval over all entries; NaN with one sea
+  bool leaks = false;  // Holm's procedure rejects chance
 };
 
 // All probes of a study but the features of motion (MWR, CCF, sigma_v).
@@ -34,7 +33,7 @@ struct Claim {
 };
 
 // In this order: hand-made features above 86 %; both together no worse than either; hand-made features rise with the
-// wave height; trees no worse than logistic regression; nothing but motion tells the class.
+// wave height; trees no worse than logistic regression; motion alone separates the classes.
 std::vector<Claim> claims_of(const Study& study);
 
 // Members `baselines` and `floor` (name -> accuracy, interval, by wave height) and `claims`. Fractions; null where

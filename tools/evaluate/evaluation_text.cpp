@@ -11,6 +11,7 @@
 #include "classify/model/study_text.h"
 #include "seaglint_version.h"
 #include "sim/core/text/escape.h"
+#include "sim/core/text/json_number.h"
 
 namespace seaglint {
 
@@ -19,8 +20,6 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr const char* kTitles[3] = {"hand-made", "CNN", "fused"};
-
-ordered_json number(double value) { return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr); }
 
 std::string row_of(const std::string& what, const std::array<Scores, 3>& scores) {
   std::string line = fmt::format("  {:<24}{:>7}{:>6}", what, scores[0].rows, scores[0].groups);
@@ -55,12 +54,12 @@ std::string outside_table(const std::vector<OutsideCount>& counts, std::size_t r
 }
 
 ordered_json to_object(const Calibration& calibration) {
-  ordered_json json{{"expected_error", number(calibration.expected_error)}, {"bins", ordered_json::array()}};
+  ordered_json json{{"expected_error", number_or_null(calibration.expected_error)}, {"bins", ordered_json::array()}};
   for (const CalibrationBin& bin : calibration.bins) {
     json["bins"].push_back({{"lowest", bin.lowest},
                             {"rows", bin.rows},
-                            {"mean_probability", number(bin.mean_probability)},
-                            {"ships", number(bin.ships)}});
+                            {"mean_probability", number_or_null(bin.mean_probability)},
+                            {"ships", number_or_null(bin.ships)}});
   }
   return json;
 }
@@ -70,8 +69,8 @@ ordered_json to_array(const std::vector<OutsideCount>& counts) {
   for (const OutsideCount& count : counts) {
     json.push_back({{"name", count.range.name},
                     {"units", count.range.unit},
-                    {"lowest", number(count.range.lowest)},
-                    {"highest", number(count.range.highest)},
+                    {"lowest", number_or_null(count.range.lowest)},
+                    {"highest", number_or_null(count.range.highest)},
                     {"below", count.below},
                     {"above", count.above},
                     {"undefined", count.undefined}});
@@ -174,8 +173,9 @@ std::string evaluation_json(const ModelEvaluation& evaluation, const SavedModel&
   for (const ColumnScores& column : evaluation.by) {
     ordered_json entry{{"column", column.column}, {"units", column.unit}, {"bins", ordered_json::array()}};
     for (const BinScores& scored : column.bins) {
-      ordered_json bin{
-          {"value", scored.bin.text}, {"lowest", number(scored.bin.lowest)}, {"highest", number(scored.bin.highest)}};
+      ordered_json bin{{"value", scored.bin.text},
+                       {"lowest", number_or_null(scored.bin.lowest)},
+                       {"highest", number_or_null(scored.bin.highest)}};
       for (std::size_t i = 0; i < kModelNames.size(); ++i) bin[kModelNames[i]] = to_object(scored.scores[i]);
       entry["bins"].push_back(std::move(bin));
     }

@@ -5,16 +5,16 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "sim/core/text/json_number.h"
+
 namespace seaglint {
 
 namespace {
 
 using nlohmann::ordered_json;
 
-ordered_json number(double value) { return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr); }
-
 ordered_json to_object(const Quartiles& q) {
-  return {{"lower", number(q.lower)}, {"median", number(q.median)}, {"upper", number(q.upper)}};
+  return {{"lower", number_or_null(q.lower)}, {"median", number_or_null(q.median)}, {"upper", number_or_null(q.upper)}};
 }
 
 bool holds(const RowFilter& filter, const SampleRecord& record) {
@@ -96,10 +96,10 @@ ordered_json report_numbers(const ReportData& data) {
                                   {"ccf", record.ccf},
                                   {"sigma_r_m", record.sigma_r_m},
                                   {"sigma_v_mps", record.sigma_v_mps},
-                                  {"line_slope_per_s", number(line.slope)},
-                                  {"line_explained", number(line.explained)},
-                                  {"scr_per_pulse_db", number(record.scr_per_pulse_db)},
-                                  {"scr_peak_cell_db", number(record.scr_peak_cell_db)}});
+                                  {"line_slope_per_s", number_or_null(line.slope)},
+                                  {"line_explained", number_or_null(line.explained)},
+                                  {"scr_per_pulse_db", number_or_null(record.scr_per_pulse_db)},
+                                  {"scr_peak_cell_db", number_or_null(record.scr_peak_cell_db)}});
   }
   return json;
 }
