@@ -10,11 +10,11 @@
 
 namespace seaglint {
 
-// The centres of another observation of the same kind of target, in the same order:
-//   range reversed (seen from the other end) and velocity reversed (the motion run backwards), each in half of the
-//   cases ranges times a factor uniform in 0.8..1.25 (another aspect, another spacing) v += w (r - mean r), w normal of
-//   0.00125 rad/s: a constant rotation of the whole, or the radar's own motion
-// Residuals from the line of velocity over range keep their magnitude.
+// The centres of another observation of the same kind of target, in the same order. The ranges change sign in half of
+// the cases, as seen from the other end, and so do the velocities, as for the same motion run backwards. The ranges are
+// multiplied by a factor uniform in 0.8..1.25, another aspect or spacing. v += w (r - mean r) with w normal of 0.00125
+// rad/s adds a constant rotation of the whole, or the radar's own motion. Residuals from the line of velocity over
+// range keep their magnitude.
 CentreList observed_otherwise(std::span<const ScatteringCentre> centres, Random& random);
 
 // Adds errors of estimation, normal: 0.001 m/s in velocity, that of a centre 32 dB above clutter and noise in its cell

@@ -26,7 +26,7 @@ struct Arguments {
 
 void add_benchmark(CommandOptions& program, CommandContext& context) {
   CommandOptions command = program.add_command(
-      "benchmark", "Make a data set in which motion alone tells the classes, and evaluate the baselines on it");
+      "benchmark", "Make a data set whose classes differ in motion alone, and evaluate the baselines on it");
   auto arguments = std::make_shared<Arguments>();
   command.add_option("NAME", arguments->name, "Name of a scenario of scenarios/benchmark").required();
   command.add_option("-o,--output", arguments->directory, "Directory of the results, new or empty").required();
