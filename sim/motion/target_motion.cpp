@@ -17,22 +17,12 @@ constexpr std::uint64_t kIndependentSeas = std::uint64_t{1} << 48;
 
 }  // namespace
 
-std::vector<Vec2> layout_positions(const TargetSpec& target) {
-  std::vector<Vec2> places;
-  const LineLayout line = target.line.value_or(LineLayout{});
-  for (int i = 0; i < line.count; ++i)
-    places.emplace_back(line.centre_x_m + (i - 0.5 * (line.count - 1)) * line.spacing_m, line.centre_y_m);
-  return places;
-}
-
 Vec3 raft_origin(const TargetSpec& target) {
-  const LineLayout line = target.line.value_or(LineLayout{});
-  return {line.centre_x_m, line.centre_y_m, 0};
+  const Vec2 centre = layout_centre(target);
+  return {centre.x(), centre.y(), 0};
 }
 
-bool is_moving_raft(const TargetSpec& target) {
-  return target.bodies == LayoutBodies::kRigid && target.motion.model != MotionModel::kFixed;
-}
+bool is_moving_raft(const TargetSpec& target) { return is_raft(target) && target.motion.model != MotionModel::kFixed; }
 
 double rest_height_m(const TargetSpec& target) {
   return is_moving_raft(target) ? target.motion.origin_above_waterline_m : rest_position(target.motion, 0, 0).z();
@@ -40,8 +30,9 @@ double rest_height_m(const TargetSpec& target) {
 
 std::vector<Vec3> rest_positions(const TargetSpec& target) {
   std::vector<Vec3> positions;
+  const std::vector<double> heights_m = body_heights_m(target);
   for (const Vec2& place : layout_positions(target))
-    positions.emplace_back(place.x(), place.y(), rest_height_m(target));
+    positions.emplace_back(place.x(), place.y(), rest_height_m(target) + heights_m[positions.size()]);
   return positions;
 }
 
@@ -60,15 +51,19 @@ std::vector<Trajectory> simulate_target(const TargetSpec& target, const Body& bo
     return simulate_motion(body, rest, realise_sea(state, seed, kIndependentSeas + index), duration_s, seed, index);
   };
   const std::vector<Vec3> rests = rest_positions(target);
+  const std::vector<double> heights_m = body_heights_m(target), headings = body_headings_rad(target);
   std::vector<Trajectory> trajectories(rests.size());
-  if (target.bodies == LayoutBodies::kRigid) {
+  if (is_raft(target)) {
     const Vec3 origin = raft_origin(target);
     const Trajectory raft = moved(origin, first_body);
-    for (std::size_t i = 0; i < rests.size(); ++i) trajectories[i] = raft.of_point(rests[i] - origin);
+    for (std::size_t i = 0; i < rests.size(); ++i)
+      trajectories[i] = raft.of_point(rests[i] - origin).turned(headings[i]);
     return trajectories;
   }
-  parallel_for(rests.size(), thread_count(threads),
-               [&](std::size_t i) { trajectories[i] = moved(rests[i], first_body + i); });
+  parallel_for(rests.size(), thread_count(threads), [&](std::size_t i) {
+    const Vec3 above(0, 0, heights_m[i]);
+    trajectories[i] = moved(rests[i] - above, first_body + i).of_point(above).turned(headings[i]);
+  });
   return trajectories;
 }
 

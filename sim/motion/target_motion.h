@@ -8,14 +8,11 @@
 
 #include "sim/motion/body.h"
 #include "sim/motion/kinematics/trajectory.h"
+#include "sim/scenario/layout/layout.h"
 #include "sim/scenario/target_spec.h"
 #include "sim/sea/wave_field.h"
 
 namespace seaglint {
-
-// Rest positions on the water of the bodies of a target's layout, in T: a line along x about its centre; without a
-// layout one body at the origin.
-std::vector<Vec2> layout_positions(const TargetSpec& target);
 
 // Origin of a rigid raft's frame at rest, in T: the centre of the layout on the water.
 Vec3 raft_origin(const TargetSpec& target);
@@ -27,7 +24,8 @@ bool is_moving_raft(const TargetSpec& target);
 // rafts, so that a raft has the geometry of the floats; else 0, the waterline of a mesh.
 double rest_height_m(const TargetSpec& target);
 
-// Rest positions of the bodies' mesh origins, in T: layout_positions() at rest_height_m().
+// Rest positions of the bodies' mesh origins, in T: layout_positions() at rest_height_m() and body_heights_m() above
+// it.
 std::vector<Vec3> rest_positions(const TargetSpec& target);
 
 // Realisation index of a body's own random numbers; body counts from 0 over all targets of the scenario, in order
@@ -36,6 +34,7 @@ std::uint64_t body_index(std::uint64_t sea_index, std::size_t body);
 
 // One trajectory per body of the layout, from t = 0 to duration_s, all with the properties `body`, which of a rigid
 // raft (layout.bodies: rigid) are those of the raft: it moves in the waves at its origin, and each reflector with it.
+// A free body with a height of its own is that far above its float, fixed to it. Bodies are turned by their headings.
 // `sea` is realise_sea(state, seed, sea_index), common to all bodies unless the spec has `waves: independent`: then
 // each body has a realisation of its own (index body_index + 2^48). The result does not depend on `threads` (0 = all).
 // first_body: number of bodies of the targets before this one.

@@ -10,7 +10,9 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/dispersion.h"
+#include "sim/core/process/error.h"
 #include "sim/scenario/cases.h"
+#include "sim/scenario/layout/layout.h"
 
 namespace seaglint {
 
@@ -243,8 +245,27 @@ void check_solver(const TargetSpec& target, const ScenarioDocument& document) {
   }
 }
 
+void check_layout(const TargetSpec& target, const ScenarioDocument& document) {
+  if (!target.layout) return;
+  const std::string path = fmt::format("targets.{}.layout", target.name);
+  if (target.layout->line && target.layout->area) document.fail_at(path, "must have line or area, not both");
+  const auto ordered = [&](const std::optional<BodyRange>& range, const char* lowest) {
+    if (!range || range->lowest <= range->highest) return;
+    document.fail_at(path + lowest,
+                     fmt::format("value {}: must be at most {}, the highest", range->lowest, range->highest));
+  };
+  ordered(target.layout->heights_m, ".heights.lowest_m");
+  ordered(target.layout->headings_deg, ".headings.lowest_deg");
+  try {
+    layout_positions(target);
+  } catch (const InputError& error) {
+    document.fail_at(path + ".area", error.what());
+  }
+}
+
 void check_target(const TargetSpec& target, const ScenarioDocument& document) {
   const std::string path = "targets." + target.name;
+  check_layout(target, document);
   check_speed(target, document);
   check_solver(target, document);
   if (target.mesh.empty() && target.points.empty()) document.fail_at(path, "must have a mesh or points");

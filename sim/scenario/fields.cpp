@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "sim/core/process/error.h"
+#include "sim/scenario/layout/layout_fields.h"
 
 namespace seaglint {
 
@@ -31,14 +32,6 @@ std::string Bound::text() const {
 }
 
 namespace {
-
-// An enumeration whose values are 0, 1, ... in the order of the names.
-template <typename Enumeration, std::size_t n>
-void visit_choice(FieldVisitor& v, const char* key, Enumeration& value, const char* const (&names)[n]) {
-  auto index = static_cast<std::size_t>(value);
-  v.choice(key, index, names);
-  value = static_cast<Enumeration>(index);
-}
 
 // A text that is one of the names.
 template <std::size_t n>
@@ -161,13 +154,6 @@ void visit(SeaReflectionSpec& spec, FieldVisitor& v) {
   visit_choice(v, "paths", spec.paths, {"all", "direct_only", "multipath_only"});
 }
 
-void visit(LineLayout& layout, FieldVisitor& v) {
-  v.integer("count", layout.count, within(1, 1000));
-  v.number("spacing_m", layout.spacing_m, above_up_to(0, 10000));
-  v.number("centre_x_m", layout.centre_x_m, within(-1e5, 1e5));
-  v.number("centre_y_m", layout.centre_y_m, within(-1e5, 1e5));
-}
-
 void visit(MotionSpec& spec, FieldVisitor& v) {
   visit_choice(v, "model", spec.model, {"fixed", "ship", "float", "series", "rao"});
   v.flag("translations", spec.translations);
@@ -265,13 +251,9 @@ void visit(TargetSpec& spec, FieldVisitor& v) {
   }
   if (v.optional("sheet_thickness_mm", is_mesh))
     v.number("sheet_thickness_mm", spec.sheet_thickness_mm, within(0, 1000));
-  if (v.optional("layout", spec.line.has_value())) {
-    if (!spec.line) spec.line.emplace();
-    v.section("layout", [&](FieldVisitor& layout) {
-      layout.require("line");
-      layout.section("line", [&](FieldVisitor& line) { visit(*spec.line, line); });
-      visit_choice(layout, "bodies", spec.bodies, {"independent", "rigid"});
-    });
+  if (v.optional("layout", spec.layout.has_value())) {
+    if (!spec.layout) spec.layout.emplace();
+    v.section("layout", [&](FieldVisitor& layout) { visit_layout(*spec.layout, layout); });
   }
   if (v.optional("motion", is_mesh)) v.section("motion", [&](FieldVisitor& motion) { visit(spec.motion, motion); });
   if (v.optional("solver", is_mesh)) v.section("solver", [&](FieldVisitor& solver) { visit(spec.solver, solver); });

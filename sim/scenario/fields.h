@@ -78,6 +78,14 @@ class FieldVisitor {
   virtual bool optional(const char* key, bool present) = 0;
 };
 
+// An enumeration whose values are 0, 1, ... in the order of the names.
+template <typename Enumeration, std::size_t n>
+void visit_choice(FieldVisitor& v, const char* key, Enumeration& value, const char* const (&names)[n]) {
+  auto index = static_cast<std::size_t>(value);
+  v.choice(key, index, names);
+  value = static_cast<Enumeration>(index);
+}
+
 // All fields of a scenario, section by section, in output order.
 void visit_fields(Scenario& scenario, FieldVisitor& visitor);
 

@@ -93,7 +93,7 @@ void visit_ends(const ScenarioDocument& document, const Scenario& scenario,
         visit(read_values(with_values(document, scenario.variations, values), &scenario));
       } catch (const InputError& error) {
         throw InputError(fmt::format("{}; where {}, drawn by {}, is {}", error.what(), variation.key_path,
-                                     variation.distribution.text(), end));
+                                     variation.text(), end));
       }
     }
   }

@@ -9,12 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "sim/scenario/layout/layout_spec.h"
+
 namespace seaglint {
 
 enum class MotionModel { kFixed, kShip, kFloat, kSeries, kRao };
 enum class WaveSharing { kSameField, kIndependent };
 enum class TargetRole { kClass, kPart };
-enum class LayoutBodies { kIndependent, kRigid };
 enum class HeadingConvention { kTowards, kFrom };  // of waves
 enum class TimeFactor { kPlus, kMinus };           // e^{+iwt}, e^{-iwt}
 
@@ -60,13 +61,6 @@ struct MotionSpec {
   // between samples and of integration, 0.001 <= x <= 0.1, at most an eighth of the shortest natural period
   double step_s = 0.02;
   double spin_up_s = 120;  // simulated before t = 0, 0 <= x <= 3600
-};
-
-struct LineLayout {
-  int count = 1;          // 1 <= x <= 1000
-  double spacing_m = 40;  // 0 < x <= 10000
-  double centre_x_m = 0;  // of the line, target frame, |x| <= 1e5
-  double centre_y_m = 0;
 };
 
 // Another target in the same sea and the same maps; its label, if any, is ignored there.
@@ -120,9 +114,7 @@ struct TargetSpec {
   std::string material = "pec";  // pec, a name of assets/materials, or a file
   std::vector<PartMaterialSpec> part_materials;  // later entries take precedence
   double sheet_thickness_mm = 0;                 // of open surfaces, 0 <= x <= 1000
-  std::optional<LineLayout> line;                // along x of the target frame, centred
-  // of a layout: each body moves by itself, or all move as one rigid raft; a raft has a layout
-  LayoutBodies bodies = LayoutBodies::kIndependent;
+  std::optional<LayoutSpec> layout;              // without: one body at the origin
   MotionSpec motion;
   SolverSpec solver;
   std::vector<PointSpec> points;

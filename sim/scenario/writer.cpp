@@ -87,7 +87,7 @@ class ValueVisitor : public FieldVisitor {
   void line(const char* key, const std::string& value) {
     const auto drawn = std::find_if(variations_.begin(), variations_.end(),
                                     [&](const Variation& variation) { return variation.key_path == path_of(key); });
-    write(key, drawn == variations_.end() ? value : drawn->distribution.text());
+    write(key, drawn == variations_.end() ? value : drawn->text());
   }
 
   const std::vector<Variation>& variations_;

@@ -55,13 +55,13 @@ MovingBodies simulate_bodies(const Scenario& scenario, const SeaChoice& choice, 
     const std::vector<Trajectory> all = simulate_target(target, body, scene.sea.state, scene.sea.field, duration_s,
                                                         scenario.seed, key, first_body, threads);
     first_body += all.size();
-    if (target.bodies == LayoutBodies::kRigid) {
+    if (is_raft(target)) {
       scene.bodies.push_back({target.name, all.front(), mesh, mean_speed(body)});
       continue;
     }
     for (std::size_t i = 0; i < all.size(); ++i) {
       scene.bodies.push_back(
-          {target.line ? fmt::format("{}_{}", target.name, i + 1) : target.name, all[i], mesh, mean_speed(body)});
+          {target.layout ? fmt::format("{}_{}", target.name, i + 1) : target.name, all[i], mesh, mean_speed(body)});
     }
   }
   if (scene.bodies.empty()) throw InputError("targets: none of them is a mesh, so nothing moves in the waves");

@@ -47,9 +47,11 @@ double reach_m(const Target& target, double interval_s) {
     reach = std::max({reach, position.norm(), (position + velocity * interval_s).norm()});
   }
   const double radius = radius_m(target.mesh);
-  for (const Vec3& rest : target.rest_positions) {
-    // A reflector of a raft turns about the raft's origin with an arm, any other body about its own.
-    const Vec3 pivot = target.spec.bodies == LayoutBodies::kRigid ? raft_origin(target.spec) : rest;
+  const std::vector<double> heights_m = body_heights_m(target.spec);
+  for (std::size_t i = 0; i < target.rest_positions.size(); ++i) {
+    const Vec3& rest = target.rest_positions[i];
+    // A reflector of a raft turns about the raft's origin with an arm, any other body about its place on the water.
+    const Vec3 pivot = is_raft(target.spec) ? raft_origin(target.spec) : Vec3(rest - Vec3(0, 0, heights_m[i]));
     const double arm = (rest - pivot).norm() + radius;
     reach = std::max({reach, pivot.norm() + arm, (pivot + target.relative_velocity_mps * interval_s).norm() + arm});
   }
@@ -78,6 +80,9 @@ TargetSource source_of(const Scenario& scenario, const TargetSpec& spec) {
   return source;
 }
 
+// Lowest rest height of a body's mesh origin above the water, m.
+double lowest_height_m(const TargetSpec& spec) { return rest_height_m(spec) + std::ranges::min(body_heights_m(spec)); }
+
 ScattererSettings scatterer_settings(const Scenario& scenario, const TargetSpec& spec) {
   ScattererSettings settings{
       .waterline_m = std::nullopt,
@@ -86,8 +91,8 @@ ScattererSettings scatterer_settings(const Scenario& scenario, const TargetSpec&
       .edges = spec.solver.edges,
       .lowest_hz = 1e9 * lowest_ghz(scenario.radar),
       .highest_hz = 1e9 * highest_ghz(scenario.radar)};
-  // The radar's image illuminates the hull from below.
-  if (scenario.sea_reflection.enabled) settings.waterline_m = -rest_height_m(spec);
+  // The radar's image illuminates the hull from below. Bodies at several heights are above the water.
+  if (scenario.sea_reflection.enabled) settings.waterline_m = -lowest_height_m(spec);
   return settings;
 }
 
@@ -120,8 +125,15 @@ void check_series(const Scenario& scenario, const SamplePlan& plan, const Target
 
 // Throws InputError for a target that is entirely under water, if the sea reflects.
 void check_above_water(const Scenario& scenario, const TargetSpec& spec, const TriangleMesh& mesh) {
-  const double top_m = bounds(mesh).upper.z(), height_m = rest_height_m(spec);
-  if (!scenario.sea_reflection.enabled || top_m + height_m > 0) return;
+  if (!scenario.sea_reflection.enabled) return;
+  const double top_m = bounds(mesh).upper.z(), bottom_m = bounds(mesh).lower.z(), height_m = lowest_height_m(spec);
+  if (spec.layout && spec.layout->heights_m && bottom_m + height_m < 0) {
+    throw InputError(fmt::format(
+        "{}: its lowest body reaches {:.6g} m below the water: with sea_reflection bodies at several heights must be "
+        "above it",
+        place_of(scenario, fmt::format("targets.{}.layout.heights", spec.name)), -(bottom_m + height_m)));
+  }
+  if (top_m + height_m > 0) return;
   if (spec.motion.model == MotionModel::kFloat || is_moving_raft(spec)) {
     throw InputError(fmt::format(
         "{}: value {}: must be greater than {:.6g} with sea_reflection, else the whole target is under water",
@@ -137,8 +149,7 @@ void check_above_water(const Scenario& scenario, const TargetSpec& spec, const T
 
 Body load_body(const Scenario& scenario, const TargetSpec& spec, const TriangleMesh& mesh) {
   try {
-    const bool is_raft = spec.bodies == LayoutBodies::kRigid;
-    return make_body(spec.motion, is_raft ? BodyShape{.box = {}, .hull = {}, .is_raft = true} : shape_of(mesh),
+    return make_body(spec.motion, is_raft(spec) ? BodyShape{.box = {}, .hull = {}, .is_raft = true} : shape_of(mesh),
                      scenario.folder);
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", place_of(scenario, "targets." + spec.name), error.what()));
@@ -181,10 +192,7 @@ Target moved(const Target& original, const TargetSpec& host, const CompanionSpec
     point.position_m[1] += companion.y_m;
     point.velocity_mps[0] += target.relative_velocity_mps.x();
   }
-  LineLayout line = target.spec.line.value_or(LineLayout{});
-  line.centre_x_m += companion.x_m;
-  line.centre_y_m += companion.y_m;
-  target.spec.line = line;
+  move_layout(target.spec, {companion.x_m, companion.y_m});
   return target;
 }
 
@@ -217,7 +225,10 @@ std::vector<Target> placed_targets(const Scenario& scenario, const std::function
 std::string fields_of(const Scenario& scenario, const TargetSpec& spec) {
   Scenario alone = scenario;
   alone.targets = {spec};
-  if (alone.targets[0].line) alone.targets[0].line = LineLayout{};  // a raft has another motion model than its bodies
+  if (spec.layout) {  // a raft has another motion model than its bodies, and heights are above the waterline
+    LayoutSpec& layout = *alone.targets[0].layout;
+    layout = {.line = LineLayout{}, .bodies = layout.bodies, .heights_m = layout.heights_m};
+  }
   alone.targets[0].companions.clear();
   return effective_yaml(alone);
 }

@@ -13,6 +13,7 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
+#include "sim/scenario/layout/layout.h"
 #include "sim/scenario/sample_plan.h"
 #include "tools/figure/figure.h"
 #include "tools/figure/mesh_picture.h"
@@ -338,14 +339,10 @@ void add_targets(FigureList& list, const std::vector<Target>& targets) {
         [&target](const fs::path& file) {
           write_file(file, png_bytes(picture_of(target.mesh, PictureView{.width = 1000})));
         },
-        fmt::format(
-            "<b>{}</b> ({}): {:.1f} × {:.1f} × {:.1f} m, {} triangles{}.", escape_html(spec.name),
-            spec.role == TargetRole::kPart ? "part of others" : fmt::format("label {}", spec.label), size.x(), size.y(),
-            size.z(), target.mesh.triangles.size(),
-            spec.line && spec.line->count > 1
-                ? fmt::format("; one of {} bodies in line{}, {:g} m apart", spec.line->count,
-                              spec.bodies == LayoutBodies::kRigid ? " on a rigid raft" : "", spec.line->spacing_m)
-                : std::string()),
+        fmt::format("<b>{}</b> ({}): {:.1f} × {:.1f} × {:.1f} m, {} triangles{}.", escape_html(spec.name),
+                    spec.role == TargetRole::kPart ? "part of others" : fmt::format("label {}", spec.label), size.x(),
+                    size.y(), size.z(), target.mesh.triangles.size(),
+                    body_count(spec) > 1 ? "; one of the bodies" + layout_text(spec) : std::string()),
         fmt::format("Picture of {}", target.spec.name));
   }
 }

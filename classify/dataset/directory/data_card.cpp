@@ -7,6 +7,7 @@
 #include "classify/dataset/format/drawn_columns.h"
 #include "classify/dataset/format/layout.h"
 #include "sim/core/text/escape.h"
+#include "sim/scenario/layout/layout.h"
 
 namespace seaglint {
 
@@ -24,10 +25,7 @@ std::string targets_table(const Scenario& scenario, const SamplePlan& plan) {
   for (const TargetSpec& target : scenario.targets) {
     std::string made_of =
         target.mesh.empty() ? fmt::format("{} ideal points", target.points.size()) : markdown_text(target.mesh);
-    if (target.line) {
-      made_of += fmt::format(", {} in line, {:g} m apart{}", target.line->count, target.line->spacing_m,
-                             target.bodies == LayoutBodies::kRigid ? ", on one rigid raft" : "");
-    }
+    made_of += layout_text(target);
     const bool is_part = target.role == TargetRole::kPart;
     table += fmt::format("| {} | {} | {} | {} |\n", markdown_text(target.name),
                          is_part ? "part of others" : fmt::format("{}", target.label),
@@ -52,7 +50,7 @@ std::string drawn_table(const Scenario& scenario) {
       "observation, common to all targets.\n\n| key | units | distribution | drawn per |\n|---|---|---|---|\n";
   for (const Variation& variation : scenario.variations) {
     table += fmt::format("| `{}` | {} | {} | {} |\n", variation.key_path, drawn_text(variation.key_path).units,
-                         markdown_text(variation.distribution.text()),
+                         markdown_text(variation.text()),
                          variation.per == DrawnPer::kSea           ? "sea"
                          : variation.per == DrawnPer::kObservation ? "observation"
                                                                    : "map");

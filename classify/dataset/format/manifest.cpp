@@ -19,7 +19,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr const char* kFormat = "seaglint data set 3";
+constexpr const char* kFormat = "seaglint data set 4";
 
 // Upper limits of a scenario: dataset.maps_per_shard, and all maps of its sweeps.
 constexpr std::uint64_t kMaxShardSamples = 10000;

@@ -10,6 +10,8 @@ std::span<const SampleColumn> sample_columns() {
       {"label", "1", "1 = ship, 0 = corner-reflector array", &R::label},
       {"target", "1", "index of the target in the scenario file", &R::target},
       {"target_name", "1", "name of the target in the scenario file", &R::target_name},
+      {"layout", "1", "layout of the target's bodies: single, line, ring, grid or random", &R::layout},
+      {"bodies", "1", "number of the target's bodies, without its companions", &R::bodies},
       {"group", "1", "sea realisation; maps of one group belong on one side of a split", &R::group},
       {"sea_state", "1", "index of the sea state in the scenario's sweeps", &R::sea_state},
       {"significant_wave_height_m", "m", "significant wave height Hs", &R::significant_wave_height_m},

@@ -27,6 +27,8 @@ struct SampleRecord {
   std::int64_t label = 0;
   std::int64_t target = 0;
   std::string target_name;
+  std::string layout;
+  std::int64_t bodies = 1;
   std::int64_t group = 0;
   std::int64_t sea_state = 0;
   double significant_wave_height_m = 0;

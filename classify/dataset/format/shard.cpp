@@ -16,7 +16,7 @@ namespace seaglint {
 
 namespace {
 
-constexpr const char* kFormat = "seaglint shard 4";
+constexpr const char* kFormat = "seaglint shard 5";
 constexpr std::size_t kMaxBytes = std::size_t{64} << 30;  // a limit beyond every scenario's
 
 // The values of a column, one per sample.

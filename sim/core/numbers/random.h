@@ -32,6 +32,7 @@ enum class Stream : std::uint32_t {
   kMeshChange = 17,
   kRayLattice = 18,
   kDraw = 19,
+  kLayout = 20,
   kTest = 1000,
 };
 

@@ -43,6 +43,12 @@ Trajectory Trajectory::of_point(const Vec3& point) const {
   return shifted;
 }
 
+Trajectory Trajectory::turned(double heading) const {
+  Trajectory turned = *this;
+  turned.heading_ += heading;
+  return turned;
+}
+
 double Trajectory::start_s() const { return samples_.empty() ? -std::numeric_limits<double>::infinity() : start_s_; }
 
 double Trajectory::end_s() const {
@@ -89,6 +95,7 @@ Pose Trajectory::pose(double t) const {
   pose.R = rotation_from_angles(motion.angles.x(), motion.angles.y(), motion.angles.z());
   pose.p = rest_position_ + motion.translation + rotation_centre_ - pose.R * rotation_centre_;
   pose.p += (t - carried_from_s_) * carrying_mps_;
+  if (heading_ != 0) pose.R = pose.R * rotation_from_angles(0, 0, heading_);
   return pose;
 }
 

@@ -34,11 +34,15 @@ class Trajectory {
   // sample() is unchanged: the translations remain those of the body's centre of rotation.
   Trajectory of_point(const Vec3& point) const;
 
+  // The same motion of a body whose frame at rest is turned by `heading` (rad) about z. sample() is unchanged.
+  Trajectory turned(double heading) const;
+
   // Motion at time t in [start, end]; throws std::out_of_range outside, beyond a tolerance of kEndSlack times the
   // duration for rounding.
   MotionSample sample(double t) const;
   static constexpr double kEndSlack = 2e-9;
-  // Pose of the body frame in T: p = rest + shift + c - R c with c the rotation centre, plus the drift.
+  // Pose of the body frame in T: p = rest + shift + c - R c with c the rotation centre, plus the drift; axes
+  // R Rz(heading).
   Pose pose(double t) const;
 
   // Infinite for a fixed body.
@@ -53,6 +57,7 @@ class Trajectory {
   Vec3 rotation_centre_ = Vec3::Zero();
   Vec3 carrying_mps_ = Vec3::Zero();
   double carried_from_s_ = 0;
+  double heading_ = 0;
 };
 
 }  // namespace seaglint

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "sim/core/process/error.h"
+#include "sim/core/text/words.h"
 #include "sim/scenario/files/scenario_document.h"
 
 namespace seaglint {
@@ -50,6 +51,13 @@ std::optional<Distribution> distribution_of(const ScenarioDocument& document, co
   }
 }
 
+// KEY of a value same(KEY).
+std::optional<std::string> same_key(const YamlNode& node) {
+  if (node.kind != YamlNode::Kind::kScalar || !node.text.starts_with("same(") || !node.text.ends_with(")"))
+    return std::nullopt;
+  return std::string(trimmed(std::string_view(node.text).substr(5, node.text.size() - 6)));
+}
+
 void find(const ScenarioDocument& document, const YamlNode& node, const std::string& path,
           std::vector<Variation>& found) {
   const auto below = [&](const std::string& key) { return path.empty() ? key : path + "." + key; };
@@ -64,8 +72,9 @@ void find(const ScenarioDocument& document, const YamlNode& node, const std::str
     const std::string at = below(entry.key);
     const YamlNode& value = entry.value;
     find(document, value, at, found);
+    const std::optional<std::string> same = same_key(value);
     std::optional<Distribution> distribution = distribution_of(document, value, at);
-    if (!distribution) continue;
+    if (!distribution && !same) continue;
     const std::optional<DrawnPer> per = drawn_per(at);
     if (!per) {
       document.fail(value.location, at,
@@ -73,7 +82,7 @@ void find(const ScenarioDocument& document, const YamlNode& node, const std::str
                                 "sea_reflection, clutter, targets (without label and role), and as {}",
                                 value.text, fmt::join(kOfRadar, ", ")));
     }
-    found.push_back({at, std::move(*distribution), *per});
+    found.push_back({at, distribution.value_or(Distribution{}), *per, same.value_or(at)});
   }
 }
 
@@ -87,10 +96,24 @@ YamlNode& node_at(YamlNode& root, const std::string& path) {
 
 }  // namespace
 
+std::string Variation::text() const {
+  return drawn_as == key_path ? distribution.text() : fmt::format("same({})", drawn_as);
+}
+
 std::vector<Variation> find_variations(const ScenarioDocument& document) {
   std::vector<Variation> found;
   find(document, document.root, "", found);
   std::ranges::sort(found, {}, &Variation::key_path);
+  for (Variation& variation : found) {
+    if (variation.drawn_as == variation.key_path) continue;
+    const auto other = std::ranges::find(found, variation.drawn_as, &Variation::key_path);
+    if (other == found.end() || other->drawn_as != other->key_path || other->per != variation.per) {
+      document.fail_at(variation.key_path,
+                       fmt::format("value '{}': must name another key that is drawn as often from a distribution",
+                                   variation.text()));
+    }
+    variation.distribution = other->distribution;
+  }
   return found;
 }
 
@@ -98,7 +121,7 @@ std::string drawn_value(const Variation& variation, std::uint64_t seed, const Dr
   const std::uint64_t number = variation.per == DrawnPer::kSea           ? place.sea
                                : variation.per == DrawnPer::kObservation ? place.observation
                                                                          : place.map;
-  Random random({seed, Stream::kDraw, hash_of(variation.key_path, number)});
+  Random random({seed, Stream::kDraw, hash_of(variation.drawn_as, number)});
   return variation.distribution.draw(random);
 }
 

@@ -22,6 +22,10 @@ struct Variation {
   std::string key_path;
   Distribution distribution;
   DrawnPer per = DrawnPer::kSea;
+  std::string drawn_as;  // key whose draws this one has: key_path itself, or KEY where same(KEY) is written
+
+  // As written in a scenario, with commas.
+  std::string text() const;
 };
 
 // Numbers of a sea realisation, sea_key(), of an observation, and of a map of an observation.
@@ -31,11 +35,12 @@ struct DrawPlace {
   std::uint64_t map = 0;
 };
 
-// The drawn keys of a document, by their paths. Throws InputError with the place for a wrong distribution, and for a
-// key that must be common to all maps.
+// The drawn keys of a document, by their paths. In the place of a distribution, same(KEY) gives a key the draws of KEY,
+// which is drawn as often: twins with one layout in each sea. Throws InputError with the place for a wrong
+// distribution, for a key that must be common to all maps, and for same() of a key that is not drawn so.
 std::vector<Variation> find_variations(const ScenarioDocument& document);
 
-// The value of a variation at a place: keyed by (seed, kDraw, key path and number), independent of all other keys.
+// The value of a variation at a place: keyed by (seed, kDraw, drawn_as and number), independent of all other keys.
 std::string drawn_value(const Variation& variation, std::uint64_t seed, const DrawPlace& place);
 
 // The document with values[i] in place of variations[i].

@@ -12,7 +12,7 @@ const Bounds kReflector{{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}};
 
 TargetSpec array_of(int count) {
   TargetSpec target;
-  target.line = LineLayout{count, 40};
+  target.layout = LayoutSpec{.line = LineLayout{count, 40}};
   target.motion.model = MotionModel::kFloat;
   return target;
 }
@@ -64,7 +64,7 @@ TEST(SimulateTarget, IndependentBodiesHaveSeparateSeas) {
   long_waves.cutoff_rad_s = 0.7;
   const WaveField sea = realise_sea(long_waves, 42, 7);
   TargetSpec target = array_of(2);
-  target.line->spacing_m = 1;
+  target.layout->line->spacing_m = 1;
   const auto difference = [&] {
     const auto bodies = simulate_target(target, body_of(target), long_waves, sea, 30, 42, 7);
     double sum = 0;
@@ -81,9 +81,9 @@ TEST(SimulateTarget, IndependentBodiesHaveSeparateSeas) {
 // A raft that turns about a point of its own carries its reflectors along: p_i = c + R (s_i - c).
 TEST(SimulateTarget, CarriesTheReflectorsOfARaftOnALever) {
   TargetSpec target = array_of(3);
-  target.bodies = LayoutBodies::kRigid;
-  target.line->centre_x_m = 7;
-  target.line->centre_y_m = -2;
+  target.layout->bodies = LayoutBodies::kRigid;
+  target.layout->line->centre_x_m = 7;
+  target.layout->line->centre_y_m = -2;
   target.motion.diameter_m = 5;
   target.motion.rotation_centre_m = {1, 2, 3};
   target.motion.origin_above_waterline_m = 4;
@@ -99,6 +99,27 @@ TEST(SimulateTarget, CarriesTheReflectorsOfARaftOnALever) {
     EXPECT_EQ(body.sample(2.5).angles, bodies[0].sample(2.5).angles);
     const Mat3 R = body.pose(2.5).R;
     EXPECT_LT((body.pose(2.5).p - (origin + c + R * (s - c))).norm(), 1e-12);
+  }
+}
+
+// A mast of height h on a float: p = c + R (s - c) with the float's own rotation, its axes turned by the heading.
+TEST(SimulateTarget, CarriesAFreeBodyAtItsHeightAndHeading) {
+  TargetSpec target = array_of(3);
+  const SeaState state = state_of(1, 5);
+  const WaveField sea = realise_sea(state, 42, 7);
+  const Body body = body_of(target);
+  const std::vector<Trajectory> low = simulate_target(target, body, state, sea, 3, 42, 7);
+  target.layout->heights_m = BodyRange{5, 19};
+  target.layout->headings_deg = BodyRange{30, 60};
+  const std::vector<Trajectory> high = simulate_target(target, body, state, sea, 3, 42, 7);
+  const std::vector<double> heights_m = body_heights_m(target), headings = body_headings_rad(target);
+  const std::vector<Vec3> rests = rest_positions(target);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Pose foot = low[i].pose(2.5), top = high[i].pose(2.5);
+    EXPECT_LT((top.p - foot * Vec3(0, 0, heights_m[i])).norm(), 1e-12);
+    EXPECT_LT((top.R - foot.R * rotation_from_angles(0, 0, headings[i])).norm(), 1e-12);
+    EXPECT_EQ(high[i].sample(2.5).angles, low[i].sample(2.5).angles);
+    EXPECT_NEAR(rests[i].z(), 0.75 + heights_m[i], 1e-12);
   }
 }
 

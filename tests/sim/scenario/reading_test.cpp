@@ -35,11 +35,11 @@ TEST(ScenarioReading, TheExampleOfTheDescriptionIsRead) {
   EXPECT_EQ(scenario.targets[0].label, 1);
   EXPECT_EQ(scenario.targets[0].mesh, "assets/combatant_144m.glb");
   EXPECT_EQ(scenario.targets[0].motion.model, MotionModel::kShip);
-  EXPECT_FALSE(scenario.targets[0].line.has_value());
+  EXPECT_FALSE(scenario.targets[0].layout.has_value());
   EXPECT_EQ(scenario.targets[1].name, "array");
-  ASSERT_TRUE(scenario.targets[1].line.has_value());
-  EXPECT_EQ(scenario.targets[1].line->count, 4);
-  EXPECT_EQ(scenario.targets[1].line->spacing_m, 40);
+  ASSERT_TRUE(scenario.targets[1].layout.has_value());
+  EXPECT_EQ(scenario.targets[1].layout->line->count, 4);
+  EXPECT_EQ(scenario.targets[1].layout->line->spacing_m, 40);
   EXPECT_EQ(scenario.dataset.train_fraction, 0.7);
   EXPECT_EQ(scenario.folder, "folder");
 }

@@ -60,8 +60,8 @@ TEST(LayoutBodies, AreIndependentUnlessTheyAreRigid) {
   const auto with_layout = [](const std::string& keys) {
     return kShort + "  t: {label: 1, mesh: a.glb, layout: {" + keys + "}}\n";
   };
-  EXPECT_EQ(parse(with_layout("line: {}")).targets[1].bodies, LayoutBodies::kIndependent);
-  EXPECT_EQ(parse(with_layout("line: {}, bodies: rigid")).targets[1].bodies, LayoutBodies::kRigid);
+  EXPECT_EQ(parse(with_layout("line: {}")).targets[1].layout->bodies, LayoutBodies::kIndependent);
+  EXPECT_EQ(parse(with_layout("line: {}, bodies: rigid")).targets[1].layout->bodies, LayoutBodies::kRigid);
   EXPECT_EQ(complaint_about(with_layout("line: {}, bodies: welded")),
             "folder/file.yaml:4:57: targets.t.layout.bodies: value 'welded': must be independent or rigid");
   EXPECT_EQ(complaint_about(with_layout("bodies: rigid")),

@@ -124,13 +124,16 @@ Scenario full_scenario() {
   TargetSpec array;
   array.name = "array";
   array.mesh = "null";
-  array.line = LineLayout{};
+  array.layout = LayoutSpec{.line = LineLayout{}, .heights_m = BodyRange{1, 2}, .headings_deg = BodyRange{}, .seed = 3};
+  TargetSpec ring = array;
+  ring.name = "ring";
+  ring.layout = LayoutSpec{.area = AreaLayout{}};
   TargetSpec points;
   points.name = "points";
   points.points.resize(2);
   scenario.sea.depth_m = 30;
   scenario.clutter.sea_state = 3;
-  scenario.targets = {ship, array, points};
+  scenario.targets = {ship, array, ring, points};
   return scenario;
 }
 

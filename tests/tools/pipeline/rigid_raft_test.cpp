@@ -173,13 +173,13 @@ TEST_F(RigidRaft, IsOneInTheSeasThatDrawRigidBodies) {
   for (int realisation = 0; realisation < 8; ++realisation) {
     const auto scene = pipeline.scene(0, realisation);
     const std::vector<Trajectory>& bodies = scene->bodies[0];
-    const bool is_raft = (*scene->targets)[0].spec.bodies == LayoutBodies::kRigid;
-    EXPECT_EQ(bodies[0].sample(5).angles == bodies[1].sample(5).angles, is_raft);
+    const bool rigid = is_raft((*scene->targets)[0].spec);
+    EXPECT_EQ(bodies[0].sample(5).angles == bodies[1].sample(5).angles, rigid);
     // The centre of flotation of a float is below its reflector, that of a raft between them.
-    const Vec3 centre = is_raft ? Vec3(20, 0, -0.75) : Vec3(0, 0, -0.75);
+    const Vec3 centre = rigid ? Vec3(20, 0, -0.75) : Vec3(0, 0, -0.75);
     const Pose pose = bodies[0].pose(5);
     EXPECT_LT((pose.p + pose.R * centre - (Vec3(-20, 0, 0.75) + centre)).norm(), 1e-12);
-    rafts += is_raft;
+    rafts += rigid;
   }
   EXPECT_GT(rafts, 0);
   EXPECT_LT(rafts, 8);

@@ -47,7 +47,7 @@ TEST(Variation, FieldsHaveTheMiddlesOfTheirDistributions) {
   ASSERT_EQ(scenario.variations.size(), 6u);
   EXPECT_EQ(scenario.view.azimuth_deg, std::vector<double>{90});
   EXPECT_EQ(scenario.clutter.scr_db, 17.5);
-  EXPECT_EQ(scenario.targets[1].line->count, 16);
+  EXPECT_EQ(scenario.targets[1].layout->line->count, 16);
   EXPECT_EQ(scenario.radar.hop_code, HopCode::kRandom);
 }
 
@@ -63,7 +63,7 @@ TEST(Variation, IsDrawnPerSeaOrPerObservation) {
     EXPECT_TRUE(one.variations.empty());
     EXPECT_EQ(plan.sea_state(at).significant_wave_height_m, one.sea.significant_wave_height_m[0]);
     EXPECT_EQ(plan.view(at).azimuth_deg, one.view.azimuth_deg[0]);
-    seas.insert({at.realisation, one.sea.significant_wave_height_m[0], one.targets[1].line->count});
+    seas.insert({at.realisation, one.sea.significant_wave_height_m[0], one.targets[1].layout->line->count});
     observations.insert({at.realisation, at.interval, one.view.azimuth_deg[0], one.clutter.scr_db});
   }
   EXPECT_EQ(seas.size(), 4u);
@@ -91,7 +91,7 @@ TEST(Variation, IsIndependentOfOtherKeysAndOfTheirOrder) {
       parse(replaced(replaced(kDrawn, "scr_db: uniform(10 25)", "scr_db: 20"), "uniform(7, 10)", "8"));
   for (std::size_t i = 0; i < 24; ++i) {
     EXPECT_EQ(drawn(scenario, i).view.azimuth_deg, drawn(fewer, i).view.azimuth_deg);
-    EXPECT_EQ(drawn(scenario, i).targets[1].line->count, drawn(fewer, i).targets[1].line->count);
+    EXPECT_EQ(drawn(scenario, i).targets[1].layout->line->count, drawn(fewer, i).targets[1].layout->line->count);
     EXPECT_EQ(drawn(fewer, i).clutter.scr_db, 20);
   }
   const Scenario seeded = parse(kDrawn, {Override{"seed", "43"}});
@@ -161,6 +161,34 @@ TEST(Variation, ThatContradictsAnotherIsRefusedWithItsValues) {
     ADD_FAILURE() << "no sea was refused";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), AllOf(HasSubstr("drawn values"), HasSubstr("sea.peak_period_s")));
+  }
+}
+
+// Twins with one layout in each sea.
+TEST(Variation, SameHasTheDrawsOfAnotherKey) {
+  const std::string twin =
+      "  twin: {label: 1, mesh: b.glb, layout: {line: {count: same(targets.array.layout.line.count), spacing_m: "
+      "20}}}\n";
+  const Scenario scenario = parse(replaced(kDrawn, "dataset:", twin + "dataset:"));
+  std::set<int> counts;
+  for (std::size_t i = 0; i < SamplePlan(scenario).size(); ++i) {
+    const Scenario one = drawn(scenario, i);
+    EXPECT_EQ(one.targets[1].layout->line->count, one.targets[2].layout->line->count);
+    counts.insert(one.targets[1].layout->line->count);
+  }
+  EXPECT_GT(counts.size(), 1u);
+  EXPECT_THAT(effective_yaml(scenario), HasSubstr("count: \"same(targets.array.layout.line.count)\""));
+  EXPECT_EQ(effective_yaml(parse(effective_yaml(scenario))), effective_yaml(scenario));
+}
+
+TEST(Variation, SameNamesAnotherDrawnKey) {
+  const auto complaint = [](const std::string& key) {
+    return complaint_about(replaced(kDrawn, "spacing_m: 20", "spacing_m: same(" + key + ")"));
+  };
+  for (const char* key : {"targets.array.layout.line.spacing_m", "sea.gamma", "clutter.scr_db", ""}) {
+    EXPECT_THAT(complaint(key), AllOf(HasSubstr("file.yaml:10:"), HasSubstr("targets.array.layout.line.spacing_m"),
+                                      HasSubstr("must name another key that is drawn as often")))
+        << key;
   }
 }
 

@@ -25,7 +25,7 @@ TEST(Overrides, ReplaceAndAddValuesOfTheFile) {
   EXPECT_THAT(scenario.sea.significant_wave_height_m, ElementsAre(1, 2));
   EXPECT_FALSE(scenario.clutter.enabled);
   EXPECT_EQ(scenario.features.max_centres, 10);
-  EXPECT_EQ(scenario.targets[1].line->count, 2);
+  EXPECT_EQ(scenario.targets[1].layout->line->count, 2);
   EXPECT_EQ(scenario.map.range_span_m, 100);
 }
 

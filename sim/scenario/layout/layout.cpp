@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/scenario/layout/layout.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/random.h"
+#include "sim/core/process/error.h"
+
+namespace seaglint {
+
+namespace {
+
+constexpr int kMostTrials = 100000;  // of the place of one body
+
+// Indices of the layout's random numbers.
+enum Drawn : std::uint64_t { kPlaces, kHeights, kHeadings };
+
+Random random_of(const LayoutSpec& layout, Drawn what) { return Random({layout.seed, Stream::kLayout, what}); }
+
+// Point i of n at equal steps from -length / 2 to length / 2; one point is in the middle.
+double along(double length, int i, int n) { return n > 1 ? length * (static_cast<double>(i) / (n - 1) - 0.5) : 0; }
+
+std::vector<Vec2> on_a_line(const AreaLayout& area) {
+  std::vector<Vec2> places;
+  for (int i = 0; i < area.count; ++i) places.emplace_back(along(area.length_m, i, area.count), 0);
+  return places;
+}
+
+std::vector<Vec2> on_a_ring(const AreaLayout& area) {
+  std::vector<Vec2> places;
+  for (int i = 0; i < area.count; ++i) {
+    const double angle = 2 * kPi * i / area.count;
+    places.emplace_back(area.length_m / 2 * std::cos(angle), area.width_m / 2 * std::sin(angle));
+  }
+  return places;
+}
+
+std::vector<Vec2> on_a_grid(const AreaLayout& area) {
+  const double ideal = area.width_m > 0 ? std::sqrt(area.count * area.length_m / area.width_m) : area.count;
+  const int columns = std::clamp(static_cast<int>(std::lround(std::min<double>(ideal, area.count))), 1, area.count);
+  const int rows = (area.count + columns - 1) / columns;
+  const double step_m = columns > 1 ? area.length_m / (columns - 1) : 0;
+  std::vector<Vec2> places;
+  for (int i = 0; i < area.count; ++i) {
+    const int row = i / columns, in_row = std::min(columns, area.count - row * columns);
+    places.emplace_back(along(step_m * (in_row - 1), i % columns, in_row), along(area.width_m, row, rows));
+  }
+  return places;
+}
+
+bool is_free(const std::vector<Vec2>& places, const Vec2& place, double min_distance_m) {
+  return std::ranges::none_of(places, [&](const Vec2& other) { return (place - other).norm() < min_distance_m; });
+}
+
+std::vector<Vec2> at_random(const AreaLayout& area, Random random) {
+  std::vector<Vec2> places;
+  while (places.size() < static_cast<std::size_t>(area.count)) {
+    int trials = 0;
+    Vec2 place;
+    do {
+      if (++trials > kMostTrials) {
+        throw InputError(fmt::format("{} bodies find no places {} m apart in {} by {} m", area.count,
+                                     area.min_distance_m, area.length_m, area.width_m));
+      }
+      const double x = area.length_m * (random.uniform() - 0.5), y = area.width_m * (random.uniform() - 0.5);
+      place = {x, y};
+    } while (!is_free(places, place, area.min_distance_m));
+    places.push_back(place);
+  }
+  return places;
+}
+
+std::vector<Vec2> places_in(const LayoutSpec& layout) {
+  const AreaLayout& area = *layout.area;
+  switch (area.shape) {
+    case LayoutShape::kLine: return on_a_line(area);
+    case LayoutShape::kRing: return on_a_ring(area);
+    case LayoutShape::kGrid: return on_a_grid(area);
+    case LayoutShape::kRandom: return at_random(area, random_of(layout, kPlaces));
+  }
+  return {};
+}
+
+void require_distances(const std::vector<Vec2>& places, double min_distance_m) {
+  constexpr double kRounding = 1e-12;  // relative
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const double distance_m = (places[i] - places[j]).norm();
+      if (distance_m < min_distance_m * (1 - kRounding)) {
+        throw InputError(
+            fmt::format("bodies {} and {} are {:.6g} m apart: must be at least {}", j, i, distance_m, min_distance_m));
+      }
+    }
+  }
+}
+
+std::vector<double> drawn_between(const TargetSpec& target, const std::optional<BodyRange> LayoutSpec::*range,
+                                  Drawn what) {
+  std::vector<double> values(body_count(target), 0.0);
+  if (!target.layout || !((*target.layout).*range)) return values;
+  const BodyRange ends = *((*target.layout).*range);
+  Random random = random_of(*target.layout, what);
+  for (double& value : values) value = ends.lowest + (ends.highest - ends.lowest) * random.uniform();
+  return values;
+}
+
+}  // namespace
+
+std::size_t body_count(const TargetSpec& target) {
+  if (!target.layout) return 1;
+  return static_cast<std::size_t>(target.layout->area ? target.layout->area->count : target.layout->line->count);
+}
+
+bool is_raft(const TargetSpec& target) { return target.layout && target.layout->bodies == LayoutBodies::kRigid; }
+
+Vec2 layout_centre(const TargetSpec& target) {
+  if (!target.layout) return Vec2::Zero();
+  if (target.layout->area) return {target.layout->area->centre_x_m, target.layout->area->centre_y_m};
+  return {target.layout->line->centre_x_m, target.layout->line->centre_y_m};
+}
+
+void move_layout(TargetSpec& target, const Vec2& by) {
+  if (!target.layout) target.layout = LayoutSpec{.line = LineLayout{}};
+  const auto move = [&](auto& layout) {
+    layout.centre_x_m += by.x();
+    layout.centre_y_m += by.y();
+  };
+  target.layout->area ? move(*target.layout->area) : move(*target.layout->line);
+}
+
+std::vector<Vec2> layout_positions(const TargetSpec& target) {
+  if (!target.layout) return {Vec2::Zero()};
+  const Vec2 centre = layout_centre(target);
+  std::vector<Vec2> places;
+  if (target.layout->area) {
+    places = places_in(*target.layout);
+    require_distances(places, target.layout->area->min_distance_m);
+    for (Vec2& place : places) place += centre;
+    return places;
+  }
+  const LineLayout& line = *target.layout->line;
+  for (int i = 0; i < line.count; ++i)
+    places.emplace_back(line.centre_x_m + (i - 0.5 * (line.count - 1)) * line.spacing_m, line.centre_y_m);
+  return places;
+}
+
+std::vector<double> body_heights_m(const TargetSpec& target) {
+  return drawn_between(target, &LayoutSpec::heights_m, kHeights);
+}
+
+std::vector<double> body_headings_rad(const TargetSpec& target) {
+  std::vector<double> headings = drawn_between(target, &LayoutSpec::headings_deg, kHeadings);
+  for (double& heading : headings) heading = radians(heading);
+  return headings;
+}
+
+std::string layout_name(const TargetSpec& target) {
+  if (!target.layout) return "single";
+  return target.layout->area ? kLayoutShapeNames[static_cast<std::size_t>(target.layout->area->shape)] : "line";
+}
+
+std::string layout_text(const TargetSpec& target) {
+  if (!target.layout) return "";
+  const std::string raft = is_raft(target) ? ", on one rigid raft" : "";
+  if (target.layout->line) {
+    const LineLayout& line = *target.layout->line;
+    return fmt::format(", {} in line, {:g} m apart{}", line.count, line.spacing_m, raft);
+  }
+  const AreaLayout& area = *target.layout->area;
+  return fmt::format(", {} in {} of {:g} by {:g} m{}", area.count,
+                     area.shape == LayoutShape::kRandom ? "random places" : "a " + layout_name(target), area.length_m,
+                     area.width_m, raft);
+}
+
+}  // namespace seaglint

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Places of the bodies of a layout against their definitions, and the refusal of impossible ones.
+#include "sim/scenario/layout/layout.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/core/numbers/constants.h"
+#include "sim/scenario/writer.h"
+#include "tests/sim/scenario/parsing.h"
+
+namespace seaglint {
+namespace {
+
+using namespace testing_scenarios;
+using testing::HasSubstr;
+using testing::Not;
+
+TargetSpec target_of(AreaLayout area, std::uint64_t seed = 0) {
+  TargetSpec target;
+  target.layout = LayoutSpec{.line = {}, .area = area, .seed = seed};
+  return target;
+}
+
+double least_distance(const std::vector<Vec2>& places) {
+  double least = 1e9;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) least = std::min(least, (places[i] - places[j]).norm());
+  }
+  return least;
+}
+
+Vec2 mean(const std::vector<Vec2>& places) {
+  Vec2 sum = Vec2::Zero();
+  for (const Vec2& place : places) sum += place;
+  return sum / static_cast<double>(places.size());
+}
+
+TEST(AreaLayout, LineIsThatOfEqualSpacings) {
+  TargetSpec spaced;
+  spaced.layout = LayoutSpec{.line = LineLayout{4, 40, 3, -2}};
+  const std::vector<Vec2> places = layout_positions(target_of({LayoutShape::kLine, 4, 120, 40, 0, 3, -2})),
+                          wanted = layout_positions(spaced);
+  ASSERT_EQ(places.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_LT((places[i] - wanted[i]).norm(), 1e-12);
+  EXPECT_EQ(layout_positions(target_of({LayoutShape::kLine, 1, 120, 40, 0, 3, -2})), std::vector<Vec2>{Vec2(3, -2)});
+}
+
+// x^2 / (L/2)^2 + y^2 / (W/2)^2 = 1; a ring of a circle has equal distances 2 r sin(pi / n).
+TEST(AreaLayout, RingIsAnEllipse) {
+  for (const Vec2& place : layout_positions(target_of({LayoutShape::kRing, 7, 120, 40})))
+    EXPECT_NEAR(std::hypot(place.x() / 60, place.y() / 20), 1, 1e-12);
+  const std::vector<Vec2> circle = layout_positions(target_of({LayoutShape::kRing, 5, 30, 30}));
+  for (std::size_t i = 0; i < 5; ++i)
+    EXPECT_NEAR((circle[i] - circle[(i + 1) % 5]).norm(), 30 * std::sin(kPi / 5), 1e-12);
+}
+
+TEST(AreaLayout, GridReachesTheBordersAndIsCentred) {
+  const std::vector<Vec2> places = layout_positions(target_of({LayoutShape::kGrid, 12, 90, 40}));
+  EXPECT_NEAR(places.front().x(), -45, 1e-12);
+  EXPECT_NEAR(places.back().y(), 20, 1e-12);
+  EXPECT_LT(mean(places).norm(), 1e-12);
+  EXPECT_NEAR(least_distance(places), 20, 1e-12);  // 5 columns, 22.5 m apart, 3 rows
+  for (int count = 1; count <= 40; ++count) {
+    const std::vector<Vec2> grid = layout_positions(target_of({LayoutShape::kGrid, count, 90, 40}));
+    ASSERT_EQ(grid.size(), static_cast<std::size_t>(count));
+    if (count > 1) {
+      EXPECT_GT(least_distance(grid), 1);
+    }
+    EXPECT_NEAR(mean(grid).x(), 0, 1e-10);
+  }
+}
+
+// 4,000 places: the means of a uniform distribution within five standard errors; no two nearer than the bound.
+TEST(AreaLayout, RandomPlacesAreUniformAndApart) {
+  Vec2 sum = Vec2::Zero(), squares = Vec2::Zero();
+  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+    const std::vector<Vec2> places = layout_positions(target_of({LayoutShape::kRandom, 10, 100, 30}, seed));
+    for (const Vec2& place : places) {
+      sum += place;
+      squares += place.cwiseProduct(place);
+    }
+    EXPECT_GE(least_distance(layout_positions(target_of({LayoutShape::kRandom, 20, 100, 30, 6}, seed))), 6);
+  }
+  EXPECT_LT(std::abs(sum.x() / 4000), 5 * 100 / std::sqrt(12 * 4000.0));
+  EXPECT_LT(std::abs(sum.y() / 4000), 5 * 30 / std::sqrt(12 * 4000.0));
+  // The variance of a uniform square is L^2/12, that of its square L^4/180.
+  EXPECT_NEAR(squares.x() / 4000, 1e4 / 12, 5 * 1e4 / std::sqrt(180 * 4000.0));
+}
+
+TEST(AreaLayout, DependsOnTheSeedAlone) {
+  const AreaLayout area{LayoutShape::kRandom, 8, 100, 30};
+  EXPECT_EQ(layout_positions(target_of(area, 5)), layout_positions(target_of(area, 5)));
+  EXPECT_NE(layout_positions(target_of(area, 5)), layout_positions(target_of(area, 6)));
+}
+
+TEST(Layout, HeightsAndHeadingsAreWithinTheirRanges) {
+  TargetSpec target = target_of({LayoutShape::kRing, 500, 1000, 1000});
+  EXPECT_EQ(body_heights_m(target), std::vector<double>(500, 0.0));
+  target.layout->heights_m = BodyRange{1, 20};
+  target.layout->headings_deg = BodyRange{-90, 90};
+  const std::vector<double> heights = body_heights_m(target), headings = body_headings_rad(target);
+  EXPECT_GT(std::ranges::min(heights), 1);
+  EXPECT_LT(std::ranges::max(heights), 20);
+  double product = 0;  // of the deviations: heights and headings are independent, to five standard errors
+  for (std::size_t i = 0; i < 500; ++i) product += (heights[i] - 10.5) / 19 * headings[i] / kPi;
+  EXPECT_LT(std::abs(product / 500), 5 / 12.0 / std::sqrt(500.0));
+  EXPECT_NEAR(std::ranges::max(headings), kPi / 2, 0.1);
+}
+
+TEST(Layout, MovesAsAWhole) {
+  TargetSpec target = target_of({LayoutShape::kRandom, 8, 100, 30, 2}, 3);
+  const std::vector<Vec2> before = layout_positions(target);
+  move_layout(target, {70, -5});
+  const std::vector<Vec2> after = layout_positions(target);
+  for (std::size_t i = 0; i < 8; ++i) EXPECT_LT((after[i] - before[i] - Vec2(70, -5)).norm(), 1e-12);
+  TargetSpec single;
+  move_layout(single, {70, -5});
+  EXPECT_EQ(layout_positions(single), std::vector<Vec2>{Vec2(70, -5)});
+}
+
+TEST(Layout, IsReadAndWritten) {
+  const std::string keys =
+      "  t: {label: 1, mesh: a.glb, layout: {area: {shape: grid, count: 9}, heights: {highest_m: 3}, seed: 7}}\n";
+  const Scenario scenario = parse(kShort + keys);
+  const LayoutSpec& layout = *scenario.targets[1].layout;
+  EXPECT_EQ(layout.area->shape, LayoutShape::kGrid);
+  EXPECT_EQ(layout.heights_m->highest, 3);
+  EXPECT_EQ(layout.seed, 7u);
+  EXPECT_EQ(layout_name(scenario.targets[1]), "grid");
+  EXPECT_EQ(layout_text(scenario.targets[1]), ", 9 in a grid of 120 by 40 m");
+  EXPECT_EQ(layout_name(scenario.targets[0]), "single");
+  EXPECT_THAT(effective_yaml(parse(kShort)), Not(HasSubstr("seed: 0, ")));
+}
+
+TEST(Layout, RefusesWhatCannotBe) {
+  const auto complaint = [](const std::string& keys) {
+    return complaint_about(kShort + "  t: {label: 1, mesh: a.glb, layout: {" + keys + "}}\n");
+  };
+  EXPECT_THAT(complaint("line: {}, area: {}"),
+              HasSubstr("file.yaml:4:38: targets.t.layout: must have line or area, not both"));
+  EXPECT_THAT(complaint("area: {shape: line, count: 30, length_m: 60, min_distance_m: 3}"),
+              HasSubstr("targets.t.layout.area: bodies 0 and 1 are 2.06897 m apart: must be at least 3"));
+  EXPECT_THAT(complaint("area: {shape: random, count: 30, length_m: 10, width_m: 10, min_distance_m: 5}"),
+              HasSubstr("targets.t.layout.area: 30 bodies find no places 5 m apart in 10 by 10 m"));
+  EXPECT_THAT(complaint("area: {shape: heap}"), HasSubstr("value 'heap': must be line, ring, grid or random"));
+  EXPECT_THAT(complaint("area: {}, heights: {lowest_m: 2, highest_m: 1}"),
+              HasSubstr("targets.t.layout.heights.lowest_m: value 2: must be at most 1, the highest"));
+  EXPECT_THAT(complaint("line: {}, heights: {highest_m: 200}"), HasSubstr("must be within -10 and 100"));
+}
+
+}  // namespace
+}  // namespace seaglint
