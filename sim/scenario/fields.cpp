@@ -304,6 +304,7 @@ void visit(DatasetSpec& spec, FieldVisitor& v) {
   v.integer("maps_per_shard", spec.maps_per_shard, within(1, 10000));
   v.ratio("split", spec.train_fraction);
   v.flag("complex_maps", spec.complex_maps);
+  v.flag("echoes", spec.echoes);
 }
 
 void visit(FeatureSpec& spec, FieldVisitor& v) {

@@ -220,6 +220,8 @@ constexpr Meaning kMeanings[] = {
     {"dataset.maps_per_shard", "Maps in one HDF5 file."},
     {"dataset.split", "Training to test rows, of maps and of sea realisations."},
     {"dataset.complex_maps", "Also store real and imaginary part."},
+    {"dataset.echoes",
+     "Also store the target's echoes, of which `seaglint features` makes maps with other clutter, map and features."},
     {"features.dynamic_range_db", "Scattering centres are kept down to this below the strongest, dB."},
     {"features.max_centres", "Largest number of scattering centres."},
     {"features.clean_gain", "Loop gain of CLEAN."},

@@ -15,6 +15,7 @@ struct DatasetSpec {
   int maps_per_shard = 20;         // 1 <= x <= 10000
   double train_fraction = 0.7;     // `split: 7:3`, 0 < x < 1
   bool complex_maps = false;       // also store real and imaginary parts
+  bool echoes = false;             // also store the target's echoes, of which `seaglint features` makes maps again
 };
 
 struct FeatureSpec {

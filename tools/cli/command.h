@@ -33,6 +33,7 @@ void add_generate(CommandOptions& program, CommandContext& context);
 void add_merge(CommandOptions& program, CommandContext& context);
 void add_verify(CommandOptions& program, CommandContext& context);
 void add_regenerate(CommandOptions& program, CommandContext& context);
+void add_features(CommandOptions& program, CommandContext& context);
 void add_export(CommandOptions& program, CommandContext& context);
 void add_card(CommandOptions& program, CommandContext& context);
 void add_train(CommandOptions& program, CommandContext& context);

@@ -57,6 +57,7 @@ void add_commands(CommandOptions& program, CommandContext& context) {
   add_merge(program, context);
   add_verify(program, context);
   add_regenerate(program, context);
+  add_features(program, context);
   add_export(program, context);
   add_card(program, context);
   add_train(program, context);

@@ -26,6 +26,12 @@ struct OpenShard {
   std::size_t waiting = 0;  // samples not yet generated
 };
 
+GeneratedSample made_sample(const Pipeline& pipeline, std::size_t sample, const GenerateOptions& options) {
+  if (!options.response) return pipeline.generate_sample(sample);
+  const PulseTrain train = pipeline.pulse_train(sample);
+  return pipeline.received_sample(sample, train, options.response(sample, train));
+}
+
 }  // namespace
 
 GenerateResult generate_dataset(const Scenario& scenario, const std::filesystem::path& directory,
@@ -74,7 +80,7 @@ GenerateResult generate_dataset(const Pipeline& pipeline, const std::filesystem:
     parallel_for(
         work.size(), thread_count(options.threads),
         [&](std::size_t i) {
-          GeneratedSample made = pipeline.generate_sample(work[i].sample);
+          GeneratedSample made = made_sample(pipeline, work[i].sample, options);
           const ShardRange range = plan.shard(work[i].shard);
           Shard whole;
           {

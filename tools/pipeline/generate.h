@@ -5,6 +5,7 @@
 // written completely or not at all.
 
 #include <filesystem>
+#include <functional>
 
 #include "sim/core/process/parallel.h"
 #include "sim/scenario/scenario.h"
@@ -17,6 +18,8 @@ struct GenerateOptions {
   int parts = 1;
   bool resume = false;  // keep existing shards that are valid
   int threads = 0;      // 0 = all processors
+  // Response of a sample's target in place of a computed one; from any thread.
+  std::function<BodyResponse(std::size_t sample, const PulseTrain& train)> response = {};
 };
 
 struct GenerateResult {

@@ -217,6 +217,12 @@ GeneratedSample Pipeline::received_sample(std::size_t sample, const PulseTrain& 
   const double middle_s = plan_.start_s(at) + 0.5 * (train.time_s.front() + train.time_s.back());
   if (!bodies.empty()) store_motion(bodies.front(), middle_s, record);  // points have velocities only
   store_signal(made, scenario_.dataset.complex_maps, made.stored);
+  if (scenario_.dataset.echoes) {
+    for (const Complex& value : response.response.values) {
+      made.stored.echo.push_back(value.real());
+      made.stored.echo.push_back(value.imag());
+    }
+  }
   return made;
 }
 

@@ -81,6 +81,8 @@ std::vector<std::string> differences(const Sample& stored, const Sample& again, 
   compare("map", stored.magnitude, again.magnitude);
   if (!stored.complex_values.empty() && !again.complex_values.empty())
     compare("complex map", stored.complex_values, again.complex_values);
+  if (!stored.echo.empty() && !again.echo.empty() && tolerance == 0 && stored.echo != again.echo)
+    found.emplace_back("its echo differs");
   if (stored.hop_code != again.hop_code) found.emplace_back("its hop code differs");
   if (const std::string columns = different_columns(stored.record, again.record, tolerance); !columns.empty())
     found.push_back("other " + columns);

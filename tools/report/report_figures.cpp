@@ -318,7 +318,7 @@ void add_sea(FigureList& list, const Scenario& scenario, const SamplePlan& plan,
            "Elevation of the sea against time");
   for (std::size_t t = 0; t < targets.size(); ++t) {
     if (scene.bodies[t].empty()) continue;
-    const bool is_one_of_many = scene.bodies[t].size() > 1 && targets[t].spec.bodies == LayoutBodies::kIndependent;
+    const bool is_one_of_many = scene.bodies[t].size() > 1 && !is_raft(targets[t].spec);
     const std::string who = targets[t].spec.name + (is_one_of_many ? ", first body" : "");
     list.add("sea", fmt::format("motion_{}", file_word(targets[t].spec.name)),
              angle_plot(fmt::format("Motion of {}", who), scene.bodies[t].front(), times), {640, 330},

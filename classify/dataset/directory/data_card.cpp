@@ -86,6 +86,7 @@ std::string arrays_table(const Scenario& scenario, const StoredAxes& axes) {
   };
   add(kMaps, "float32", fmt::format("n, {}, {}", velocities, ranges));
   if (scenario.dataset.complex_maps) add(kComplexMaps, "float32", fmt::format("n, {}, {}, 2", velocities, ranges));
+  if (scenario.dataset.echoes) add(kEchoes, "float64", fmt::format("n, {}, frequencies, 2", scenario.radar.pulses));
   add(kVelocityAxis, "float64", fmt::format("{}", velocities));
   add(kRangeAxis, "float64", fmt::format("{}", ranges));
   add(kHopCodes, "uint16", fmt::format("n, {}", scenario.radar.pulses));

@@ -241,7 +241,7 @@ bool DatasetWriter::complete(std::size_t shard) {
 void DatasetWriter::put(std::size_t shard, Shard content) {
   const fs::path file = shard_file(shard);
   content.origin = origin_;
-  const std::lock_guard lock(mutex_);
+  const std::scoped_lock lock(mutex_, hdf5_mutex());
   invalidate_manifest();
   std::string written;
   try {

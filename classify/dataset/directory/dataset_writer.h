@@ -82,7 +82,7 @@ class DatasetWriter {
   Manifest earlier_;  // the manifest found at construction; without shards if there was none or after invalidation
   std::vector<Known> known_;        // by shard
   std::optional<StoredAxes> axes_;  // of all shards
-  std::mutex mutex_;                // the HDF5 library serves one thread at a time
+  std::mutex mutex_;
 };
 
 }  // namespace seaglint

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <string>
 #include <vector>
@@ -34,6 +35,9 @@ struct VirtualSource {
 
   bool operator==(const VirtualSource&) const = default;
 };
+
+// The HDF5 library serves one thread at a time: locked where several threads may read or write.
+std::mutex& hdf5_mutex();
 
 enum class Hdf5Version { k18, k110 };  // oldest library that reads the file; virtual arrays need 1.10
 

@@ -24,6 +24,10 @@ inline constexpr StoredArray kRangeAxis{"/axes/range_m", "m",
 inline constexpr StoredArray kVelocityAxis{"/axes/velocity_mps", "m/s", "radial velocity, positive = receding"};
 inline constexpr StoredArray kMaps{"/maps", "m", "|RV|, [sample][velocity][range]"};
 inline constexpr StoredArray kComplexMaps{"/maps_complex", "m", "RV, [sample][velocity][range][real, imaginary]"};
+// Only in shards.
+inline constexpr StoredArray kEchoes{"/echoes", "m",
+                                     "echo of the target without clutter and noise over that of a point of 1 m, "
+                                     "[sample][pulse][frequency][real, imaginary]"};
 inline constexpr StoredArray kHopCodes{"/hop_code", "1", "carrier number of every pulse"};
 inline constexpr StoredArray kCentres{"/centres", "m, m/s, m", "range_m, velocity_mps, amplitude_m"};
 

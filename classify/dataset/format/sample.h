@@ -92,6 +92,8 @@ struct Sample {
   std::vector<float> magnitude;  // |RV| in metres, [velocity][range]
   std::vector<float>
       complex_values;  // real and imaginary part alternating, [velocity][range][2]; empty unless dataset.complex_maps
+  std::vector<double> echo;  // of the target alone, real and imaginary part alternating, m, [pulse][frequency][2];
+                             // empty unless dataset.echoes
   std::vector<std::uint16_t> hop_code;    // C_n of every pulse
   std::vector<StoredCentre> centre_list;  // strongest first
 };

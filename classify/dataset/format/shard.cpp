@@ -36,6 +36,8 @@ void check_shapes(const Shard& shard, int max_centres) {
     SEAGLINT_CHECK(sample.complex_values.size() == first.complex_values.size() &&
                        (sample.complex_values.empty() || sample.complex_values.size() == 2 * shard.axes.cells()),
                    "complex maps for all samples or none");
+    SEAGLINT_CHECK(sample.echo.size() == first.echo.size() && sample.echo.size() % (2 * first.hop_code.size()) == 0,
+                   "echoes of equal size for all samples or none");
     SEAGLINT_CHECK(!sample.hop_code.empty() && sample.hop_code.size() == first.hop_code.size(), "equal pulses");
   }
 }
@@ -81,6 +83,7 @@ void write_content(Hdf5Writer& file, const Shard& shard, int max_centres) {
   write_values(file, kVelocityAxis, {rows}, {rows}, axes.velocity_mps);
 
   std::vector<float> maps, complex_maps;
+  std::vector<double> echoes;
   std::vector<std::uint16_t> codes;
   const std::uint64_t pulses = shard.samples.front().hop_code.size();
   const auto centres = static_cast<std::uint64_t>(max_centres);
@@ -89,6 +92,7 @@ void write_content(Hdf5Writer& file, const Shard& shard, int max_centres) {
     const Sample& sample = shard.samples[i];
     maps.insert(maps.end(), sample.magnitude.begin(), sample.magnitude.end());
     complex_maps.insert(complex_maps.end(), sample.complex_values.begin(), sample.complex_values.end());
+    echoes.insert(echoes.end(), sample.echo.begin(), sample.echo.end());
     codes.insert(codes.end(), sample.hop_code.begin(), sample.hop_code.end());
     for (std::size_t k = 0; k < std::min<std::size_t>(sample.centre_list.size(), centres); ++k) {
       std::copy(sample.centre_list[k].begin(), sample.centre_list[k].end(),
@@ -98,6 +102,10 @@ void write_content(Hdf5Writer& file, const Shard& shard, int max_centres) {
   write_values(file, kMaps, {n, rows, columns}, {1, rows, columns}, maps);
   if (!complex_maps.empty())
     write_values(file, kComplexMaps, {n, rows, columns, 2}, {1, rows, columns, 2}, complex_maps);
+  if (!echoes.empty()) {
+    const std::uint64_t frequencies = echoes.size() / (2 * n * pulses);
+    write_values(file, kEchoes, {n, pulses, frequencies, 2}, {1, pulses, frequencies, 2}, echoes);
+  }
   write_values(file, kHopCodes, {n, pulses}, {1, pulses}, codes);
   write_values(file, kCentres, {n, centres, 3}, {1, centres, 3}, centre_table);
   file.group("/samples");
@@ -161,6 +169,13 @@ Shard read_content(const ShardFile& loaded) {
   const std::size_t pulses = codes.size[1];
   for (std::size_t i = 0; i < n; ++i)
     shard.samples[i].hop_code.assign(codes.values.begin() + i * pulses, codes.values.begin() + (i + 1) * pulses);
+  if (file.has(kEchoes.path)) {
+    const ReadArray<double> echoes = file.read<double>(kEchoes.path, 4);
+    expect(echoes.size[0] == n && echoes.size[1] == pulses && echoes.size[3] == 2, "/echoes does not fit /hop_code");
+    const std::size_t each = echoes.values.size() / n;
+    for (std::size_t i = 0; i < n; ++i)
+      shard.samples[i].echo.assign(echoes.values.begin() + i * each, echoes.values.begin() + (i + 1) * each);
+  }
   const ReadArray<float> centres = file.read<float>(kCentres.path, 3);
   expect(centres.size[0] == n && centres.size[2] == 3, "/centres does not fit /maps");
   const std::size_t max_centres = centres.size[1];

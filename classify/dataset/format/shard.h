@@ -7,6 +7,7 @@
 //   /axes/range_m, /axes/velocity_mps   float64
 //   /maps                               float32 [sample][velocity][range], metres, one chunk per sample
 //   /maps_complex                       float32 [sample][velocity][range][2], metres; only with dataset.complex_maps
+//   /echoes                             float64 [sample][pulse][frequency][2], metres; only with dataset.echoes
 //   /hop_code                           uint16 [sample][pulse]
 //   /centres                            float32 [sample][centre][range_m, velocity_mps, amplitude_m], zero beyond
 //                                       /samples/centres

@@ -298,16 +298,16 @@ TEST_F(DataSetDirectory, OfAnotherFormatIsRefused) {
     bytes.replace(bytes.find(from), from.size(), to);
     write_file(file, bytes);
   };
-  replace(directory_ / kManifestFile, "seaglint data set 3", "seaglint data set 9");
+  replace(directory_ / kManifestFile, "seaglint data set 4", "seaglint data set 9");
   EXPECT_THAT(error_of([&] { DatasetReader reader(directory_); }),
-              HasSubstr("manifest.json: format \"seaglint data set 9\"; this program reads \"seaglint data set 3\""));
+              HasSubstr("manifest.json: format \"seaglint data set 9\"; this program reads \"seaglint data set 4\""));
   fs::remove(directory_ / kManifestFile);
   // A complete file of another format must not be treated as damaged and regenerated.
   Hdf5Writer other(directory_ / shard_name(1), Hdf5Version::k18);
   other.attribute("format", "seaglint shard 9");
   other.close();
   EXPECT_THAT(error_of([&] { DatasetWriter(directory_, scenario_, true, kTestVersion).complete(1); }),
-              HasSubstr("shard_00001.h5: format \"seaglint shard 9\"; this program reads \"seaglint shard 4\""));
+              HasSubstr("shard_00001.h5: format \"seaglint shard 9\"; this program reads \"seaglint shard 5\""));
 }
 
 // The action that the message recommends succeeds.

@@ -34,7 +34,7 @@ class ShardFile : public testing::Test {
   fs::path directory_, file_;
 };
 
-Shard some_shard(bool complex_values = false) {
+Shard some_shard(bool complex_values = false, bool echoes = false) {
   Shard shard;
   shard.axes.range_m = {-2, -1, 0, 1, 2};
   shard.axes.velocity_mps = {-1, 0, 1};
@@ -51,6 +51,7 @@ Shard some_shard(bool complex_values = false) {
     for (std::size_t k = 0; complex_values && k < 2 * shard.axes.cells(); ++k) {
       sample.complex_values.push_back(static_cast<float>(random.normal()));
     }
+    for (int k = 0; echoes && k < 16 * 3 * 2; ++k) sample.echo.push_back(random.normal());
     for (int k = 0; k < 16; ++k) sample.hop_code.push_back(static_cast<std::uint16_t>(random.below(8)));
     for (int k = 0; k < i; ++k) sample.centre_list.push_back({1.0f * static_cast<float>(k), 0.5f, 2.0f});
     shard.samples.push_back(std::move(sample));
@@ -64,6 +65,7 @@ void expect_equal(const Shard& a, const Shard& b) {
   for (std::size_t i = 0; i < a.samples.size(); ++i) {
     EXPECT_EQ(a.samples[i].magnitude, b.samples[i].magnitude);
     EXPECT_EQ(a.samples[i].complex_values, b.samples[i].complex_values);
+    EXPECT_EQ(a.samples[i].echo, b.samples[i].echo);
     EXPECT_EQ(a.samples[i].hop_code, b.samples[i].hop_code);
     EXPECT_EQ(a.samples[i].centre_list, b.samples[i].centre_list);
     for (const SampleColumn& column : sample_columns()) {
@@ -85,8 +87,10 @@ std::string message_of(const fs::path& file) {
 
 TEST_F(ShardFile, IsReadAsItWasWritten) {
   for (const bool complex_values : {false, true}) {
-    write_shard(file_, some_shard(complex_values), 8);
-    expect_equal(read_shard(file_), some_shard(complex_values));
+    for (const bool echoes : {false, true}) {
+      write_shard(file_, some_shard(complex_values, echoes), 8);
+      expect_equal(read_shard(file_), some_shard(complex_values, echoes));
+    }
   }
   EXPECT_FALSE(fs::exists(directory_ / "shard_00000.h5.tmp"));
 }
