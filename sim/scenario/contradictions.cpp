@@ -251,8 +251,7 @@ void check_layout(const TargetSpec& target, const ScenarioDocument& document) {
   if (target.layout->line && target.layout->area) document.fail_at(path, "must have line or area, not both");
   const auto ordered = [&](const std::optional<BodyRange>& range, const char* lowest) {
     if (!range || range->lowest <= range->highest) return;
-    document.fail_at(path + lowest,
-                     fmt::format("value {}: must be at most {}, the highest", range->lowest, range->highest));
+    document.fail_at(path + lowest, fmt::format("must be at most {}, the highest", range->highest));
   };
   ordered(target.layout->heights_m, ".heights.lowest_m");
   ordered(target.layout->headings_deg, ".headings.lowest_deg");

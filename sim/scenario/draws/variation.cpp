@@ -25,6 +25,8 @@ std::uint64_t hash_of(std::string_view path, std::uint64_t number) {
   return hash;
 }
 
+constexpr const char* kOtherKey = "must name another key that is drawn as often from a distribution";
+
 constexpr std::array<const char*, 3> kPerSea{"sea", "sea_reflection", "targets"};
 constexpr std::array<const char*, 3> kOfRadar{"radar.hop_code", "radar.pri_jitter_us", "radar.polarisation"};
 
@@ -75,6 +77,7 @@ void find(const ScenarioDocument& document, const YamlNode& node, const std::str
     const std::optional<std::string> same = same_key(value);
     std::optional<Distribution> distribution = distribution_of(document, value, at);
     if (!distribution && !same) continue;
+    if (same == at) document.fail(value.location, at, fmt::format("value '{}': {}", value.text, kOtherKey));
     const std::optional<DrawnPer> per = drawn_per(at);
     if (!per) {
       document.fail(value.location, at,
@@ -108,9 +111,7 @@ std::vector<Variation> find_variations(const ScenarioDocument& document) {
     if (variation.drawn_as == variation.key_path) continue;
     const auto other = std::ranges::find(found, variation.drawn_as, &Variation::key_path);
     if (other == found.end() || other->drawn_as != other->key_path || other->per != variation.per) {
-      document.fail_at(variation.key_path,
-                       fmt::format("value '{}': must name another key that is drawn as often from a distribution",
-                                   variation.text()));
+      document.fail_at(variation.key_path, kOtherKey);
     }
     variation.distribution = other->distribution;
   }

@@ -42,12 +42,12 @@ struct BodyRange {
 
 // Either a line or an area.
 struct LayoutSpec {
-  std::optional<LineLayout> line;
-  std::optional<AreaLayout> area;
+  std::optional<LineLayout> line = {};
+  std::optional<AreaLayout> area = {};
   LayoutBodies bodies = LayoutBodies::kIndependent;  // each body moves by itself, or all move as one rigid raft
-  std::optional<BodyRange> heights_m;     // above the height of motion.origin_above_waterline_m, -10 <= x <= 100
-  std::optional<BodyRange> headings_deg;  // of the bodies at rest, turned about z, -360 <= x <= 360
-  std::uint64_t seed = 0;                 // of random places, heights and headings
+  std::optional<BodyRange> heights_m = {};     // above the height of motion.origin_above_waterline_m, -10 <= x <= 100
+  std::optional<BodyRange> headings_deg = {};  // of the bodies at rest, turned about z, -360 <= x <= 360
+  std::uint64_t seed = 0;                      // of random places, heights and headings
 };
 
 }  // namespace seaglint

@@ -158,6 +158,14 @@ void make_consistent(Scenario& scenario) {
   }
   scenario.radar.bandwidth_mhz = std::min(scenario.radar.bandwidth_mhz, 1.3e3 * scenario.radar.carrier_ghz);
   scenario.radar.sampling_mhz = std::max(scenario.radar.bandwidth_mhz * 1.7, 8.3 / scenario.radar.pulse_width_us);
+  for (TargetSpec& target : scenario.targets) {
+    if (!target.layout) continue;
+    for (const auto range : {&LayoutSpec::heights_m, &LayoutSpec::headings_deg}) {
+      std::optional<BodyRange>& ends = (*target.layout).*range;
+      if (ends && ends->lowest > ends->highest) std::swap(ends->lowest, ends->highest);
+    }
+    if (target.layout->area) target.layout->area->min_distance_m /= 1e9;
+  }
   scenario.dataset.realisations_per_case = 7;
   scenario.dataset.maps_per_case = 7 * 13;
   scenario.dataset.maps_per_interval = 13;

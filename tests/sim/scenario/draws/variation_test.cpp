@@ -177,7 +177,7 @@ TEST(Variation, SameHasTheDrawsOfAnotherKey) {
     counts.insert(one.targets[1].layout->line->count);
   }
   EXPECT_GT(counts.size(), 1u);
-  EXPECT_THAT(effective_yaml(scenario), HasSubstr("count: \"same(targets.array.layout.line.count)\""));
+  EXPECT_THAT(effective_yaml(scenario), HasSubstr("count: same(targets.array.layout.line.count)\n"));
   EXPECT_EQ(effective_yaml(parse(effective_yaml(scenario))), effective_yaml(scenario));
 }
 

@@ -59,11 +59,11 @@ TEST(AreaLayout, RingIsAnEllipse) {
 }
 
 TEST(AreaLayout, GridReachesTheBordersAndIsCentred) {
-  const std::vector<Vec2> places = layout_positions(target_of({LayoutShape::kGrid, 12, 90, 40}));
-  EXPECT_NEAR(places.front().x(), -45, 1e-12);
+  const std::vector<Vec2> places = layout_positions(target_of({LayoutShape::kGrid, 12, 120, 40}));
+  EXPECT_NEAR(places.front().x(), -60, 1e-12);
   EXPECT_NEAR(places.back().y(), 20, 1e-12);
   EXPECT_LT(mean(places).norm(), 1e-12);
-  EXPECT_NEAR(least_distance(places), 20, 1e-12);  // 5 columns, 22.5 m apart, 3 rows
+  EXPECT_NEAR(least_distance(places), 24, 1e-12);  // 6 columns, 2 rows
   for (int count = 1; count <= 40; ++count) {
     const std::vector<Vec2> grid = layout_positions(target_of({LayoutShape::kGrid, count, 90, 40}));
     ASSERT_EQ(grid.size(), static_cast<std::size_t>(count));
@@ -146,10 +146,10 @@ TEST(Layout, RefusesWhatCannotBe) {
               HasSubstr("targets.t.layout.area: bodies 0 and 1 are 2.06897 m apart: must be at least 3"));
   EXPECT_THAT(complaint("area: {shape: random, count: 30, length_m: 10, width_m: 10, min_distance_m: 5}"),
               HasSubstr("targets.t.layout.area: 30 bodies find no places 5 m apart in 10 by 10 m"));
-  EXPECT_THAT(complaint("area: {shape: heap}"), HasSubstr("value 'heap': must be line, ring, grid or random"));
+  EXPECT_THAT(complaint("area: {shape: heap}"), HasSubstr("value 'heap': must be one of line, ring, grid, random"));
   EXPECT_THAT(complaint("area: {}, heights: {lowest_m: 2, highest_m: 1}"),
-              HasSubstr("targets.t.layout.heights.lowest_m: value 2: must be at most 1, the highest"));
-  EXPECT_THAT(complaint("line: {}, heights: {highest_m: 200}"), HasSubstr("must be within -10 and 100"));
+              HasSubstr("targets.t.layout.heights.lowest_m: value '2': must be at most 1, the highest"));
+  EXPECT_THAT(complaint("line: {}, heights: {highest_m: 200}"), HasSubstr("must be a number within -10 and 100"));
 }
 
 }  // namespace
