@@ -36,9 +36,11 @@ std::optional<double> number_in(const SampleRecord& record, const SampleColumn& 
   return std::nullopt;
 }
 
-[[noreturn]] void refuse_column(const std::string& name) {
+[[noreturn]] void refuse_column(const std::string& name, std::span<const DataRow> rows = {}) {
   std::vector<std::string> names{kSea, kDataSet};
   for (const SampleColumn& column : sample_columns()) names.push_back(column.name);
+  if (!rows.empty())
+    visit_drawn(rows.front().record, [&](const std::string& key, const auto&) { names.push_back(key); });
   throw InputError(fmt::format("{}: no column of a data set: {}", name, suggestion(name, names)));
 }
 
@@ -100,7 +102,7 @@ ColumnOfRows column_of(std::span<const DataRow> rows, const std::string& name) {
   const SampleColumn* column = find_column(name);
   if (column == nullptr) {
     if (std::optional<ColumnOfRows> drawn = drawn_column(rows, name)) return *drawn;
-    refuse_column(name);
+    refuse_column(name, rows);
   }
   if (const auto* text = std::get_if<std::string SampleRecord::*>(&column->member)) {
     values.is_text = true;

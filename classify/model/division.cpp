@@ -73,6 +73,13 @@ Side side_of(std::size_t with, std::size_t without) {
 
 }  // namespace
 
+DivisionRequest division_request(const SplitSpec& split) {
+  DivisionRequest request{split.by, {}};
+  for (const HoldOutSpec& column : split.hold_out)
+    for (const std::string& value : column.values) request.hold_out.push_back({column.column, value});
+  return request;
+}
+
 Division division_by_sea(std::span<const RowGroup> seas) { return {{seas.begin(), seas.end()}, {}, {}, "sea", kBySea}; }
 
 Division make_division(std::span<const DataRow> rows, std::span<const RowGroup> seas, std::span<const int> labels,

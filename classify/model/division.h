@@ -10,6 +10,7 @@
 
 #include "classify/model/data_rows.h"
 #include "classify/model/split.h"
+#include "sim/scenario/learning_spec.h"
 
 namespace seaglint {
 
@@ -24,6 +25,9 @@ struct DivisionRequest {
   std::vector<HoldOut> hold_out;  // values of one column: any of them; several columns: all of them
   bool is_default() const { return by == "sea" && hold_out.empty(); }
 };
+
+// That of a scenario's learning.split.
+DivisionRequest division_request(const SplitSpec& split);
 
 // How the group protocol divides rows. A unit is all rows with one value of the column `by`.
 struct Division {

@@ -214,8 +214,7 @@ FeatureMatrix embedding_matrix(const Embeddings& embeddings) {
   return matrix;
 }
 
-void check_splits(std::span<const RowGroup> rows, const LearningSpec& spec, double train_fraction, std::uint64_t seed) {
-  const Division division = division_by_sea(rows);
+void check_splits(const Division& division, const LearningSpec& spec, double train_fraction, std::uint64_t seed) {
   for (const Job& job : all_jobs(spec)) rows_of(job, division, spec, train_fraction, seed);
 }
 

@@ -65,8 +65,8 @@ FeatureMatrix embedding_matrix(const Embeddings& embeddings);
 // Random index of the interval of a primary result (score()): `group` of Study::groups.
 std::uint64_t bootstrap_index(std::size_t group, Protocol protocol);
 
-// Throws InputError when a split of rows in these groups would have an empty side; needs no maps.
-void check_splits(std::span<const RowGroup> rows, const LearningSpec& spec, double train_fraction, std::uint64_t seed);
+// Throws InputError when a split would have an empty side; needs no maps.
+void check_splits(const Division& division, const LearningSpec& spec, double train_fraction, std::uint64_t seed);
 
 inline constexpr const char* kNetworkFile = "network.bin";
 inline constexpr const char* kSplitsFile = "splits.csv";

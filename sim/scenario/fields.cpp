@@ -317,6 +317,10 @@ void visit(FeatureSpec& spec, FieldVisitor& v) {
 }
 
 void visit(LearningSpec& spec, FieldVisitor& v) {
+  v.section("split", [&](FieldVisitor& split) {
+    split.text("by", spec.split.by);
+    split.hold_outs("hold_out", spec.split.hold_out);
+  });
   visit_choice(v, "fusion", spec.fusion, {"split", "in_sample"});
   v.number("network_fraction", spec.network_fraction, within(0.1, 0.9));
   v.integer("epochs", spec.epochs, within(1, 10000));

@@ -61,6 +61,8 @@ class FieldVisitor {
   // with values empty.
   virtual void sweep(const char* key, Sweep& values, const Bound& bound, Names words = {},
                      std::size_t* word = nullptr) = 0;
+  // A map of columns, each with a value or a list of values.
+  virtual void hold_outs(const char* key, std::vector<HoldOutSpec>& columns) = 0;
   virtual void section(const char* key, const Fields& fields) = 0;
   // A list of maps: resize(n) is called when reading, then item(i, visitor) for each.
   virtual void list(const char* key, std::size_t size, std::size_t max_size,

@@ -50,6 +50,9 @@ class Lister : public FieldVisitor {
     add(key, fmt::format("{}", fmt::join(values, ", ")),
         fmt::format("number, list or from:to:step, {}{}", number_text(bound), other));
   }
+  void hold_outs(const char* key, std::vector<HoldOutSpec>&) override {
+    add(key, "{}", "{COLUMN: value, LOW:HIGH or a list of these}");
+  }
   void section(const char* key, const Fields& fields) override {
     is_optional_ = false;
     below(key, [&] { fields(*this); });

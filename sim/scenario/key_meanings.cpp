@@ -228,6 +228,12 @@ constexpr Meaning kMeanings[] = {
     {"features.range_scale_m", "Normalisation of sigma_r in CCF, m."},
     {"features.velocity_scale_mps", "Normalisation of sigma_v in CCF, m/s."},
     {"features.weighted_fit", "The line of MWR is fitted with the centres' weights too."},
+    {"learning.split.by",
+     "Column of the samples, or drawn key, whose values are on one side of the split each; sea: whole sea "
+     "realisations."},
+    {"learning.split.hold_out",
+     "Values of columns that are tested on and never trained on, for the classes that have them: any of a column's "
+     "values, all columns."},
     {"learning.fusion",
      "split: network and trees learn from different training maps; in_sample: from the same (the paper's)."},
     {"learning.network_fraction",

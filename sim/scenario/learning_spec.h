@@ -3,6 +3,7 @@
 
 // The `dataset`, `features` and `learning` sections of a scenario.
 
+#include <string>
 #include <vector>
 
 namespace seaglint {
@@ -27,9 +28,22 @@ struct FeatureSpec {
   bool weighted_fit = false;        // weights in the line fit too; the residual is weighted as printed
 };
 
+// Values of one column that are tested on and never trained on.
+struct HoldOutSpec {
+  std::string column;
+  std::vector<std::string> values;  // texts, numbers or LOW:HIGH, both included; 1 to 1000
+};
+
+// How maps are divided into training and test maps (classify/model/division.h).
+struct SplitSpec {
+  std::string by = "sea";             // column whose values are on one side each
+  std::vector<HoldOutSpec> hold_out;  // at most 100 columns
+};
+
 enum class Fusion { kSplit, kInSample };
 
 struct LearningSpec {
+  SplitSpec split;
   Fusion fusion = Fusion::kSplit;
   double network_fraction = 0.6;  // of the training groups, for the network, when fusion is split; 0.1 <= x <= 0.9
   int epochs = 60;                // at most, 1 <= x <= 10000

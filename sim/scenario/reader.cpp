@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <initializer_list>
 #include <optional>
+#include <span>
 
 #include "sim/core/process/error.h"
 #include "sim/core/text/number.h"
@@ -49,6 +50,7 @@ class KeyCollector : public FieldVisitor {
   void triple(const char* key, std::array<double, 3>&, const Bound&) override { keys.emplace_back(key); }
   void ratio(const char* key, double&) override { keys.emplace_back(key); }
   void sweep(const char* key, Sweep&, const Bound&, Names, std::size_t*) override { keys.emplace_back(key); }
+  void hold_outs(const char* key, std::vector<HoldOutSpec>&) override { keys.emplace_back(key); }
   void section(const char* key, const Fields&) override { keys.emplace_back(key); }
   void list(const char* key, std::size_t, std::size_t, const std::function<void(std::size_t)>&,
             const std::function<void(std::size_t, FieldVisitor&)>&) override {
@@ -121,15 +123,7 @@ class Reader : public FieldVisitor {
   }
 
   void text(const char* key, std::string& value) override {
-    const YamlNode* node = map_.find(key);
-    if (node == nullptr) return;
-    constexpr std::size_t kLongest = 4096;
-    const bool printable = std::none_of(node->text.begin(), node->text.end(),
-                                        [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; });
-    if (node->kind != YamlNode::Kind::kScalar || node->text.empty() || node->text.size() > kLongest || !printable) {
-      fail(*node, path_of(key), fmt::format("must be a text of 1 to {} printable characters", kLongest));
-    }
-    value = node->text;
+    if (const YamlNode* node = map_.find(key)) value = text_of(*node, path_of(key));
   }
 
   void choice(const char* key, std::size_t& index, Names names) override {
@@ -192,6 +186,25 @@ class Reader : public FieldVisitor {
     const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
     if (twice != sorted.end())
       document_.fail(node->location, path_of(key), fmt::format("value '{}' appears twice", *twice));
+  }
+
+  void hold_outs(const char* key, std::vector<HoldOutSpec>& columns) override {
+    const YamlNode* node = map_.find(key);
+    if (node == nullptr) return;
+    constexpr std::size_t kMaxColumns = 100, kMaxValues = 1000;
+    if (node->kind != YamlNode::Kind::kMap || node->entries.size() > kMaxColumns)
+      fail(*node, path_of(key), fmt::format("must be a map of at most {} columns with their values", kMaxColumns));
+    check_duplicates(*node, path_of(key));
+    columns.clear();
+    for (const YamlEntry& entry : node->entries) {
+      const std::string path = path_of(key) + "." + entry.key;
+      const bool is_list = entry.value.kind == YamlNode::Kind::kList;
+      const std::span<const YamlNode> values = is_list ? std::span(entry.value.items) : std::span(&entry.value, 1);
+      if (values.empty() || values.size() > kMaxValues)
+        fail(entry.value, path, fmt::format("must be a value or a list of 1 to {} values", kMaxValues));
+      columns.push_back({entry.key, {}});
+      for (const YamlNode& value : values) columns.back().values.push_back(text_of(value, path));
+    }
   }
 
   void section(const char* key, const Fields& fields) override {
@@ -303,6 +316,15 @@ class Reader : public FieldVisitor {
                      fmt::format("name '{}': must be 1 to {} letters, digits, '_' or '-'",
                                  entry.key.substr(0, kLongest), kLongest));
     }
+  }
+
+  std::string text_of(const YamlNode& node, const std::string& path) const {
+    constexpr std::size_t kLongest = 4096;
+    const bool printable = std::none_of(node.text.begin(), node.text.end(),
+                                        [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; });
+    if (node.kind != YamlNode::Kind::kScalar || node.text.empty() || node.text.size() > kLongest || !printable)
+      fail(node, path, fmt::format("must be a text of 1 to {} printable characters", kLongest));
+    return node.text;
   }
 
   double number_of(const YamlNode& node, const std::string& path, const Bound& bound, const std::string& what) const {

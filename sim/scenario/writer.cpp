@@ -75,6 +75,15 @@ class ValueVisitor : public FieldVisitor {
       line(key, fmt::format("[{}]", fmt::join(values, ", ")));
     }
   }
+  void hold_outs(const char* key, std::vector<HoldOutSpec>& columns) override {
+    std::vector<std::string> entries;
+    for (const HoldOutSpec& column : columns) {
+      std::vector<std::string> values;
+      for (const std::string& value : column.values) values.push_back(text_as_yaml(value));
+      entries.push_back(fmt::format("{}: [{}]", text_as_yaml(column.column), fmt::join(values, ", ")));
+    }
+    line(key, fmt::format("{{{}}}", fmt::join(entries, ", ")));
+  }
   void require(const char*) override {}
   bool optional(const char*, bool present) override { return present; }
 

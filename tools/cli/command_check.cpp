@@ -14,6 +14,7 @@
 #include "tools/pipeline/map_coverage.h"
 #include "tools/pipeline/pipeline.h"
 #include "tools/pipeline/warnings.h"
+#include "tools/report/learnable.h"
 
 namespace seaglint {
 
@@ -39,6 +40,7 @@ void add_check(CommandOptions& program, CommandContext& context) {
     context.work = [arguments] {
       const Scenario scenario = arguments->read();
       const Pipeline pipeline(scenario);  // reads every file that the scenario names
+      check_division(scenario, pipeline.plan());
       const PulseTrain train = make_pulse_train(scenario.radar, pipeline.window_m(), scenario.seed, 0);
       print_out("{}", effective_yaml(scenario));
       std::fflush(stdout);

@@ -10,6 +10,7 @@
 #include "tools/cli/arguments.h"
 #include "tools/cli/command.h"
 #include "tools/pipeline/generate.h"
+#include "tools/report/learnable.h"
 
 namespace seaglint {
 
@@ -44,6 +45,7 @@ void generate(const Arguments& arguments, const CommandContext& context) {
   options.threads = context.threads;
   if (!arguments.part.empty()) read_part(arguments.part, options);
   const Scenario scenario = arguments.scenario.read();
+  check_division(scenario, SamplePlan(scenario));
   const auto begin = std::chrono::steady_clock::now();
   GenerateResult result;
   try {

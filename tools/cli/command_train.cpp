@@ -16,7 +16,7 @@ namespace {
 
 struct Arguments {
   std::vector<std::string> data;
-  std::string by = "sea";
+  std::string by;
   std::vector<std::string> hold_out;
   std::string model;
   std::vector<std::string> set;
@@ -34,15 +34,16 @@ std::vector<Override> learning_overrides(const std::vector<std::string>& set) {
   return overrides;
 }
 
-DivisionRequest division_request(const Arguments& arguments) {
-  DivisionRequest request{arguments.by, {}};
+DivisionOptions division_options(const Arguments& arguments) {
+  DivisionOptions options;
+  if (!arguments.by.empty()) options.by = arguments.by;
   for (const std::string& text : arguments.hold_out) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos || equals == 0)
       throw InputError(fmt::format("--hold-out {}: must be COLUMN=VALUE or COLUMN=LOW:HIGH", text));
-    request.hold_out.push_back({text.substr(0, equals), text.substr(equals + 1)});
+    options.hold_out.push_back({text.substr(0, equals), text.substr(equals + 1)});
   }
-  return request;
+  return options;
 }
 
 }  // namespace
@@ -60,15 +61,14 @@ void add_train(CommandOptions& program, CommandContext& context) {
   command.add_option("-o,--output", arguments->model, "Directory of the model").required();
   command.add_option("--set", arguments->set, "Replace a value of the data set's scenario (repeatable)")
       .repeatable("learning.KEY=VALUE");
-  command
-      .add_option("--by", arguments->by,
-                  "Column whose values are on one side of the split each, in place of the sea realisation: any column "
-                  "of the samples, or data_set (numbered from 0)")
-      .show_default();
+  command.add_option("--by", arguments->by,
+                     "Column whose values are on one side of the split each, in place of learning.split.by: any column "
+                     "of the samples, sea, or data_set (numbered from 0)");
   command
       .add_option("--hold-out", arguments->hold_out,
                   "Values that are tested only and never trained on, for the classes that have them; LOW:HIGH for an "
-                  "interval (repeatable: any of one column's values, all columns)")
+                  "interval (repeatable: any of one column's values, all columns); in place of "
+                  "learning.split.hold_out")
       .repeatable("COLUMN=VALUE");
   add_threads_option(command, context);
   command.footer(
@@ -79,7 +79,7 @@ void add_train(CommandOptions& program, CommandContext& context) {
       std::vector<std::filesystem::path> data_sets;
       for (const std::string& data : arguments->data) data_sets.push_back(find_data_set(data));
       const TrainedModel model = train_model(data_sets, arguments->model, learning_overrides(arguments->set),
-                                             division_request(*arguments), context.threads, &context.stop);
+                                             division_options(*arguments), context.threads, &context.stop);
       print_out("{}\n{}: network, trees and {}\n", accuracy_table(model.study), arguments->model, kMetricsFile);
     };
   });

@@ -138,21 +138,11 @@ std::vector<RowGroup> common_seas(std::span<const DataRow> rows, std::span<const
   return result;
 }
 
-// Throws InputError when a side of the group protocol is empty or of one class only, in any repeat.
-void require_two_classes(const LearningTable& table, const Scenario& scenario) {
-  const Division division = table.division();
-  for (int repeat = 0; repeat < scenario.learning.split_repeats; ++repeat) {
-    const Split split = divide(division, Protocol::kGroup, scenario.dataset.train_fraction, scenario.seed,
-                               static_cast<std::uint64_t>(repeat));
-    for (const auto& [rows, use] : {std::pair(&split.train, "train"), std::pair(&split.test, "test")}) {
-      if (rows->empty()) throw InputError(fmt::format("{}: leaves no map to {} on", division.text, use));
-      const int label = table.labels[rows->front()];
-      if (std::all_of(rows->begin(), rows->end(), [&](std::size_t row) { return table.labels[row] == label; })) {
-        throw InputError(fmt::format("{}: leaves {} maps to {} on, all of class {} ({})", division.text, rows->size(),
-                                     use, label, class_names_by_label()[static_cast<std::size_t>(label)]));
-      }
-    }
-  }
+// Divides the rows as requested; by sea alone needs no column.
+void divide_rows(LearningData& data, const Scenario& scenario, const DivisionRequest& request) {
+  LearningTable& table = data.table;
+  if (!request.is_default()) table.other_division = make_division(data.rows, table.groups, table.labels, request);
+  if (!request.is_default() || data.manifests.size() > 1) require_two_classes(table.division(), table.labels, scenario);
 }
 
 TrainedModel train_on(const LearningData& data, const Scenario& scenario, const fs::path& model_directory, int threads,
@@ -181,17 +171,33 @@ TrainedModel train_on(const LearningData& data, const Scenario& scenario, const 
 
 }  // namespace
 
+void require_two_classes(const Division& division, std::span<const int> labels, const Scenario& scenario) {
+  for (int repeat = 0; repeat < scenario.learning.split_repeats; ++repeat) {
+    const Split split = divide(division, Protocol::kGroup, scenario.dataset.train_fraction, scenario.seed,
+                               static_cast<std::uint64_t>(repeat));
+    for (const auto& [rows, use] : {std::pair(&split.train, "train"), std::pair(&split.test, "test")}) {
+      if (rows->empty()) throw InputError(fmt::format("{}: leaves no map to {} on", division.text, use));
+      const int label = labels[rows->front()];
+      if (std::all_of(rows->begin(), rows->end(), [&](std::size_t row) { return labels[row] == label; })) {
+        throw InputError(fmt::format("{}: leaves {} maps to {} on, all of class {} ({})", division.text, rows->size(),
+                                     use, label, class_names_by_label()[static_cast<std::size_t>(label)]));
+      }
+    }
+  }
+}
+
 TrainedModel train_model(const DatasetReader& data, const Scenario& scenario, const fs::path& model_directory,
                          int threads, const StopFlag* stop, const std::function<void(const Shard&)>& use) {
   require_own_directory(model_directory);
   LearningData learning;
   read_data(learning, data, stop, use);
   require_learnable(learning.table, data.directory().string());
+  divide_rows(learning, scenario, division_request(scenario.learning.split));
   return train_on(learning, scenario, model_directory, threads, stop);
 }
 
 TrainedModel train_model(const std::vector<fs::path>& data_sets, const fs::path& model_directory,
-                         const std::vector<Override>& overrides, const DivisionRequest& request, int threads,
+                         const std::vector<Override>& overrides, const DivisionOptions& division, int threads,
                          const StopFlag* stop) {
   SEAGLINT_CHECK(!data_sets.empty(), "no data set");
   require_own_directory(model_directory);
@@ -216,16 +222,16 @@ TrainedModel train_model(const std::vector<fs::path>& data_sets, const fs::path&
   LearningTable& table = learning.table;
   require_learnable(table, joined(data_sets));
   if (data_sets.size() > 1) table.groups = common_seas(learning.rows, table.groups);
-  if (!request.is_default() || data_sets.size() > 1) {
-    if (!request.is_default()) table.other_division = make_division(learning.rows, table.groups, table.labels, request);
-    require_two_classes(table, scenario);
-  }
+  DivisionRequest request = division_request(scenario.learning.split);
+  if (division.by) request.by = *division.by;
+  if (!division.hold_out.empty()) request.hold_out = division.hold_out;
+  divide_rows(learning, scenario, request);
   return train_on(learning, scenario, model_directory, threads, stop);
 }
 
 TrainedModel train_model(const fs::path& data_set, const fs::path& model_directory,
                          const std::vector<Override>& overrides, int threads, const StopFlag* stop) {
-  return train_model(std::vector{data_set}, model_directory, overrides, DivisionRequest{}, threads, stop);
+  return train_model(std::vector{data_set}, model_directory, overrides, DivisionOptions{}, threads, stop);
 }
 
 }  // namespace seaglint

@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -27,24 +29,32 @@ struct TrainedModel {
   nlohmann::ordered_json metrics;  // the content of metrics.json
 };
 
+// Options in place of learning.split of the scenario.
+struct DivisionOptions {
+  std::optional<std::string> by;
+  std::vector<HoldOut> hold_out;  // empty: those of the scenario
+};
+
 // Trains and evaluates with the learning section of the data set's scenario; every shard is read once and passed to
 // `use` if given. The model directory is created; an earlier model there is replaced only when all is computed. Throws
-// InputError for an invalid data set or a directory with other content, WorkError when a file cannot be written,
-// Interrupted when *stop becomes true.
+// InputError for an invalid data set, a directory with other content, or a division that leaves nothing, or one class
+// only, to train or to test on, WorkError when a file cannot be written, Interrupted when *stop becomes true.
 TrainedModel train_model(const DatasetReader& data, const Scenario& scenario,
                          const std::filesystem::path& model_directory, int threads, const StopFlag* stop = nullptr,
                          const std::function<void(const Shard&)>& use = {});
 
-// The same with several data sets and a division by other columns than the sea. Learning, split and seed are those of
-// the scenario of the first data set, changed by `overrides`. Prints data_set_warnings(). Throws InputError also when
-// maps or features of the data sets have different settings, two data sets are of one scenario, or the division leaves
-// nothing, or one class only, to train or to test on.
+// The same with several data sets. Learning, split and seed are those of the scenario of the first data set, changed by
+// `overrides` and `division`. Prints data_set_warnings(). Throws InputError also when maps or features of the data sets
+// have different settings, or two data sets are of one scenario.
 TrainedModel train_model(const std::vector<std::filesystem::path>& data_sets,
                          const std::filesystem::path& model_directory, const std::vector<Override>& overrides,
-                         const DivisionRequest& request, int threads, const StopFlag* stop = nullptr);
+                         const DivisionOptions& division, int threads, const StopFlag* stop = nullptr);
 
-// The same with one data set, divided by sea.
+// The same with one data set, divided as its scenario states.
 TrainedModel train_model(const std::filesystem::path& data_set, const std::filesystem::path& model_directory,
                          const std::vector<Override>& overrides, int threads, const StopFlag* stop = nullptr);
+
+// Throws InputError when a side of the group protocol is empty or of one class only, in any repeat.
+void require_two_classes(const Division& division, std::span<const int> labels, const Scenario& scenario);
 
 }  // namespace seaglint

@@ -18,6 +18,7 @@
 #include "tools/pipeline/generate.h"
 #include "tools/pipeline/train.h"
 #include "tools/pipeline/warnings.h"
+#include "tools/report/learnable.h"
 #include "tools/report/report.h"
 
 namespace seaglint {
@@ -62,21 +63,6 @@ void require_directory(const fs::path& directory, bool resume) {
   }
   if (!fs::is_directory(directory / "data", error))
     throw InputError(fmt::format("{}: the directory contains something else than a run", directory.string()));
-}
-
-// Rejects, before any map is generated, what learning would reject.
-void check_learnable(const Scenario& scenario, const SamplePlan& plan) {
-  const auto has = [&](int label) {
-    return std::ranges::any_of(
-        plan.classes(), [&](int target) { return scenario.targets[static_cast<std::size_t>(target)].label == label; });
-  };
-  if (!has(0) || !has(1)) throw InputError("targets: learning needs a target of label 0 and one of label 1");
-  std::vector<RowGroup> rows;
-  for (std::size_t sample = 0; sample < plan.size(); ++sample) {
-    const SampleAddress address = plan.sea_address(sample);
-    rows.push_back({plan.group(address), address.sea_state});
-  }
-  check_splits(rows, scenario.learning, scenario.dataset.train_fraction, scenario.seed);
 }
 
 }  // namespace

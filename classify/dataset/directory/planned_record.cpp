@@ -85,17 +85,12 @@ SampleRecord planned_record(const Scenario& scenario, const SamplePlan& plan, st
   return record;
 }
 
-namespace {
-
-// The columns that planned_record() fills.
 std::span<const SampleColumn> planned_columns() {
   const std::span<const SampleColumn> all = sample_columns();
   const auto last = std::find_if(
       all.begin(), all.end(), [](const SampleColumn& column) { return std::string_view(column.name) == "radar_key"; });
   return all.first(static_cast<std::size_t>(last - all.begin()) + 1);
 }
-
-}  // namespace
 
 std::vector<std::string> record_mismatches(const SampleRecord& record, const SampleRecord& planned) {
   std::vector<std::string> found;

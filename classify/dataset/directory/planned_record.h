@@ -3,6 +3,8 @@
 
 // The part of a sample's row that the scenario determines: sea, view, target, interval, keys and label.
 
+#include <span>
+
 #include "classify/dataset/format/drawn_columns.h"
 #include "classify/dataset/format/sample.h"
 #include "sim/scenario/sample_plan.h"
@@ -18,6 +20,9 @@ SampleRecord planned_record(const Scenario& scenario, const SamplePlan& plan, st
 // The same with a known address of the sample, which saves the shuffle that finds it.
 SampleRecord planned_record(const Scenario& scenario, const SamplePlan& plan, std::size_t sample,
                             const SampleAddress& address);
+
+// The columns that planned_record() fills.
+std::span<const SampleColumn> planned_columns();
 
 // "label 0, by the scenario 1" for every column of `record` that differs from the planned value.
 std::vector<std::string> record_mismatches(const SampleRecord& record, const SampleRecord& planned);

@@ -19,10 +19,14 @@ struct Closest {
 
 Closest closest(const YamlNode& root, const std::string& key_path) {
   const YamlNode* node = &root;
-  for (const std::string& key : split_path(key_path)) {
-    const YamlNode* child = node->find(key);
+  for (std::size_t begin = 0; begin <= key_path.size();) {
+    // A key may have dots of its own, as a column of learning.split.hold_out.
+    if (const YamlNode* last = node->find(key_path.substr(begin))) return {last, true};
+    const std::size_t end = std::min(key_path.find('.', begin), key_path.size());
+    const YamlNode* child = node->find(key_path.substr(begin, end - begin));
     if (child == nullptr) return {node, false};
     node = child;
+    begin = end + 1;
   }
   return {node, true};
 }

@@ -70,6 +70,13 @@ class Collector : public Walker {
     values[path(key)] = word != nullptr && *word > 0 ? words[*word - 1] : "";
     for (const double value : sweep) values[path(key)] += fmt::format("{:a} ", value);
   }
+  void hold_outs(const char* key, std::vector<HoldOutSpec>& columns) override {
+    std::string& all = values[path(key)];
+    for (const HoldOutSpec& column : columns) {
+      all += "\n" + column.column;
+      for (const std::string& value : column.values) all += "\t" + value;
+    }
+  }
 };
 
 // Another allowed value for every field, with as many digits as a double has.
@@ -100,6 +107,9 @@ class Mutator : public Walker {
     if (word != nullptr && *word > 0) return;
     values.resize(1 + random_.below(3));
     for (double& value : values) value = draw(bound);
+  }
+  void hold_outs(const char*, std::vector<HoldOutSpec>& columns) override {
+    columns = {{"target_name", {"ring", "a \"line\": #1", "-3"}}, {"sea.peak_period_s", {"8:9.5"}}};
   }
 
  private:
@@ -256,6 +266,7 @@ TEST(RoundTrip, EveryAllowedWordIsRead) {
         void triple(const char*, std::array<double, 3>&, const Bound&) override {}
         void ratio(const char*, double&) override {}
         void sweep(const char*, Sweep&, const Bound&, Names, std::size_t*) override {}
+        void hold_outs(const char*, std::vector<HoldOutSpec>&) override {}
       } change;
       visit_fields(scenario, change);
     }

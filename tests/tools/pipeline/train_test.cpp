@@ -123,6 +123,32 @@ TEST_F(Training, RecordsItsSettings) {
             effective_yaml(read_scenario(folder_ / "data" / "scenario.yaml", overrides)));
 }
 
+// The division of the scenario, and options in its place.
+TEST_F(Training, DividesAsItsScenarioStatesUnlessOptionsReplaceIt) {
+  const auto split = [](const std::vector<Override>& of_scenario, const DivisionOptions& options) {
+    std::vector<Override> overrides{{"learning.epochs", "1"}, {"learning.trees", "3"}};
+    overrides.insert(overrides.end(), of_scenario.begin(), of_scenario.end());
+    const fs::path model = folder_ / "divided";
+    const TrainedModel trained = train_model({folder_ / "data"}, model, overrides, options, 1);
+    return trained.study.division + "\n" + read_file(model / kSplitsFile);
+  };
+  const std::vector<Override> of_scenario{{"learning.split.by", "interval"},
+                                          {"learning.split.hold_out", "{azimuth_deg: 80}"}};
+  const std::string stated = split(of_scenario, {});
+  EXPECT_EQ(stated.substr(0, stated.find('\n')), "tested on azimuth_deg=80 only; split by interval");
+  EXPECT_EQ(stated, split({}, {"interval", {{"azimuth_deg", "80"}}}));
+  EXPECT_EQ(split(of_scenario, {"sea", {{"azimuth_deg", "30"}}}), split({}, {"sea", {{"azimuth_deg", "30"}}}));
+  EXPECT_EQ(split({{"learning.split.by", "interval"}}, {"sea", {}}), split({}, {}));
+
+  // A run, which has read its scenario, divides likewise.
+  const DatasetReader data(folder_ / "data");
+  std::vector<Override> short_training{{"learning.epochs", "1"}, {"learning.trees", "3"}};
+  short_training.insert(short_training.end(), of_scenario.begin(), of_scenario.end());
+  const Scenario scenario = read_scenario(folder_ / "data" / kScenarioFile, short_training);
+  const TrainedModel run = train_model(data, scenario, folder_ / "divided", 1);
+  EXPECT_EQ(run.study.division + "\n" + read_file(folder_ / "divided" / kSplitsFile), stated);
+}
+
 TEST_F(Training, DependsNeitherOnItsThreadsNorOnThoseOfANetwork) {
   train_model(folder_ / "data", folder_ / "one", {{"learning.epochs", "2"}}, 1);
   train_model(folder_ / "data", folder_ / "several", {{"learning.epochs", "2"}, {"learning.threads", "3"}}, 2);
