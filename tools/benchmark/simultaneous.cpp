@@ -31,13 +31,26 @@ std::vector<std::size_t> most_different_first(std::span<const Estimate> estimate
   return order;
 }
 
-// Two-sided quantile of the k-th of m.
-double quantile(std::size_t k, std::size_t m) { return normal_quantile(1 - kLevel / (2 * static_cast<double>(m - k))); }
+// Quantile of Student's distribution by the expansion about the normal one to the fourth order (Abramowitz and Stegun
+// 1964, 26.7.5); at 0.9975 too low by 1.4 % for 3 degrees of freedom, 0.01 % for 9.
+double student_quantile(double probability, double degrees) {
+  const double z = normal_quantile(probability), z2 = z * z, f = 1 / degrees;
+  const double g1 = (z2 + 1) / 4, g2 = ((5 * z2 + 16) * z2 + 3) / 96, g3 = (((3 * z2 + 19) * z2 + 17) * z2 - 15) / 384,
+               g4 = ((((79 * z2 + 776) * z2 + 1482) * z2 - 1920) * z2 - 945) / 92160;
+  return z * (1 + f * (g1 + f * (g2 + f * (g3 + f * g4))));
+}
+
+// Two-sided quantile of an estimate that is the k-th of m.
+double quantile(const Estimate& estimate, std::size_t k, std::size_t m) {
+  return student_quantile(1 - kLevel / (2 * static_cast<double>(m - k)), estimate.degrees_of_freedom);
+}
 
 }  // namespace
 
 Estimate estimate_of(const Scores& scores) {
-  return {scores.accuracy, (scores.accuracy_95.high - scores.accuracy_95.low) / (2 * normal_quantile(0.975))};
+  const double of_bootstrap = (scores.accuracy_95.high - scores.accuracy_95.low) / (2 * normal_quantile(0.975));
+  const double seas = static_cast<double>(std::max<std::size_t>(scores.groups, 2));
+  return {scores.accuracy, of_bootstrap * std::sqrt(seas / (seas - 1)), seas - 1};
 }
 
 std::vector<ConfidenceInterval> holm_intervals(std::span<const Estimate> estimates, double null) {
@@ -46,7 +59,7 @@ std::vector<ConfidenceInterval> holm_intervals(std::span<const Estimate> estimat
   const std::vector<std::size_t> order = most_different_first(estimates, null);
   for (std::size_t k = 0; k < order.size(); ++k) {
     const Estimate& estimate = estimates[order[k]];
-    const double half = quantile(k, order.size()) * estimate.standard_error;
+    const double half = quantile(estimate, k, order.size()) * estimate.standard_error;
     intervals[order[k]] = {std::max(0.0, estimate.value - half), std::min(1.0, estimate.value + half)};
   }
   return intervals;
@@ -56,7 +69,8 @@ std::vector<bool> holm_rejections(std::span<const Estimate> estimates, double nu
   std::vector<bool> rejected(estimates.size(), false);
   const std::vector<std::size_t> order = most_different_first(estimates, null);
   for (std::size_t k = 0; k < order.size(); ++k) {
-    if (!(distance(estimates[order[k]], null) > quantile(k, order.size()))) break;
+    const Estimate& estimate = estimates[order[k]];
+    if (!(distance(estimate, null) > quantile(estimate, k, order.size()))) break;
     rejected[order[k]] = true;
   }
   return rejected;

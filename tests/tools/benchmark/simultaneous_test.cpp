@@ -20,6 +20,38 @@ TEST(HolmIntervals, OfOneEstimateAreThoseOfTheNormalDistribution) {
   EXPECT_NEAR(interval.high, 0.55 + 1.959963984540054 * 0.02, 1e-12);
 }
 
+// Tables of Student's distribution, 97.5 %: 2.571, 2.262 and 2.045 for 5, 9 and 29 degrees of freedom.
+TEST(HolmIntervals, OfFewSeasAreThoseOfStudentsDistribution) {
+  for (const auto& [degrees, t] : {std::pair{5.0, 2.571}, {9.0, 2.262}, {29.0, 2.045}}) {
+    const Estimate one{0.5, 0.02, degrees};
+    EXPECT_NEAR(holm_intervals(std::span(&one, 1))[0].high, 0.5 + t * 0.02, 3e-5) << degrees;
+  }
+}
+
+// Means of 10 seas that are each right or wrong by chance, with the standard error of these 10: 5 % of sets of 11 such
+// quantities have one that differs from chance. With the normal quantiles it would be 19 %.
+TEST(HolmRejections, ErrInAtMostFivePercentOfSetsOfFewSeas) {
+  constexpr int kSets = 4000, kSeas = 10;
+  int wrong = 0;
+  for (std::uint64_t i = 0; i < kSets; ++i) {
+    Random random({12, Stream::kTest, i});
+    std::vector<Estimate> estimates(11);
+    for (Estimate& estimate : estimates) {
+      double sum = 0, squares = 0;
+      for (int sea = 0; sea < kSeas; ++sea) {
+        const double accuracy = 0.5 + 0.15 * random.normal();
+        sum += accuracy;
+        squares += accuracy * accuracy;
+      }
+      const double mean = sum / kSeas;
+      estimate = {mean, std::sqrt((squares / kSeas - mean * mean) / (kSeas - 1)), kSeas - 1};
+    }
+    const std::vector<bool> rejected = holm_rejections(estimates);
+    wrong += std::find(rejected.begin(), rejected.end(), true) != rejected.end() ? 1 : 0;
+  }
+  EXPECT_NEAR(wrong / static_cast<double>(kSets), 0.0489, 5 * std::sqrt(0.0489 * 0.9511 / kSets));
+}
+
 // z of 0.05/6, 0.05/4 and 0.05/2 two-sided: 2.3940, 2.2414, 1.9600.
 TEST(HolmIntervals, HaveTheLevelsOfTheirRanks) {
   const std::vector<Estimate> estimates{{0.51, 0.01}, {0.60, 0.01}, {0.45, 0.01}};
