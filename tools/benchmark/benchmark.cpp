@@ -2,6 +2,7 @@
 #include "tools/benchmark/benchmark.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -20,7 +21,39 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kFolder = "scenarios/benchmark";
-constexpr int kSmallSeas = 6, kSmallIntervals = 2;  // of each sea state; of each sea
+constexpr int kSmallSeas = 10, kSmallIntervals = 2;  // of each sea state; of each sea with one azimuth
+constexpr std::size_t kSmallAzimuths = 5;
+
+// The file of a benchmark's name, or a scenario of its own.
+fs::path file_of(const std::string& name) {
+  const std::vector<std::string> names = benchmark_names();
+  if (std::ranges::find(names, name) != names.end()) return data_folder() / kFolder / (name + ".yaml");
+  if (fs::path(name).extension() == ".yaml") return find_input(name, "scenarios");
+  throw InputError(
+      fmt::format("{}: no benchmark of this name, and no file NAME.yaml; {}", name, suggestion(name, names)));
+}
+
+// At most kSmallAzimuths values of a sweep, with its first and last.
+Sweep thinned(const Sweep& values) {
+  if (values.size() <= kSmallAzimuths) return values;
+  Sweep some;
+  for (std::size_t i = 0; i < kSmallAzimuths; ++i)
+    some.push_back(values[i * (values.size() - 1) / (kSmallAzimuths - 1)]);
+  return some;
+}
+
+std::vector<Override> small_overrides(const Scenario& scenario) {
+  const Sweep azimuths = thinned(scenario.view.azimuth_deg);
+  const int seas = std::min(kSmallSeas, scenario.dataset.realisations_per_case);
+  const int intervals = azimuths.size() > 1 ? 1 : kSmallIntervals;
+  std::vector<Override> overrides{
+      {"dataset.realisations_per_case", std::to_string(seas)},
+      {"dataset.maps_per_case", std::to_string(seas * intervals * scenario.dataset.maps_per_interval)},
+      {"learning.split_repeats", "2"}};
+  if (azimuths.size() < scenario.view.azimuth_deg.size())
+    overrides.push_back({"view.azimuth_deg", fmt::format("[{}]", fmt::join(azimuths, ", "))});
+  return overrides;
+}
 
 }  // namespace
 
@@ -35,38 +68,30 @@ std::vector<std::string> benchmark_names() {
 }
 
 Scenario read_benchmark(const std::string& name, bool small, const std::vector<Override>& overrides) {
-  const std::vector<std::string> names = benchmark_names();
-  if (std::ranges::find(names, name) == names.end()) {
-    throw InputError(fmt::format("{}: no benchmark of this name; {}", name, suggestion(name, names)));
-  }
-  const fs::path file = data_folder() / kFolder / (name + ".yaml");
+  const fs::path file = file_of(name);
   std::vector<Override> all;
-  if (small) {
-    const int maps = kSmallSeas * kSmallIntervals * read_scenario(file).dataset.maps_per_interval;
-    all = {{"dataset.realisations_per_case", std::to_string(kSmallSeas)},
-           {"dataset.maps_per_case", std::to_string(maps)},
-           {"learning.split_repeats", "2"}};
-  }
+  if (small) all = small_overrides(read_scenario(file));
   all.insert(all.end(), overrides.begin(), overrides.end());
   return read_scenario(file, all);
 }
 
-std::string run_benchmark(const std::string& name, bool small, const Scenario& scenario, const fs::path& directory,
-                          const RunOptions& options, const StopFlag* stop) {
+std::string run_benchmark(const Scenario& scenario, bool small, const fs::path& directory, const RunOptions& options,
+                          const StopFlag* stop) {
   const RunResult run = run_scenario(scenario, directory, options, stop);
   const SamplePlan plan(scenario);
   const std::size_t seas = plan.sea_states().size() * static_cast<std::size_t>(scenario.dataset.realisations_per_case);
-  nlohmann::ordered_json json{{"benchmark", name},
+  nlohmann::ordered_json json{{"benchmark", scenario.name},
                               {"small", small},
                               {"program_version", run.metrics.at("version")},
                               {"seed", scenario.seed},
                               {"maps", plan.size()},
                               {"seas", seas},
+                              {"division", run.study.division},
                               {"split_repeats", scenario.learning.split_repeats}};
   json.update(benchmark_json(run.study));
   write_file(directory / kBenchmarkFile, json.dump(2) + "\n");
   return fmt::format("{}\n{}\n{}\nFigures: {}\n", benchmark_text(run.study),
-                     benchmark_row(name, plan.size(), seas, run.study), run.times,
+                     benchmark_row(scenario.name, plan.size(), seas, run.study), run.times,
                      (directory / kBenchmarkFile).string());
 }
 

@@ -192,7 +192,7 @@ ordered_json benchmark_json(const Study& study) {
 }
 
 std::string benchmark_text(const Study& study) {
-  std::string all = "Accuracy in % on unseen seas (95 % interval by bootstrap over seas)\n\n";
+  std::string all = fmt::format("Accuracy in % (95 % interval by bootstrap over seas)\n{}\n\n", study.division);
   all += fmt::format("  {:<28}{:>18}  by Hs\n", "", "all");
   for (const auto& [name, evaluation] : baselines(study)) {
     all += fmt::format("  {:<28}{:>18}  {}\n", name, percent(evaluation->scores), by_height(*evaluation));

@@ -9,6 +9,7 @@
 
 #include "sim/core/process/error.h"
 #include "tools/benchmark/benchmark.h"
+#include "tools/report/learnable.h"
 
 namespace seaglint {
 namespace {
@@ -95,23 +96,41 @@ TEST(BenchmarkJson, HasBaselinesFloorAndClaims) {
   EXPECT_THAT(benchmark_row("a", 720, 60, study), HasSubstr("| `a` | 720, 60 | 80.0 / 99.0 / 98.0 |"));
 }
 
-TEST(Benchmark, OfAnUnknownNameIsRefusedWithTheNearest) {
+std::string refusal(const std::string& name) {
   try {
-    read_benchmark("rigid_twn", false, {});
-    ADD_FAILURE() << "not refused";
+    read_benchmark(name, true, {});
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("did you mean 'rigid_twin'?"));
+    return error.what();
   }
+  return "";
 }
 
-// Every benchmark is a valid scenario at both sizes, and learnable: two classes of equal numbers of maps.
+TEST(Benchmark, OfAnUnknownNameIsRefusedWithTheNearest) {
+  EXPECT_THAT(refusal("rigid_twn"), HasSubstr("did you mean 'rigid_twin'?"));
+  EXPECT_THAT(refusal("papr.yaml"), HasSubstr("papr.yaml: no such file"));
+}
+
+// The paper's set, small: 5 of its 17 azimuths with both ends, one interval each, the waves as they are.
+TEST(Benchmark, OfAScenarioFileIsReducedInSeasAndAzimuths) {
+  const Scenario whole = read_benchmark("scenarios/paper.yaml", false, {});
+  EXPECT_EQ(whole.view.azimuth_deg.size(), 17u);
+  EXPECT_EQ(whole.dataset.maps_per_case, 100);
+  const Scenario small = read_benchmark("scenarios/paper.yaml", true, {{"sea.peak_period_s", "9"}});
+  EXPECT_EQ(small.view.azimuth_deg, (Sweep{10, 50, 90, 130, 170}));
+  EXPECT_EQ(small.sea.significant_wave_height_m, whole.sea.significant_wave_height_m);
+  EXPECT_EQ(small.sea.peak_period_s, Sweep{9});
+  EXPECT_EQ(small.dataset.realisations_per_case, 10);
+  EXPECT_EQ(small.dataset.maps_per_case, 10);
+}
+
+// Every benchmark is a valid scenario at both sizes, and learnable, as divided by its own split.
 TEST(Benchmark, EveryShippedOneIsAScenarioAtBothSizes) {
   EXPECT_FALSE(benchmark_names().empty());
   for (const std::string& name : benchmark_names()) {
     for (const bool small : {false, true}) {
       const Scenario scenario = read_benchmark(name, small, {});
       EXPECT_EQ(scenario.name, name);
-      EXPECT_EQ(scenario.targets.size(), 2u);
+      EXPECT_NO_THROW(check_learnable(scenario, SamplePlan(scenario))) << name;
     }
   }
 }
