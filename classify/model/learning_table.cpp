@@ -146,11 +146,20 @@ CentreList centres_of(const Sample& sample) {
   return centres;
 }
 
+FeatureMatrix motion_matrix(std::span<const CentreList> centres) {
+  FeatureMatrix matrix{{kMotionFeatureNames.begin(), kMotionFeatureNames.end()}, {}};
+  for (const CentreList& of_map : centres) {
+    const MotionFeatures motion = motion_features(of_map);
+    for (const double feature : {motion.rotation_per_s, motion.residual_mps, motion.explained, motion.on_line})
+      matrix.values.push_back(static_cast<float>(feature));
+  }
+  return matrix;
+}
+
 LearningTable load_learning_table(const DatasetReader& data, const StopFlag* stop,
                                   const std::function<void(const Shard&)>& use) {
   LearningTable table;
   table.handmade.names = {"mwr", "ccf", "sigma_r_m", "sigma_v_mps"};
-  FeatureMatrix motion{{kMotionFeatureNames.begin(), kMotionFeatureNames.end()}, {}};
   std::size_t carriers = 1;
   std::vector<std::vector<std::uint16_t>> codes;
   table.probes = empty_probes(0);
@@ -176,10 +185,6 @@ LearningTable load_learning_table(const DatasetReader& data, const StopFlag* sto
         table.handmade.values.push_back(static_cast<float>(feature));
       table.degenerate += record.degenerate != 0 ? 1 : 0;
       table.centres.push_back(centres_of(sample));
-      const MotionFeatures extra = motion_features(table.centres.back());
-      for (const double feature : {extra.rotation_per_s, extra.residual_mps, extra.explained, extra.on_line})
-        motion.values.push_back(static_cast<float>(feature));
-
       const MapLevels levels = map_levels(sample, shard.axes);
       const auto add = [&](ProbeIndex probe, double value) {
         table.probes[probe].features.values.push_back(static_cast<float>(value));
@@ -203,7 +208,7 @@ LearningTable load_learning_table(const DatasetReader& data, const StopFlag* sto
     }
   }
 
-  table.extended = join_columns(table.handmade, motion);
+  table.extended = join_columns(table.handmade, motion_matrix(table.centres));
   const std::size_t bands = std::min<std::size_t>(carriers, 16);
   table.probes[kHopCode].features.names = empty_probes(bands)[kHopCode].features.names;
   for (const auto& code : codes) {

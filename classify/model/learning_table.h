@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -54,6 +55,9 @@ struct LearningTable {
 
 // The stored centres of a map, input of the network.
 CentreList centres_of(const Sample& sample);
+
+// motion_features() of every map.
+FeatureMatrix motion_matrix(std::span<const CentreList> centres);
 
 // Appends the rows of another data set. Throws InputError when the carriers of both differ (in the probe of the hop
 // code).

@@ -8,6 +8,7 @@
 #include "classify/cnn/network_input.h"
 #include "classify/dataset/format/checksum.h"
 #include "classify/dataset/format/sample_faults.h"
+#include "classify/features/motion_features.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/core/text/number.h"
@@ -47,7 +48,8 @@ SavedModel SavedModel::load(const fs::path& directory, const std::string& progra
   std::vector<Booster> trees;
   for (const char* name : kModelNames) trees.push_back(Booster::load(directory / tree_file(name)));
   const std::size_t embedding = card.embedding.size(), features = card.features.size();
-  const std::array<std::size_t, 3> columns{features, embedding, features + embedding};
+  const std::array<std::size_t, kModels> columns{features, embedding, features + embedding,
+                                                 features + kMotionFeatureNames.size()};
   for (std::size_t i = 0; i < trees.size(); ++i) {
     if (trees[i].columns() != columns[i]) {
       throw InputError(fmt::format("{}: trees of {} columns, by {} {}",
@@ -129,7 +131,8 @@ void apply_model(const SavedModel& model, const Shard& shard, const fs::path& fi
   }
   const FeatureMatrix embeddings = embedding_matrix(model.network.embed(maps));
   const FeatureMatrix fused = join_columns(handmade, embeddings);
-  const std::array<const FeatureMatrix*, 3> columns{&handmade, &embeddings, &fused};
+  const FeatureMatrix extended = join_columns(handmade, motion_matrix(maps));
+  const std::array<const FeatureMatrix*, kModels> columns{&handmade, &embeddings, &fused, &extended};
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const std::vector<double> probabilities = model.trees[i].predict(*columns[i]);
     result.probabilities[i].insert(result.probabilities[i].end(), probabilities.begin(), probabilities.end());

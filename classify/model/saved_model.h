@@ -19,8 +19,9 @@
 
 namespace seaglint {
 
-// Trees on hand-made features, on the network's outputs, on both.
-inline constexpr std::array<const char*, 3> kModelNames{"handmade", "cnn", "fused"};
+// Trees on hand-made features, on the network's outputs, on both, on hand-made and motion_features().
+inline constexpr std::array kModelNames{"handmade", "cnn", "fused", "extended"};
+inline constexpr std::size_t kModels = kModelNames.size();
 
 struct SavedModel {
   ModelCard card;
@@ -54,11 +55,11 @@ TrainedRows read_trained_rows(const std::filesystem::path& directory);
 void require_applicable(const ModelCard& card, const std::filesystem::path& data_set, const Scenario& scenario,
                         const StoredAxes& axes);
 
-// Outputs of the three classifiers for maps of one or more data sets.
+// Outputs of the classifiers for maps of one or more data sets.
 struct AppliedRows {
   std::vector<DataRow> rows;
-  FeatureMatrix features;                            // hand-made, as stored in the data sets
-  std::array<std::vector<double>, 3> probabilities;  // of label 1, in the order of kModelNames
+  FeatureMatrix features;                                  // hand-made, as stored in the data sets
+  std::array<std::vector<double>, kModels> probabilities;  // of label 1, in the order of kModelNames
 };
 
 // Appends the outputs for the samples of a shard that was read from `file`. Throws InputError naming file and sample

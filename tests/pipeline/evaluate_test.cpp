@@ -101,7 +101,7 @@ std::vector<std::map<std::string, std::string>> rows_of(const fs::path& file) {
 TEST_F(ModelOnOtherData, OfItsOwnHeldOutPartHasTheFiguresOfTheTrainingToTheLastDigit) {
   const json metrics = json::parse(read_file(path("model") + "/metrics.json"));
   const json evaluation = evaluate({"data"}, "own", {});
-  for (const char* model : {"handmade", "cnn", "fused"}) {
+  for (const char* model : {"handmade", "cnn", "fused", "extended"}) {
     for (const char* figure : {"rows", "groups", "accuracy", "accuracy_95", "auc", "log_loss", "confusion", "roc"}) {
       EXPECT_EQ(evaluation.at(model).at(figure), metrics.at(model).at("group").at(figure)) << model << " " << figure;
     }
@@ -118,7 +118,7 @@ TEST_F(ModelOnOtherData, OfTwoDataSetsIsThatOfTheirRowsTogether) {
   const json a = evaluate({"other"}, "a", {}), b = evaluate({"third"}, "b", {}),
              both = evaluate({"other", "third"}, "both", {});
   EXPECT_EQ(both.at("maps").at("evaluated"), 80);
-  for (const char* model : {"handmade", "cnn", "fused"}) {
+  for (const char* model : {"handmade", "cnn", "fused", "extended"}) {
     for (const char* entry : {"array_as_array", "array_as_ship", "ship_as_array", "ship_as_ship"}) {
       const auto count = [&](const json& evaluation) {
         return evaluation.at(model).at("confusion").at(entry).get<int>();

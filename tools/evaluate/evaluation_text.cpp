@@ -19,15 +19,15 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr const char* kTitles[3] = {"hand-made", "CNN", "fused"};
+constexpr std::array<const char*, kModels> kTitles{"hand-made", "CNN", "fused", "extended"};
 
-std::string row_of(const std::string& what, const std::array<Scores, 3>& scores) {
+std::string row_of(const std::string& what, const std::array<Scores, kModels>& scores) {
   std::string line = fmt::format("  {:<24}{:>7}{:>6}", what, scores[0].rows, scores[0].groups);
   for (const Scores& each : scores) line += fmt::format("{:>18}", percent(each));
   return line + "\n";
 }
 
-std::string three_numbers(const char* what, const std::array<double, 3>& values) {
+std::string numbers_of(const char* what, const std::array<double, kModels>& values) {
   std::string line = fmt::format("  {:<37}", what);
   for (const double value : values)
     line += fmt::format("{:>18}", std::isfinite(value) ? fmt::format("{:.3f}", value) : "-");
@@ -106,7 +106,9 @@ std::string evaluation_table(const ModelEvaluation& evaluation, const SavedModel
                   rows, all, count_of(evaluation, TrainingUse::kTrained), request.trained_rows ? "" : " (left out)",
                   count_of(evaluation, TrainingUse::kSeaSeen), request.unseen_seas ? " (left out)" : "");
   text += "Accuracy in % (95 % interval by bootstrap over seas)\n\n";
-  text += fmt::format("  {:<24}{:>7}{:>6}{:>18}{:>18}{:>18}\n", "", "maps", "seas", kTitles[0], kTitles[1], kTitles[2]);
+  text += fmt::format("  {:<24}{:>7}{:>6}", "", "maps", "seas");
+  for (const char* title : kTitles) text += fmt::format("{:>18}", title);
+  text += "\n";
   text += row_of("all", evaluation.scores);
   for (const ColumnScores& column : evaluation.by) {
     text += fmt::format("{}{}\n", column.column,
@@ -117,16 +119,16 @@ std::string evaluation_table(const ModelEvaluation& evaluation, const SavedModel
       text += row_of(what, bin.scores);
     }
   }
-  std::array<double, 3> auc{}, error{}, loss{};
+  std::array<double, kModels> auc{}, error{}, loss{};
   for (std::size_t i = 0; i < auc.size(); ++i) {
     auc[i] = evaluation.scores[i].auc;
     error[i] = evaluation.calibrations[i].expected_error;
     loss[i] = evaluation.scores[i].log_loss;
   }
   text += "\n";
-  text += three_numbers("area under the ROC", auc);
-  text += three_numbers("expected calibration error", error);
-  text += three_numbers("log loss", loss);
+  text += numbers_of("area under the ROC", auc);
+  text += numbers_of("expected calibration error", error);
+  text += numbers_of("log loss", loss);
   for (std::size_t truth = 0; truth < 2; ++truth) {
     for (std::size_t decision = 0; decision < 2; ++decision) {
       text += fmt::format("  {:<37}",

@@ -25,10 +25,10 @@ struct EvaluateRequest {
 // Use of a map in the training.
 enum class TrainingUse { kNone, kSeaSeen, kTrained };
 
-// The rows of one bin of a column with the scores of the three classifiers (kModelNames).
+// The rows of one bin of a column with the scores of the classifiers (kModelNames).
 struct BinScores {
   ColumnBin bin;
-  std::array<Scores, 3> scores;
+  std::array<Scores, kModels> scores;
 };
 struct ColumnScores {
   std::string column;
@@ -46,13 +46,13 @@ struct OutsideCount {
 // Members with [row] refer to all maps of the data sets in their order.
 struct ModelEvaluation {
   AppliedRows applied;
-  std::vector<std::int64_t> seas;                 // [row]
-  std::vector<TrainingUse> uses;                  // [row]
-  std::vector<std::vector<std::string>> outside;  // [row]: names of features and conditions outside the training range
-  std::vector<std::size_t> evaluated;             // rows, ascending
-  std::array<Scores, 3> scores;                   // of the evaluated rows, as are the following
-  std::array<std::vector<RocPoint>, 3> roc;       // empty when a class is missing
-  std::array<Calibration, 3> calibrations;
+  std::vector<std::int64_t> seas;                  // [row]
+  std::vector<TrainingUse> uses;                   // [row]
+  std::vector<std::vector<std::string>> outside;   // [row]: names of features and conditions outside the training range
+  std::vector<std::size_t> evaluated;              // rows, ascending
+  std::array<Scores, kModels> scores;              // of the evaluated rows, as are the following
+  std::array<std::vector<RocPoint>, kModels> roc;  // empty when a class is missing
+  std::array<Calibration, kModels> calibrations;
   std::vector<ColumnScores> by;
   std::vector<OutsideCount> features, conditions;
   std::size_t feature_rows_outside = 0;    // maps with a feature outside its range

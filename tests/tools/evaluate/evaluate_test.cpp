@@ -75,7 +75,7 @@ nlohmann::json evaluation_of(const fs::path& model, const fs::path& data, const 
 // binomial distribution; the area under the ROC has the standard deviation sqrt((n0 + n1 + 1) / (12 n0 n1)) (Mann and
 // Whitney 1947).
 void expect_chance(const nlohmann::json& evaluation) {
-  for (const char* model : {"handmade", "cnn", "fused"}) {
+  for (const char* model : {"handmade", "cnn", "fused", "extended"}) {
     const nlohmann::json &scores = evaluation.at(model), &confusion = scores.at("confusion");
     const auto count = [&](const char* entry) { return confusion.at(entry).get<double>(); };
     const double n0 = count("array_as_array") + count("array_as_ship"),
