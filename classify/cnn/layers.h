@@ -24,6 +24,7 @@ struct Parameter {
 struct LayerSizes {
   std::size_t channels = 0, rows = 0, columns = 0;
   int embedding_size = 0;
+  int outputs = 1;  // 1: the logit of label 1 of two classes; more: one of every class
 };
 
 // One thread at a time; every function computes on the thread that calls it. Throws WorkError for an error of the
@@ -34,14 +35,14 @@ class Layers {
 
   virtual std::vector<Parameter> parameters() = 0;  // in the order of the layers
 
-  // Sum of the binary cross-entropies of `count` images [count][channels][rows][columns] with labels 0 or 1; its
-  // gradient, of all parameters in their order, replaces `gradient`.
+  // Sum of the cross-entropies of `count` images [count][channels][rows][columns] with their labels, binary with one
+  // output, else of the softmax of the outputs; its gradient, of all parameters in their order, replaces `gradient`.
   virtual double gradient(const float* images, const float* labels, std::size_t count,
                           std::vector<float>& gradient) = 0;
   virtual void start_training(double learning_rate) = 0;      // Adam (Kingma and Ba 2015)
   virtual void step(const std::vector<float>& gradient) = 0;  // one step of it
 
-  // Appends embeddings [count][embedding_size] and logits [count].
+  // Appends embeddings [count][embedding_size] and logits [count][outputs].
   virtual void embed(const float* images, std::size_t count, std::vector<float>& embeddings,
                      std::vector<float>& logits) = 0;
 };

@@ -20,8 +20,10 @@ namespace seaglint {
 
 namespace {
 
-constexpr std::uint32_t kFormat = 0x53474e32;        // "SGN2"
-constexpr std::uint32_t kFormatOfMaps = 0x53474e31;  // "SGN1", whose input was the map itself
+constexpr std::uint32_t kFormat = 0x53474e32;           // "SGN2", two classes
+constexpr std::uint32_t kFormatOfClasses = 0x53474e33;  // "SGN3", more
+constexpr std::uint32_t kFormatOfMaps = 0x53474e31;     // "SGN1", whose input was the map itself
+constexpr std::uint32_t kMostClasses = 10;
 
 // He's initialisation (He et al. 2015): normal of variance 2 / fan-in; biases zero, normalisation one.
 void initialise(Layers& layers, const RandomKey& key) {
@@ -40,8 +42,9 @@ void initialise(Layers& layers, const RandomKey& key) {
 // Maps whose gradient one thread computes; the sum over them is always formed in this division.
 constexpr std::size_t kPart = 8;
 
-std::unique_ptr<Layers> new_layers(int embedding_size) {
-  return make_layers({kInputChannels, kInputRows, kInputColumns, embedding_size});
+std::unique_ptr<Layers> new_layers(int embedding_size, std::size_t classes) {
+  const int outputs = classes == 2 ? 1 : static_cast<int>(classes);
+  return make_layers({kInputChannels, kInputRows, kInputColumns, embedding_size, outputs});
 }
 
 std::vector<float> weights_of(Layers& layers) {
@@ -59,9 +62,18 @@ void set_weights(Layers& layers, const std::vector<float>& all) {
   }
 }
 
-// Mean binary cross-entropy of logits.
-double cross_entropy(const std::vector<float>& logits, std::span<const std::size_t> rows, std::span<const int> labels) {
+// Mean cross-entropy of logits [row][output].
+double cross_entropy(const std::vector<float>& logits, std::size_t outputs, std::span<const std::size_t> rows,
+                     std::span<const int> labels) {
   double sum = 0;
+  for (std::size_t i = 0; outputs > 1 && i < rows.size(); ++i) {
+    const float* of_row = &logits[i * outputs];
+    const double highest = *std::max_element(of_row, of_row + outputs);
+    double exponentials = 0;
+    for (std::size_t k = 0; k < outputs; ++k) exponentials += std::exp(of_row[k] - highest);
+    sum += highest + std::log(exponentials) - of_row[labels[rows[i]]];
+  }
+  if (outputs > 1) return sum / static_cast<double>(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const double towards = labels[rows[i]] == 1 ? logits[i] : -logits[i];
     sum += std::max(-towards, 0.0) + std::log1p(std::exp(-std::abs(towards)));
@@ -72,10 +84,11 @@ double cross_entropy(const std::vector<float>& logits, std::span<const std::size
 // The gradient of a batch by parts of kPart maps, on several threads with one set of layers per part.
 class BatchTraining {
  public:
-  BatchTraining(Layers& layers, const LearningSpec& spec) : layers_(layers), threads_(spec.threads) {
+  BatchTraining(Layers& layers, const LearningSpec& spec, std::size_t classes)
+      : layers_(layers), threads_(spec.threads) {
     layers.start_training(spec.learning_rate);
     const std::size_t parts = (static_cast<std::size_t>(spec.batch_size) + kPart - 1) / kPart;
-    for (std::size_t i = 0; threads_ > 1 && i < parts; ++i) copies_.push_back(new_layers(spec.embedding_size));
+    for (std::size_t i = 0; threads_ > 1 && i < parts; ++i) copies_.push_back(new_layers(spec.embedding_size, classes));
   }
 
   // One step with the images and labels of a batch; sum of the cross-entropies before it.
@@ -116,13 +129,17 @@ class BatchTraining {
 }  // namespace
 
 struct Network::State {
-  State(int size, double floor) : embedding_size(size), floor_db(static_cast<float>(floor)), layers(new_layers(size)) {}
+  State(int size, double floor, std::size_t count)
+      : embedding_size(size), floor_db(static_cast<float>(floor)), classes(count), layers(new_layers(size, count)) {}
+
+  std::size_t outputs() const { return classes == 2 ? 1 : classes; }
 
   template <class MapOf>
   Embeddings embed(std::size_t maps, const MapOf& map) {
     constexpr std::size_t kBatch = 64;
     Embeddings result;
     result.size = static_cast<std::size_t>(embedding_size);
+    result.outputs = outputs();
     for (std::size_t begin = 0; begin < maps; begin += kBatch) {
       const std::size_t end = std::min(begin + kBatch, maps);
       std::vector<float> images;
@@ -137,20 +154,22 @@ struct Network::State {
 
   int embedding_size;
   float floor_db;
+  std::size_t classes;
   std::unique_ptr<Layers> layers;
   TrainingHistory history;
 };
 
 Network Network::train(std::span<const CentreList> maps, const NetworkRows& rows, std::span<const int> labels,
-                       const LearningSpec& spec, std::uint64_t seed, std::uint64_t index, const StopFlag* stop) {
+                       const LearningSpec& spec, std::uint64_t seed, std::uint64_t index, const StopFlag* stop,
+                       std::size_t classes) {
   SEAGLINT_CHECK(!rows.fit.empty() && maps.size() == labels.size(),
                  fmt::format("{} rows, {} labels, {} maps", rows.fit.size(), labels.size(), maps.size()));
-  auto state = std::make_shared<State>(spec.embedding_size, spec.map_floor_db);
+  auto state = std::make_shared<State>(spec.embedding_size, spec.map_floor_db, classes);
   Layers& layers = *state->layers;
   TrainingHistory& history = state->history;
   initialise(layers, {seed, Stream::kNetwork, 2 * index});
   Random random({seed, Stream::kNetwork, 2 * index + 1});
-  BatchTraining training(layers, spec);
+  BatchTraining training(layers, spec, classes);
 
   std::vector<std::size_t> order(rows.fit.begin(), rows.fit.end());
   std::vector<float> best_weights;
@@ -179,7 +198,7 @@ Network Network::train(std::span<const CentreList> maps, const NetworkRows& rows
     }
     const Embeddings unseen = state->embed(
         rows.validation.size(), [&](std::size_t i) -> const CentreList& { return maps[rows.validation[i]]; });
-    const double loss = cross_entropy(unseen.logits, rows.validation, labels);
+    const double loss = cross_entropy(unseen.logits, unseen.outputs, rows.validation, labels);
     history.validation.push_back(loss);
     if (history.epochs == 0 || loss < best_loss) {
       best_loss = loss;
@@ -201,39 +220,51 @@ std::size_t Network::parameter_count() const {
   return count;
 }
 
+std::size_t Network::classes() const { return state_->classes; }
+
 const TrainingHistory& Network::history() const { return state_->history; }
 
 // The file: kFormat, embedding size (uint32), floor in dB (float32), number of weights (uint32), the weights (float32)
-// in the order of the layers. The library's own archive would contain time stamps.
+// in the order of the layers; of more than two classes kFormatOfClasses, and their number (uint32) before the weights.
+// The library's own archive would contain time stamps.
 void Network::save(const std::filesystem::path& file) const {
   const std::vector<float> weights = weights_of(*state_->layers);
-  const std::uint32_t head[4] = {kFormat, static_cast<std::uint32_t>(state_->embedding_size),
-                                 std::bit_cast<std::uint32_t>(state_->floor_db),
-                                 static_cast<std::uint32_t>(weights.size())};
-  std::string bytes(sizeof head + weights.size() * sizeof(float), '\0');
-  std::memcpy(bytes.data(), head, sizeof head);
-  std::memcpy(bytes.data() + sizeof head, weights.data(), weights.size() * sizeof(float));
+  std::vector<std::uint32_t> head{
+      state_->classes == 2 ? kFormat : kFormatOfClasses, static_cast<std::uint32_t>(state_->embedding_size),
+      std::bit_cast<std::uint32_t>(state_->floor_db), static_cast<std::uint32_t>(weights.size())};
+  if (state_->classes > 2) head.push_back(static_cast<std::uint32_t>(state_->classes));
+  const std::size_t head_bytes = head.size() * sizeof(std::uint32_t);
+  std::string bytes(head_bytes + weights.size() * sizeof(float), '\0');
+  std::memcpy(bytes.data(), head.data(), head_bytes);
+  std::memcpy(bytes.data() + head_bytes, weights.data(), weights.size() * sizeof(float));
   write_file(file, bytes);
 }
 
 Network Network::load(const std::filesystem::path& file) {
   const std::string bytes = read_file(file, std::size_t{64} << 20);
-  std::uint32_t head[4] = {};
+  std::uint32_t head[5] = {};
   const auto fail = [&](const char* why) {
     throw InputError(fmt::format("{}: not a seaglint network: {}", file.string(), why));
   };
+  std::size_t head_bytes = 4 * sizeof(std::uint32_t);
   if (bytes.size() < sizeof head) fail("too short");
   std::memcpy(head, bytes.data(), sizeof head);
   if (head[0] == kFormatOfMaps) fail("it is of an earlier version; train it again");
-  if (head[0] != kFormat) fail("it begins otherwise");
+  if (head[0] != kFormat && head[0] != kFormatOfClasses) fail("it begins otherwise");
+  std::size_t classes = 2;
+  if (head[0] == kFormatOfClasses) {
+    head_bytes = sizeof head;
+    if (head[4] < 3 || head[4] > kMostClasses) fail("its head is damaged");
+    classes = head[4];
+  }
   const auto floor_db = std::bit_cast<float>(head[2]);
   if (head[1] < 1 || head[1] > 512 || !(floor_db >= -120 && floor_db < 0)) fail("its head is damaged");
-  auto state = std::make_shared<State>(static_cast<int>(head[1]), floor_db);
+  auto state = std::make_shared<State>(static_cast<int>(head[1]), floor_db, classes);
   Network network(state);
-  if (head[3] != network.parameter_count() || bytes.size() != sizeof head + head[3] * sizeof(float))
+  if (head[3] != network.parameter_count() || bytes.size() != head_bytes + head[3] * sizeof(float))
     fail("it is truncated or has a tail");
   std::vector<float> weights(head[3]);
-  std::memcpy(weights.data(), bytes.data() + sizeof head, weights.size() * sizeof(float));
+  std::memcpy(weights.data(), bytes.data() + head_bytes, weights.size() * sizeof(float));
   set_weights(*state->layers, weights);
   return network;
 }

@@ -52,7 +52,7 @@ struct Plane : torch::nn::Module {
         norm2(register_module("norm2", torch::nn::GroupNorm(kGroups, kChannels[1]))),
         norm3(register_module("norm3", torch::nn::GroupNorm(kGroups, kChannels[2]))),
         dense(register_module("dense", torch::nn::Linear(cells_after_pooling(sizes), sizes.embedding_size))),
-        last(register_module("last", torch::nn::Linear(sizes.embedding_size, 1))) {}
+        last(register_module("last", torch::nn::Linear(sizes.embedding_size, sizes.outputs))) {}
 
   static std::int64_t cells_after_pooling(const LayerSizes& sizes) {
     return kChannels[2] * (static_cast<std::int64_t>(sizes.rows) / kPooling) *
@@ -108,9 +108,12 @@ double TorchLayers::gradient(const float* images, const float* labels, std::size
                              std::vector<float>& gradient) try {
   make_deterministic();
   plane_.zero_grad();
-  const torch::Tensor logits = plane_.last(plane_.embedding(images_of(images, count))).squeeze(1);
-  const torch::Tensor loss = torch::binary_cross_entropy_with_logits(
-      logits, tensor_of(labels, {static_cast<std::int64_t>(count)}), {}, {}, at::Reduction::Sum);
+  const torch::Tensor logits = plane_.last(plane_.embedding(images_of(images, count)));
+  const torch::Tensor truth = tensor_of(labels, {static_cast<std::int64_t>(count)});
+  const torch::Tensor loss =
+      sizes_.outputs == 1
+          ? torch::binary_cross_entropy_with_logits(logits.squeeze(1), truth, {}, {}, at::Reduction::Sum)
+          : torch::cross_entropy_loss(logits, truth.to(torch::kInt64), {}, at::Reduction::Sum);
   loss.backward();
   gradient.clear();
   for (const torch::Tensor& parameter : plane_.parameters()) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <xgboost/c_api.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -54,7 +55,7 @@ struct Booster::Model {
 };
 
 Booster Booster::train(const FeatureMatrix& features, std::span<const int> labels, const LearningSpec& spec,
-                       const StopFlag* stop) {
+                       const StopFlag* stop, std::size_t classes) {
   SEAGLINT_CHECK(features.rows() == labels.size() && !labels.empty(),
                  fmt::format("{} rows, {} labels", features.rows(), labels.size()));
   quieten();
@@ -64,8 +65,14 @@ Booster Booster::train(const FeatureMatrix& features, std::span<const int> label
 
   const DMatrixHandle handle = rows.get();
   auto model = std::make_shared<Model>(&handle);
-  model->set("objective", "binary:logistic");
-  model->set("eval_metric", "logloss");
+  if (classes == 2) {
+    model->set("objective", "binary:logistic");
+    model->set("eval_metric", "logloss");
+  } else {
+    model->set("objective", "multi:softprob");
+    model->set("num_class", std::to_string(classes));
+    model->set("eval_metric", "mlogloss");
+  }
   model->set("tree_method", "hist");
   model->set("nthread", "1");
   model->set("max_depth", std::to_string(spec.max_depth));
@@ -93,7 +100,9 @@ std::vector<double> Booster::predict(const FeatureMatrix& features) const {
       R"({"type": 0, "training": false, "iteration_begin": 0, "iteration_end": 0, "strict_shape": false})";
   require(XGBoosterPredictFromDMatrix(model_->handle, rows.get(), kSettings, &shape, &dimensions, &result),
           "prediction");
-  return std::vector<double>(result, result + features.rows());
+  bst_ulong count = 1;
+  for (bst_ulong i = 0; i < dimensions; ++i) count *= shape[i];
+  return std::vector<double>(result, result + count);
 }
 
 std::vector<double> Booster::gains(std::size_t columns) const {
@@ -121,6 +130,17 @@ std::size_t Booster::columns() const {
   bst_ulong count = 0;
   require(XGBoosterGetNumFeature(model_->handle, &count), "columns");
   return count;
+}
+
+std::size_t Booster::classes() const {
+  bst_ulong length = 0;
+  const char* text = nullptr;
+  require(XGBoosterSaveJsonConfig(model_->handle, &length, &text), "configuration");
+  const std::string configuration(text, length), key = "\"num_class\":\"";
+  const std::size_t place = configuration.find(key);
+  SEAGLINT_CHECK(place != std::string::npos, "num_class is in XGBoost's configuration");
+  const std::size_t classes = std::strtoul(configuration.c_str() + place + key.size(), nullptr, 10);
+  return std::max<std::size_t>(classes, 2);  // 0 for binary:logistic
 }
 
 void Booster::save(const std::filesystem::path& file) const {

@@ -16,18 +16,22 @@
 
 namespace seaglint {
 
-// Trained trees: probability that a row shows a ship (label 1).
+// Trained trees: probabilities of the classes of a row.
 class Booster {
  public:
-  // Labels 0 or 1, one per row, at least one row. Objective binary:logistic, evaluation logloss, tree method hist.
-  // Throws Interrupted when *stop becomes true.
+  // Labels below `classes`, one per row, at least one row. Two classes: objective binary:logistic, evaluation logloss,
+  // spec.trees trees; more: multi:softprob, mlogloss, spec.trees for each class. Tree method hist. Throws Interrupted
+  // when *stop becomes true.
   static Booster train(const FeatureMatrix& features, std::span<const int> labels, const LearningSpec& spec,
-                       const StopFlag* stop = nullptr);
+                       const StopFlag* stop = nullptr, std::size_t classes = 2);
   static Booster load(const std::filesystem::path& file);  // throws InputError when the file is not such a model
 
-  std::vector<double> predict(const FeatureMatrix& features) const;  // same number of columns as in training
+  // [row][output]: the probability of label 1 of two classes, of every label of more. Same number of columns as in
+  // training.
+  std::vector<double> predict(const FeatureMatrix& features) const;
   std::vector<double> gains(std::size_t columns) const;  // fraction of the total gain per column; sums to 1 (or all 0)
   std::size_t columns() const;
+  std::size_t classes() const;
   void save(const std::filesystem::path& file) const;  // XGBoost's JSON; throws WorkError
 
  private:

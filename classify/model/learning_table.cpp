@@ -157,8 +157,10 @@ FeatureMatrix motion_matrix(std::span<const CentreList> centres) {
 }
 
 LearningTable load_learning_table(const DatasetReader& data, const StopFlag* stop,
-                                  const std::function<void(const Shard&)>& use) {
+                                  const std::function<void(const Shard&)>& use,
+                                  const std::vector<std::string>& classes) {
   LearningTable table;
+  table.classes = classes;
   table.handmade.names = {"mwr", "ccf", "sigma_r_m", "sigma_v_mps"};
   std::size_t carriers = 1;
   std::vector<std::vector<std::uint16_t>> codes;
@@ -171,7 +173,9 @@ LearningTable load_learning_table(const DatasetReader& data, const StopFlag* sto
     for (const Sample& sample : shard.samples) {
       const SampleRecord& record = sample.record;
       std::vector<std::string> faults = sample_faults(sample);
-      if (record.label != 0 && record.label != 1) faults.push_back("label is neither 0 nor 1");
+      if (record.label < 0 || record.label >= static_cast<std::int64_t>(classes.size()))
+        faults.push_back(classes.size() == 2 ? "label is neither 0 nor 1"
+                                             : fmt::format("label is not within 0 and {}", classes.size() - 1));
       if (!faults.empty()) {
         throw InputError(fmt::format("{}: sample {}: {}", (data.directory() / data.manifest().shards[i].file).string(),
                                      record.sample, faults.front()));
@@ -244,10 +248,16 @@ void append(LearningTable& table, LearningTable&& more) {
 }
 
 void require_learnable(const LearningTable& table, const std::string& data) {
-  const std::size_t ships = static_cast<std::size_t>(std::count(table.labels.begin(), table.labels.end(), 1));
-  if (ships == 0 || ships == table.rows()) {
+  std::vector<std::size_t> maps(table.classes.size());
+  for (const int label : table.labels) ++maps[static_cast<std::size_t>(label)];
+  const auto missing = static_cast<std::size_t>(std::ranges::find(maps, 0u) - maps.begin());
+  if (missing < maps.size() && maps.size() == 2) {
     throw InputError(fmt::format("{}: all {} maps carry the label {}; learning needs both classes", data, table.rows(),
-                                 ships == 0 ? 0 : 1));
+                                 1 - missing));
+  }
+  if (missing < maps.size()) {
+    throw InputError(fmt::format("{}: none of {} maps is of class {} ({}); learning needs all {} classes", data,
+                                 table.rows(), missing, table.classes[missing], maps.size()));
   }
   for (std::size_t column = 0; column < table.handmade.columns(); ++column) {
     for (std::size_t row = 1; row < table.rows(); ++row)

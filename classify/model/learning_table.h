@@ -37,6 +37,7 @@ struct Probe {
 };
 
 struct LearningTable {
+  std::vector<std::string> classes = default_classes();  // names by label
   std::vector<RowGroup> groups;
   std::vector<std::int64_t> samples;
   std::vector<int> labels;
@@ -63,13 +64,14 @@ FeatureMatrix motion_matrix(std::span<const CentreList> centres);
 // code).
 void append(LearningTable& table, LearningTable&& more);
 
-// Throws InputError, naming `data`, when the maps are not of two classes, or every hand-made feature has one value in
-// all maps.
+// Throws InputError, naming `data`, when a class has no map, or every hand-made feature has one value in all maps.
 void require_learnable(const LearningTable& table, const std::string& data);
 
-// Reads every shard once and passes it to `use` if given. Throws InputError when a shard is invalid or a sample has a
-// fault (classify/dataset/format/sample_faults.h; with its number).
+// Reads every shard once and passes it to `use` if given; `classes`: those of the scenario. Throws InputError when a
+// shard is invalid, a sample has a fault (classify/dataset/format/sample_faults.h; with its number) or a label that is
+// no class.
 LearningTable load_learning_table(const DatasetReader& data, const StopFlag* stop = nullptr,
-                                  const std::function<void(const Shard&)>& use = {});
+                                  const std::function<void(const Shard&)>& use = {},
+                                  const std::vector<std::string>& classes = default_classes());
 
 }  // namespace seaglint

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
@@ -93,7 +94,10 @@ std::string grid_difference(const StoredGrid& grid, const StoredGrid& of_model) 
   return range.empty() ? axis_difference("velocity_mps", grid.velocity_mps, of_model.velocity_mps) : range;
 }
 
-std::vector<std::string> class_names_by_label() { return {"array", "ship"}; }
+std::string classes_difference(const std::vector<std::string>& classes, const std::vector<std::string>& of_model) {
+  if (classes == of_model) return "";
+  return fmt::format("{} instead of {}", fmt::join(classes, ", "), fmt::join(of_model, ", "));
+}
 
 std::map<std::string, SectionSettings> settings_of(const Scenario& scenario) {
   std::map<std::string, SectionSettings> settings;
@@ -178,9 +182,11 @@ ModelCard read_model_card(const std::filesystem::path& file, const std::string& 
     card.program_version = json.at("program_version").get<std::string>();
     if (card.program_version != program_version) refuse("program_version", card.program_version, program_version);
     card.classes = json.at("classes").get<std::vector<std::string>>();
-    const std::vector<std::string> own = class_names_by_label();
-    if (card.classes != own)
-      refuse("classes", fmt::format("{}", fmt::join(card.classes, ", ")), fmt::format("{}", fmt::join(own, ", ")));
+    const std::set<std::string> different(card.classes.begin(), card.classes.end());
+    if (different.size() != card.classes.size() || card.classes.size() < kMinClasses ||
+        card.classes.size() > kMaxClasses || different.contains(""))
+      throw InputError(fmt::format("{}: classes {}: must be {} to {} different names", file.string(),
+                                   shown(fmt::format("{}", fmt::join(card.classes, ", "))), kMinClasses, kMaxClasses));
     card.seed = json.at("seed").get<std::uint64_t>();
     card.features = json.at("features").get<std::vector<std::string>>();
     card.embedding = json.at("embedding").get<std::vector<std::string>>();

@@ -61,8 +61,8 @@ struct ModelCard {
   std::map<std::string, std::string> sha256;  // of the other files of the model, by name
 };
 
-// The names of the classes, by label.
-std::vector<std::string> class_names_by_label();
+// "" when both have the same names in the same order, else "array, ship instead of decoys, ship".
+std::string classes_difference(const std::vector<std::string>& classes, const std::vector<std::string>& of_model);
 
 // Sections of the scenario on which features and the network's input depend, and the settings of the learning but
 // for the number of threads, which changes no result.
@@ -77,8 +77,8 @@ std::string settings_difference(const std::map<std::string, SectionSettings>& se
 LearningSpec learning_spec(const ModelCard& card, const std::filesystem::path& file);
 
 std::string to_json(const ModelCard& card);
-// Throws InputError naming the file and the entry: no such file, damaged, of another format, other classes or another
-// version than `program_version`, this program's.
+// Throws InputError naming the file and the entry: no such file, damaged, of another format or another version than
+// `program_version`, this program's.
 ModelCard read_model_card(const std::filesystem::path& file, const std::string& program_version);
 
 }  // namespace seaglint

@@ -57,7 +57,16 @@ SavedModel SavedModel::load(const fs::path& directory, const std::string& progra
                                    columns[i]));
     }
   }
-  return {std::move(card), spec, Network::load(directory / kNetworkFile), std::move(trees)};
+  Network network = Network::load(directory / kNetworkFile);
+  const auto require_classes = [&](const fs::path& of, std::size_t classes) {
+    if (classes == card.classes.size()) return;
+    throw InputError(
+        fmt::format("{}: of {} classes, by {} {}", of.string(), classes, file.string(), card.classes.size()));
+  };
+  for (std::size_t i = 0; i < trees.size(); ++i)
+    require_classes(directory / tree_file(kModelNames[i]), trees[i].classes());
+  require_classes(directory / kNetworkFile, network.classes());
+  return {std::move(card), spec, std::move(network), std::move(trees)};
 }
 
 ModelCard describe_model(const Study& study, const LearningTable& table, std::span<const DataRow> rows,
@@ -65,7 +74,7 @@ ModelCard describe_model(const Study& study, const LearningTable& table, std::sp
   ModelCard card;
   card.program_version = program_version;
   card.seed = scenario.seed;
-  card.classes = class_names_by_label();
+  card.classes = table.classes;
   card.features = table.handmade.names;
   card.embedding = study.embeddings.names;
   card.grid = grid_of(axes);
@@ -109,6 +118,8 @@ void require_applicable(const ModelCard& card, const fs::path& data_set, const S
                         const StoredAxes& axes) {
   const std::string grid = grid_difference(grid_of(axes), card.grid);
   if (!grid.empty()) throw InputError(fmt::format("{}: maps of another grid: {}", data_set.string(), grid));
+  const std::string classes = classes_difference(scenario.dataset.classes, card.classes);
+  if (!classes.empty()) throw InputError(fmt::format("{}: maps of other classes: {}", data_set.string(), classes));
   const std::string settings = settings_difference(settings_of(scenario), card.settings);
   if (!settings.empty())
     throw InputError(fmt::format("{}: features of other settings: {}", data_set.string(), settings));

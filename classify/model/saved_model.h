@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -50,8 +51,8 @@ struct TrainedRows {
 // Reads splits.csv of a model directory. Throws InputError naming file and line.
 TrainedRows read_trained_rows(const std::filesystem::path& directory);
 
-// Throws InputError naming the data set when its maps have another grid, or its features other settings than the
-// model's.
+// Throws InputError naming the data set when its maps have another grid or other classes, or its features other
+// settings than the model's.
 void require_applicable(const ModelCard& card, const std::filesystem::path& data_set, const Scenario& scenario,
                         const StoredAxes& axes);
 
@@ -59,7 +60,13 @@ void require_applicable(const ModelCard& card, const std::filesystem::path& data
 struct AppliedRows {
   std::vector<DataRow> rows;
   FeatureMatrix features;                                  // hand-made, as stored in the data sets
-  std::array<std::vector<double>, kModels> probabilities;  // of label 1, in the order of kModelNames
+  std::array<std::vector<double>, kModels> probabilities;  // [row][output] (outputs_of()), in the order of kModelNames
+
+  // The outputs of one classifier for one row.
+  std::span<const double> outputs(std::size_t model, std::size_t row) const {
+    const std::size_t count = probabilities[model].size() / rows.size();
+    return {&probabilities[model][row * count], count};
+  }
 };
 
 // Appends the outputs for the samples of a shard that was read from `file`. Throws InputError naming file and sample

@@ -18,10 +18,8 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-// Mann and Whitney's statistic over n0 n1, from mid-ranks.
-double area_under_roc(std::span<const Prediction> predictions) {
-  std::vector<std::pair<double, int>> sorted;
-  for (const Prediction& p : predictions) sorted.emplace_back(p.probability, p.label);
+// Mann and Whitney's statistic over n0 n1, from mid-ranks; of values with label 0 or 1.
+double area_under_roc(std::vector<std::pair<double, int>> sorted) {
   std::sort(sorted.begin(), sorted.end());
   double rank_sum = 0;
   std::size_t ships = 0;
@@ -42,6 +40,36 @@ double area_under_roc(std::span<const Prediction> predictions) {
   return (rank_sum - 0.5 * n1 * (n1 + 1)) / (n0 * n1);
 }
 
+// Of the rows with label a or b, the mean of the areas over the probability of either.
+double pair_area(std::span<const Prediction> predictions, int a, int b) {
+  std::vector<std::pair<double, int>> of_a, of_b;
+  for (const Prediction& p : predictions) {
+    if (p.label != a && p.label != b) continue;
+    of_a.emplace_back(p.of(a), p.label == a ? 1 : 0);
+    of_b.emplace_back(p.of(b), p.label == b ? 1 : 0);
+  }
+  return (area_under_roc(std::move(of_a)) + area_under_roc(std::move(of_b))) / 2;
+}
+
+double area_under_roc(std::span<const Prediction> predictions, std::size_t classes) {
+  if (classes == 2) {
+    std::vector<std::pair<double, int>> values;
+    for (const Prediction& p : predictions) values.emplace_back(p.probability, p.label);
+    return area_under_roc(std::move(values));
+  }
+  double sum = 0;
+  int pairs = 0;
+  for (int b = 1; b < static_cast<int>(classes); ++b) {
+    for (int a = 0; a < b; ++a) {
+      const double area = pair_area(predictions, a, b);
+      if (std::isnan(area)) continue;
+      sum += area;
+      ++pairs;
+    }
+  }
+  return pairs == 0 ? kNan : sum / pairs;
+}
+
 // 2.5 and 97.5 % points of the accuracy when groups are drawn with replacement.
 ConfidenceInterval bootstrap_accuracy(std::span<const Prediction> predictions, int samples, const RandomKey& key) {
   struct Tally {
@@ -51,7 +79,7 @@ ConfidenceInterval bootstrap_accuracy(std::span<const Prediction> predictions, i
   std::map<std::int64_t, Tally> by_group;
   for (const Prediction& p : predictions) {
     Tally& tally = by_group[p.group];
-    tally.right += (p.probability >= 0.5) == (p.label == 1) ? 1 : 0;
+    tally.right += p.decision() == p.label ? 1 : 0;
     tally.rows += 1;
   }
   if (by_group.size() < 2) return {kNan, kNan};
@@ -73,6 +101,40 @@ ConfidenceInterval bootstrap_accuracy(std::span<const Prediction> predictions, i
 }
 
 }  // namespace
+
+int decision_of(std::span<const double> outputs) {
+  if (outputs.size() == 1) return outputs[0] >= 0.5 ? 1 : 0;
+  return static_cast<int>(std::max_element(outputs.begin(), outputs.end()) - outputs.begin());
+}
+
+int Prediction::decision() const {
+  return decision_of(by_class.empty() ? std::span<const double>(&probability, 1) : std::span<const double>(by_class));
+}
+
+double Prediction::of(int which) const {
+  if (by_class.empty()) return which == 1 ? probability : 1 - probability;
+  return by_class[static_cast<std::size_t>(which)];
+}
+
+Prediction prediction_of(std::int64_t sample, std::int64_t group, double wave_height_m, int label,
+                         std::span<const double> outputs) {
+  Prediction prediction{sample, group, wave_height_m, label, outputs[outputs.size() == 1 ? 0 : 1]};
+  if (outputs.size() > 1) prediction.by_class.assign(outputs.begin(), outputs.end());
+  return prediction;
+}
+
+std::vector<std::vector<RocPoint>> roc_curves(std::span<const Prediction> predictions) {
+  const std::size_t classes = predictions.empty() ? 2 : predictions.front().classes();
+  if (classes == 2) return {roc_curve(predictions)};
+  std::vector<std::vector<RocPoint>> curves;
+  for (int label = 0; label < static_cast<int>(classes); ++label) {
+    std::vector<Prediction> against_rest;
+    for (const Prediction& p : predictions)
+      against_rest.push_back({p.sample, p.group, p.wave_height_m, p.label == label ? 1 : 0, p.of(label)});
+    curves.push_back(roc_curve(against_rest));
+  }
+  return curves;
+}
 
 std::vector<RocPoint> roc_curve(std::span<const Prediction> predictions, std::size_t most) {
   std::vector<std::pair<double, int>> sorted;
@@ -109,19 +171,22 @@ Scores score(std::span<const Prediction> predictions, int bootstrap_samples, std
              std::uint64_t bootstrap_index) {
   Scores scores;
   scores.rows = predictions.size();
+  const std::size_t classes = predictions.empty() ? 2 : predictions.front().classes();
+  scores.confusion.assign(classes, std::vector<std::size_t>(classes));
   std::map<std::int64_t, int> groups;
   double log_loss = 0;
   for (const Prediction& p : predictions) {
     groups[p.group] = 1;
-    ++scores.confusion[p.label == 1 ? 1 : 0][p.probability >= 0.5 ? 1 : 0];
-    const double given = p.label == 1 ? p.probability : 1 - p.probability;
-    log_loss -= std::log(std::clamp(given, 1e-7, 1.0));
+    ++scores.confusion[static_cast<std::size_t>(p.label)][static_cast<std::size_t>(p.decision())];
+    log_loss -= std::log(std::clamp(p.of(p.label), 1e-7, 1.0));
   }
   scores.groups = groups.size();
   const double n = static_cast<double>(scores.rows);
-  scores.accuracy = scores.rows == 0 ? kNan : static_cast<double>(scores.confusion[0][0] + scores.confusion[1][1]) / n;
+  std::size_t right = 0;
+  for (std::size_t label = 0; label < classes; ++label) right += scores.confusion[label][label];
+  scores.accuracy = scores.rows == 0 ? kNan : static_cast<double>(right) / n;
   scores.log_loss = scores.rows == 0 ? kNan : log_loss / n;
-  scores.auc = area_under_roc(predictions);
+  scores.auc = area_under_roc(predictions, classes);
   scores.accuracy_95 = bootstrap_accuracy(predictions, bootstrap_samples, {seed, Stream::kBootstrap, bootstrap_index});
   return scores;
 }
@@ -131,18 +196,19 @@ Calibration calibration(std::span<const Prediction> predictions) {
   Calibration result;
   for (std::size_t i = 0; i < kBins; ++i) result.bins.push_back({static_cast<double>(i) / kBins, 0, 0, 0});
   for (const Prediction& p : predictions) {
-    const auto place = static_cast<std::size_t>(std::clamp(p.probability, 0.0, 1.0) * kBins);
+    const int stated = p.by_class.empty() ? 1 : p.decision();
+    const auto place = static_cast<std::size_t>(std::clamp(p.of(stated), 0.0, 1.0) * kBins);
     CalibrationBin& bin = result.bins[std::min(place, kBins - 1)];
     ++bin.rows;
-    bin.mean_probability += p.probability;
-    bin.ships += p.label == 1 ? 1 : 0;
+    bin.mean_probability += p.of(stated);
+    bin.fraction += p.label == stated ? 1 : 0;
   }
   double sum = 0;
   for (CalibrationBin& bin : result.bins) {
-    sum += std::abs(bin.mean_probability - bin.ships);
+    sum += std::abs(bin.mean_probability - bin.fraction);
     const double rows = static_cast<double>(bin.rows);
     bin.mean_probability = bin.rows == 0 ? kNan : bin.mean_probability / rows;
-    bin.ships = bin.rows == 0 ? kNan : bin.ships / rows;
+    bin.fraction = bin.rows == 0 ? kNan : bin.fraction / rows;
   }
   result.expected_error = predictions.empty() ? kNan : sum / static_cast<double>(predictions.size());
   return result;

@@ -3,7 +3,6 @@
 
 // Scores of predictions, with confidence intervals that account for the dependence of maps of one sea.
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -11,14 +10,27 @@
 
 namespace seaglint {
 
+// Outputs of a classifier for one row: of two classes the probability of label 1, of more that of every label.
+constexpr std::size_t outputs_of(std::size_t classes) { return classes == 2 ? 1 : classes; }
+// The class of the largest probability; of two, label 1 from probability 1/2 on.
+int decision_of(std::span<const double> outputs);
+
 // One prediction of one test row.
 struct Prediction {
   std::int64_t sample = 0;
   std::int64_t group = 0;
   double wave_height_m = 0;
-  int label = 0;           // the truth, 1 = ship
-  double probability = 0;  // of label 1
+  int label = 0;                      // the truth
+  double probability = 0;             // of label 1
+  std::vector<double> by_class = {};  // of every label where there are more than two; else empty
+
+  std::size_t classes() const { return by_class.empty() ? 2 : by_class.size(); }
+  int decision() const;
+  double of(int which) const;  // probability of a label
 };
+// With the outputs of a classifier, of outputs_of() numbers.
+Prediction prediction_of(std::int64_t sample, std::int64_t group, double wave_height_m, int label,
+                         std::span<const double> outputs);
 
 struct ConfidenceInterval {
   double low = 0;
@@ -28,12 +40,14 @@ struct ConfidenceInterval {
 struct Scores {
   std::size_t rows = 0;
   std::size_t groups = 0;
-  double accuracy = 0;  // at probability 0.5; NaN without rows
+  double accuracy = 0;  // fraction of right decisions; NaN without rows
   ConfidenceInterval
       accuracy_95;  // percentile bootstrap over groups (Davison and Hinkley 1997, section 5.3); NaN below two groups
-  double auc = 0;   // area under the ROC = P(ship scores above array), ties count half; NaN when a class is missing
-  double log_loss = 0;  // mean -log of the probability given to the truth, clipped at 1e-7
-  std::array<std::array<std::size_t, 2>, 2> confusion{};  // [truth][decision]
+  // Area under the ROC: P(a row of label 1 has a larger probability than one of label 0), ties count half; NaN when a
+  // class is missing. Of more classes the mean over the pairs of classes that have rows (Hand and Till 2001, eq. 7).
+  double auc = 0;
+  double log_loss = 0;                              // mean -log of the probability given to the truth, clipped at 1e-7
+  std::vector<std::vector<std::size_t>> confusion;  // [truth][decision], of all classes
 };
 
 // A threshold of the receiver operating characteristic.
@@ -48,17 +62,20 @@ struct RocPoint {
 // by the next: less than 2 most points. Empty when a class is missing.
 std::vector<RocPoint> roc_curve(std::span<const Prediction> predictions, std::size_t most = 200);
 
-// Predictions whose probability of label 1 lies within one tenth.
+// One curve of two classes; of more one for each label against the rest, over its probability.
+std::vector<std::vector<RocPoint>> roc_curves(std::span<const Prediction> predictions);
+
+// Predictions whose probability, of label 1 or among more than two classes the largest, lies within one tenth.
 struct CalibrationBin {
   double lowest = 0;  // 0, 0.1, ... 0.9; the last one includes 1
   std::size_t rows = 0;
-  double mean_probability = 0;  // of label 1; NaN without rows
-  double ships = 0;             // fraction of label 1; NaN without rows
+  double mean_probability = 0;  // NaN without rows
+  double fraction = 0;          // of label 1, or of right decisions; NaN without rows
 };
 
 struct Calibration {
   std::vector<CalibrationBin> bins;
-  // Mean over the rows of |mean probability - fraction of label 1| of their bin (Naeini, Cooper and Hauskrecht 2015);
+  // Mean over the rows of |mean probability - fraction| of their bin (Naeini, Cooper and Hauskrecht 2015);
   // NaN without rows.
   double expected_error = 0;
 };

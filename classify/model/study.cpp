@@ -51,11 +51,13 @@ template <class Model>
 std::vector<Prediction> predict_rows(const Model& model, const FeatureMatrix& features, const LearningTable& table,
                                      const std::vector<std::size_t>& rows) {
   const std::vector<double> probabilities = model.predict(select_rows(features, rows));
+  const std::size_t outputs = outputs_of(table.classes.size());
+  SEAGLINT_CHECK(probabilities.size() == outputs * rows.size(), "outputs for every row");
   std::vector<Prediction> predictions;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const std::size_t row = rows[i];
-    predictions.push_back(
-        {table.samples[row], table.groups[row].group, table.wave_heights_m[row], table.labels[row], probabilities[i]});
+    predictions.push_back(prediction_of(table.samples[row], table.groups[row].group, table.wave_heights_m[row],
+                                        table.labels[row], {&probabilities[i * outputs], outputs}));
   }
   return predictions;
 }
@@ -107,11 +109,13 @@ Network train_network(const Job& job, const JobRows& rows, const LearningTable& 
                       std::uint64_t seed, const StopFlag* stop) {
   const std::uint64_t index =
       (job.repeat * 2 + (job.protocol == Protocol::kGroup ? 1 : 0)) * 2 + (job.fusion == Fusion::kSplit ? 0 : 1);
-  Network network = Network::train(table.centres, {rows.fit, rows.validation}, table.labels, spec, seed, index, stop);
+  const std::size_t classes = table.classes.size();
+  Network network =
+      Network::train(table.centres, {rows.fit, rows.validation}, table.labels, spec, seed, index, stop, classes);
   if (job.fusion == Fusion::kSplit) return network;
   LearningSpec as_selected = spec;
   as_selected.epochs = network.history().epochs;
-  return Network::train(table.centres, {rows.split.train, {}}, table.labels, as_selected, seed, index, stop);
+  return Network::train(table.centres, {rows.split.train, {}}, table.labels, as_selected, seed, index, stop, classes);
 }
 
 JobResult run_job(const Job& job, const LearningTable& table, const LearningSpec& spec, double train_fraction,
@@ -126,11 +130,11 @@ JobResult run_job(const Job& job, const LearningTable& table, const LearningSpec
   const FeatureMatrix* features[kGroups] = {&table.handmade, &result.embeddings, &fused, &table.extended};
   for (std::size_t group = 0; group < kGroups; ++group) {
     result.train_rows[group] = rows.trees.size();
-    const Booster booster =
-        Booster::train(select_rows(*features[group], rows.trees), select(table.labels, rows.trees), spec, stop);
+    const Booster booster = Booster::train(select_rows(*features[group], rows.trees), select(table.labels, rows.trees),
+                                           spec, stop, table.classes.size());
     result.predictions[group] = predict_rows(booster, *features[group], table, result.split.test);
-    const LogisticModel linear =
-        LogisticModel::train(select_rows(*features[group], rows.trees), select(table.labels, rows.trees));
+    const LogisticModel linear = LogisticModel::train(select_rows(*features[group], rows.trees),
+                                                      select(table.labels, rows.trees), table.classes.size());
     result.linear[group] = predict_rows(linear, *features[group], table, result.split.test);
     result.boosters.push_back(booster);
   }
@@ -168,8 +172,8 @@ std::vector<ProbeResult> run_probes(const LearningTable& table, const LearningSp
       for (int repeat = 0; repeat < spec.split_repeats; ++repeat) {
         const Split split =
             divide(table.division(), protocol, train_fraction, seed, static_cast<std::uint64_t>(repeat));
-        const Booster booster =
-            Booster::train(select_rows(probe.features, split.train), select(table.labels, split.train), spec, stop);
+        const Booster booster = Booster::train(select_rows(probe.features, split.train),
+                                               select(table.labels, split.train), spec, stop, table.classes.size());
         const std::vector<Prediction> more = predict_rows(booster, probe.features, table, split.test);
         predictions.insert(predictions.end(), more.begin(), more.end());
         if (repeat == 0) train_rows = split.train.size();
@@ -205,11 +209,15 @@ std::uint64_t bootstrap_index(std::size_t group, Protocol protocol) {
 FeatureMatrix embedding_matrix(const Embeddings& embeddings) {
   FeatureMatrix matrix;
   for (std::size_t k = 0; k < embeddings.size; ++k) matrix.names.push_back(fmt::format("lambda_{}", k + 1));
-  matrix.names.push_back("logit");
-  for (std::size_t i = 0; i < embeddings.logits.size(); ++i) {
-    const auto begin = embeddings.values.begin() + static_cast<std::ptrdiff_t>(i * embeddings.size);
-    matrix.values.insert(matrix.values.end(), begin, begin + static_cast<std::ptrdiff_t>(embeddings.size));
-    matrix.values.push_back(embeddings.logits[i]);
+  const std::size_t outputs = embeddings.outputs;
+  for (std::size_t k = 0; k < outputs; ++k) matrix.names.push_back(outputs == 1 ? "logit" : fmt::format("logit_{}", k));
+  const auto append = [&](const std::vector<float>& values, std::size_t row, std::size_t count) {
+    const auto begin = values.begin() + static_cast<std::ptrdiff_t>(row * count);
+    matrix.values.insert(matrix.values.end(), begin, begin + static_cast<std::ptrdiff_t>(count));
+  };
+  for (std::size_t i = 0; i < embeddings.logits.size() / outputs; ++i) {
+    append(embeddings.values, i, embeddings.size);
+    append(embeddings.logits, i, outputs);
   }
   return matrix;
 }
@@ -249,6 +257,7 @@ Study run_study(const LearningTable& table, const LearningSpec& spec, double tra
   };
 
   Study study;
+  study.classes = table.classes;
   Evaluator evaluate(spec, seed);
   for (std::size_t group = 0; group < kGroups; ++group) {
     FeatureGroupResult result;
@@ -263,7 +272,7 @@ Study run_study(const LearningTable& table, const LearningSpec& spec, double tra
         const std::vector<Prediction> predictions = pooled(protocol, fusion, group);
         (place == 0 ? outcome.primary : outcome.alternative) =
             evaluate(predictions, done[(protocol * 2 + fusion) * repeats].train_rows[group]);
-        if (place == 0) outcome.roc = roc_curve(predictions);
+        if (place == 0) outcome.roc = roc_curves(predictions);
         if (place == 0 && kProtocols[protocol] == Protocol::kGroup) {
           const JobResult& first = done[(protocol * 2 + fusion) * repeats];
           const auto& made = group == 3 ? table.extended.names : table.handmade.names;

@@ -30,8 +30,8 @@ struct Outcome {
   // it: the scenario's fusion and the other one.
   Evaluation primary;
   Evaluation alternative;
-  Evaluation linear;          // logistic regression in place of the trees of the primary
-  std::vector<RocPoint> roc;  // of the primary
+  Evaluation linear;                       // logistic regression in place of the trees of the primary
+  std::vector<std::vector<RocPoint>> roc;  // of the primary: roc_curves()
 };
 
 struct FeatureGroupResult {
@@ -50,7 +50,8 @@ struct ProbeResult {
 
 // The models are those of the group protocol, main fusion, first repeat.
 struct Study {
-  std::vector<FeatureGroupResult> groups;  // handmade, cnn, fused, extended
+  std::vector<std::string> classes = default_classes();  // names by label
+  std::vector<FeatureGroupResult> groups;                // handmade, cnn, fused, extended
   std::vector<ProbeResult> probes;
   std::optional<Network> network;  // always set in a finished study
   std::vector<Booster> trees;      // handmade, cnn, fused, extended
@@ -59,7 +60,7 @@ struct Study {
   std::string division;            // how the group protocol divides
 };
 
-// The network's outputs as columns lambda_1, lambda_2, ..., logit.
+// The network's outputs as columns lambda_1, lambda_2, ..., logit; of more than two classes logit_0, logit_1, ...
 FeatureMatrix embedding_matrix(const Embeddings& embeddings);
 
 // Random index of the interval of a primary result (score()): `group` of Study::groups.

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -14,15 +15,24 @@ namespace {
 
 using nlohmann::ordered_json;
 
-ordered_json to_object(const Evaluation& evaluation) {
-  ordered_json json = to_object(evaluation.scores);
+ordered_json to_object(const Evaluation& evaluation, const std::vector<std::string>& classes) {
+  ordered_json json = to_object(evaluation.scores, classes);
   json["train_rows"] = evaluation.train_rows;
   json["by_wave_height"] = ordered_json::array();
   for (const WaveHeightScores& entry : evaluation.by_wave_height) {
     ordered_json row;
     row["significant_wave_height_m"] = entry.wave_height_m;
-    row.update(to_object(entry.scores));
+    row.update(to_object(entry.scores, classes));
     json["by_wave_height"].push_back(row);
+  }
+  return json;
+}
+
+ordered_json to_object(const std::vector<RocPoint>& curve) {
+  ordered_json json{{"false_alarms", ordered_json::array()}, {"detections", ordered_json::array()}};
+  for (const RocPoint& point : curve) {
+    json["false_alarms"].push_back(point.false_alarms);
+    json["detections"].push_back(point.detections);
   }
   return json;
 }
@@ -38,7 +48,19 @@ std::string percent(const Scores& scores) {
                      100 * scores.accuracy_95.high);
 }
 
-ordered_json to_object(const Scores& scores) {
+std::string one_word(std::string class_name) {
+  std::ranges::replace(class_name, ' ', '_');
+  return class_name;
+}
+
+std::vector<std::string> probability_columns(const std::string& model, const std::vector<std::string>& classes) {
+  std::vector<std::string> names;
+  if (classes.size() == 2) return {"probability_" + model};
+  for (const std::string& name : classes) names.push_back(fmt::format("probability_{}_{}", model, one_word(name)));
+  return names;
+}
+
+ordered_json to_object(const Scores& scores, const std::vector<std::string>& classes) {
   ordered_json json;
   json["rows"] = scores.rows;
   json["groups"] = scores.groups;
@@ -46,22 +68,21 @@ ordered_json to_object(const Scores& scores) {
   json["accuracy_95"] = {number_or_null(scores.accuracy_95.low), number_or_null(scores.accuracy_95.high)};
   json["auc"] = number_or_null(scores.auc);
   json["log_loss"] = number_or_null(scores.log_loss);
-  json["confusion"] = {{"array_as_array", scores.confusion[0][0]},
-                       {"array_as_ship", scores.confusion[0][1]},
-                       {"ship_as_array", scores.confusion[1][0]},
-                       {"ship_as_ship", scores.confusion[1][1]}};
-  return json;
-}
-
-ordered_json to_object(const std::vector<RocPoint>& curve) {
-  ordered_json json{{"false_alarms", ordered_json::array()}, {"detections", ordered_json::array()}};
-  for (const RocPoint& point : curve) {
-    json["false_alarms"].push_back(point.false_alarms);
-    json["detections"].push_back(point.detections);
+  for (std::size_t truth = 0; truth < classes.size(); ++truth) {
+    for (std::size_t decision = 0; decision < classes.size(); ++decision) {
+      const std::string name = fmt::format("{}_as_{}", one_word(classes[truth]), one_word(classes[decision]));
+      json["confusion"][name] = scores.confusion[truth][decision];
+    }
   }
   return json;
 }
 
+ordered_json to_object(const std::vector<std::vector<RocPoint>>& curves, const std::vector<std::string>& classes) {
+  if (curves.size() == 1) return to_object(curves.front());
+  ordered_json json;
+  for (std::size_t label = 0; label < curves.size(); ++label) json[one_word(classes[label])] = to_object(curves[label]);
+  return json;
+}
 ordered_json to_json(const Study& study, const LearningSpec& spec) {
   ordered_json json;
   const Fusion other = spec.fusion == Fusion::kSplit ? Fusion::kInSample : Fusion::kSplit;
@@ -73,10 +94,10 @@ ordered_json to_json(const Study& study, const LearningSpec& spec) {
     if (network) entry["fusion"] = fusion_name(spec.fusion);
     ordered_json others;
     for (const Outcome& outcome : group.outcomes) {
-      entry[name(outcome.protocol)] = to_object(outcome.primary);
-      entry[name(outcome.protocol)]["roc"] = to_object(outcome.roc);
-      entry[name(outcome.protocol)]["logistic_regression"] = to_object(outcome.linear);
-      others[name(outcome.protocol)] = to_object(outcome.alternative);
+      entry[name(outcome.protocol)] = to_object(outcome.primary, study.classes);
+      entry[name(outcome.protocol)]["roc"] = to_object(outcome.roc, study.classes);
+      entry[name(outcome.protocol)]["logistic_regression"] = to_object(outcome.linear, study.classes);
+      others[name(outcome.protocol)] = to_object(outcome.alternative, study.classes);
     }
     entry[network ? fusion_name(other) : "fewer_rows"] = others;
     json[group.name] = entry;
@@ -84,8 +105,8 @@ ordered_json to_json(const Study& study, const LearningSpec& spec) {
   json["probes"] = ordered_json::array();
   for (const ProbeResult& probe : study.probes) {
     ordered_json entry{{"name", probe.name}, {"kind", name(probe.kind)}, {"meaning", probe.meaning}};
-    entry["random"] = to_object(probe.evaluations[0]);
-    entry["group"] = to_object(probe.evaluations[1]);
+    entry["random"] = to_object(probe.evaluations[0], study.classes);
+    entry["group"] = to_object(probe.evaluations[1], study.classes);
     json["probes"].push_back(entry);
   }
   json["split_repeats"] = spec.split_repeats;

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 #include "classify/model/study.h"
 #include "sim/scenario/learning_spec.h"
@@ -17,9 +18,15 @@ std::string accuracy_table(const Study& study);
 // "93.3 (88-98)": accuracy in % with its 95 % interval, if there is one; "-" without rows.
 std::string percent(const Scores& scores);
 
-// JSON objects of scores and of a receiver operating characteristic; undefined values are null.
-nlohmann::ordered_json to_object(const Scores& scores);
-nlohmann::ordered_json to_object(const std::vector<RocPoint>& curve);
+// The name of a class in names of columns and members: '_' for a space.
+std::string one_word(std::string class_name);
+// "probability_fused"; of more than two classes "probability_fused_ship", one for each.
+std::vector<std::string> probability_columns(const std::string& model, const std::vector<std::string>& classes);
+
+// JSON objects of scores and of roc_curves(), for more than two classes by class name; undefined values are null.
+nlohmann::ordered_json to_object(const Scores& scores, const std::vector<std::string>& classes);
+nlohmann::ordered_json to_object(const std::vector<std::vector<RocPoint>>& curves,
+                                 const std::vector<std::string>& classes);
 
 // The study as a JSON object with the members handmade, cnn, fused, extended, probes, network.
 nlohmann::ordered_json to_json(const Study& study, const LearningSpec& spec);

@@ -290,6 +290,17 @@ void check_intra_pulse_motion(const Scenario& scenario, const ScenarioDocument& 
   }
 }
 
+void check_labels(const Scenario& scenario, const ScenarioDocument& document) {
+  const std::vector<std::string>& classes = scenario.dataset.classes;
+  for (const TargetSpec& target : scenario.targets) {
+    if (target.role == TargetRole::kPart || target.label < static_cast<int>(classes.size())) continue;
+    document.fail_at(
+        fmt::format("targets.{}.label", target.name),
+        fmt::format("must be {}{}, a class of dataset.classes: {}", classes.size() == 2 ? "0 or " : "within 0 and ",
+                    classes.size() - 1, fmt::join(classes, ", ")));
+  }
+}
+
 void check_dataset(const Scenario& scenario, const ScenarioDocument& document) {
   const DatasetSpec& dataset = scenario.dataset;
   if (dataset.maps_per_case % dataset.realisations_per_case != 0) {
@@ -363,6 +374,7 @@ void check_contradictions(const Scenario& scenario, const ScenarioDocument& docu
   for (const TargetSpec& target : scenario.targets) check_target(target, document);
   for (const TargetSpec& target : scenario.targets) check_companions(scenario, target, document);
   check_roles(scenario, document);
+  check_labels(scenario, document);
   check_intra_pulse_motion(scenario, document);
   check_dataset(scenario, document);
 }

@@ -226,15 +226,10 @@ void visit(CompanionSpec& spec, FieldVisitor& v) {
 
 // A mesh with its motion, or ideal points; fields of a mesh are not written for points.
 void visit(TargetSpec& spec, FieldVisitor& v) {
-  const auto label = [&] {
-    auto index = static_cast<std::size_t>(spec.label);
-    v.choice("label", index, std::array{"0", "1"});
-    spec.label = static_cast<int>(index);
-  };
   visit_choice(v, "role", spec.role, {"class", "part"});
   const bool is_class = spec.role == TargetRole::kClass;
   if (is_class) v.require("label");
-  if (v.optional("label", is_class)) label();
+  if (v.optional("label", is_class)) v.integer("label", spec.label, within(0, kMaxClasses - 1));
   if (v.optional("points", !spec.points.empty())) {
     v.list(
         "points", spec.points.size(), 10000, [&](std::size_t size) { spec.points.resize(size); },
@@ -305,6 +300,8 @@ void visit(DatasetSpec& spec, FieldVisitor& v) {
   v.ratio("split", spec.train_fraction);
   v.flag("complex_maps", spec.complex_maps);
   v.flag("echoes", spec.echoes);
+  if (v.optional("classes", spec.classes != default_classes()))
+    v.words("classes", spec.classes, kMinClasses, kMaxClasses);
 }
 
 void visit(FeatureSpec& spec, FieldVisitor& v) {

@@ -68,6 +68,8 @@ class FieldVisitor {
   virtual void list(const char* key, std::size_t size, std::size_t max_size,
                     const std::function<void(std::size_t)>& resize,
                     const std::function<void(std::size_t, FieldVisitor&)>& item) = 0;
+  // A list of least..most different words: letters, digits, '_', '-', spaces within.
+  virtual void words(const char* key, std::vector<std::string>& values, std::size_t least, std::size_t most) = 0;
   // A map of maps: rename(names) is called when reading, then item(i, visitor) for each.
   virtual void dictionary(const char* key, const std::vector<std::string>& names, std::size_t max_size,
                           const std::function<void(const std::vector<std::string>&)>& rename,

@@ -62,6 +62,10 @@ class Lister : public FieldVisitor {
     resize(1);
     below(fmt::format("{}.N", key), [&] { item(0, *this); });
   }
+  void words(const char* key, std::vector<std::string>& values, std::size_t least, std::size_t most) override {
+    add(key, fmt::format("[{}]", fmt::join(values, ", ")),
+        fmt::format("list of {} to {} different names", least, most));
+  }
   void dictionary(const char* key, const std::vector<std::string>&, std::size_t,
                   const std::function<void(const std::vector<std::string>&)>& rename,
                   const std::function<void(std::size_t, FieldVisitor&)>& item) override {

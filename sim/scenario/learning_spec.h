@@ -8,7 +8,16 @@
 
 namespace seaglint {
 
+inline constexpr int kMinClasses = 2, kMaxClasses = 10;
+// The class names of a scenario that gives none, by label.
+inline const std::vector<std::string>& default_classes() {
+  static const std::vector<std::string> names{"array", "ship"};
+  return names;
+}
+
 struct DatasetSpec {
+  // Names of label 0, 1, ...: kMinClasses to kMaxClasses, different when a space counts as '_'.
+  std::vector<std::string> classes = default_classes();
   int maps_per_case = 100;         // per class; a case is (sea state, aspect); 1 <= x <= 1000000
   int realisations_per_case = 10;  // independent seas; 1 <= x <= 100000; times maps_per_interval divides maps_per_case
   int maps_per_interval = 1;       // of one response, each with its own clutter and noise; 1 <= x <= 1000

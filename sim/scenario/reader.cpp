@@ -35,6 +35,10 @@ std::string value_text(const YamlNode& node) {
   return "value " + in_quotes(text);
 }
 
+bool is_name_character(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+}
+
 // The keys a map may have.
 class KeyCollector : public FieldVisitor {
  public:
@@ -56,6 +60,7 @@ class KeyCollector : public FieldVisitor {
             const std::function<void(std::size_t, FieldVisitor&)>&) override {
     keys.emplace_back(key);
   }
+  void words(const char* key, std::vector<std::string>&, std::size_t, std::size_t) override { keys.emplace_back(key); }
   void dictionary(const char* key, const std::vector<std::string>&, std::size_t,
                   const std::function<void(const std::vector<std::string>&)>&,
                   const std::function<void(std::size_t, FieldVisitor&)>&) override {
@@ -229,6 +234,32 @@ class Reader : public FieldVisitor {
     }
   }
 
+  void words(const char* key, std::vector<std::string>& values, std::size_t least, std::size_t most) override {
+    const YamlNode* node = map_.find(key);
+    if (node == nullptr) return;
+    if (node->kind != YamlNode::Kind::kList || node->items.size() < least || node->items.size() > most)
+      fail(*node, path_of(key), fmt::format("must be a list of {} to {} names", least, most));
+    values.clear();
+    std::vector<std::string> one_word;  // with '_' for a space, as in names of columns
+    for (std::size_t i = 0; i < node->items.size(); ++i) {
+      const YamlNode& item = node->items[i];
+      const std::string path = fmt::format("{}.{}", path_of(key), i);
+      constexpr std::size_t kLongest = 40;
+      const bool is_name =
+          item.kind == YamlNode::Kind::kScalar && !item.text.empty() && item.text.size() <= kLongest &&
+          item.text.front() != ' ' && item.text.back() != ' ' &&
+          std::all_of(item.text.begin(), item.text.end(), [](char c) { return c == ' ' || is_name_character(c); });
+      if (!is_name)
+        fail(item, path, fmt::format("must be 1 to {} letters, digits, '_', '-' or spaces within", kLongest));
+      std::string word = item.text;
+      std::replace(word.begin(), word.end(), ' ', '_');
+      if (std::find(one_word.begin(), one_word.end(), word) != one_word.end())
+        fail(item, path, "must differ from the others, also with '_' for a space");
+      one_word.push_back(std::move(word));
+      values.push_back(item.text);
+    }
+  }
+
   void dictionary(const char* key, const std::vector<std::string>&, std::size_t max_size,
                   const std::function<void(const std::vector<std::string>&)>& rename,
                   const std::function<void(std::size_t, FieldVisitor&)>& item) override {
@@ -308,10 +339,8 @@ class Reader : public FieldVisitor {
   // Names become parts of file names and of key paths.
   void check_name(const YamlEntry& entry, const std::string& path) const {
     constexpr std::size_t kLongest = 64;
-    const auto allowed = [](char c) {
-      return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
-    };
-    if (entry.key.empty() || entry.key.size() > kLongest || !std::all_of(entry.key.begin(), entry.key.end(), allowed)) {
+    if (entry.key.empty() || entry.key.size() > kLongest ||
+        !std::all_of(entry.key.begin(), entry.key.end(), is_name_character)) {
       document_.fail(entry.location, path,
                      fmt::format("name '{}': must be 1 to {} letters, digits, '_' or '-'",
                                  entry.key.substr(0, kLongest), kLongest));

@@ -108,7 +108,7 @@ struct PartMaterialSpec {
 struct TargetSpec {
   std::string name;
   TargetRole role = TargetRole::kClass;  // a part has no samples of its own: it is a companion of other targets
-  int label = 0;                         // of a class: 1 = ship, 0 = corner-reflector array
+  int label = 0;                         // of a class: index into dataset.classes
   std::string mesh;              // path relative to the scenario's folder or the working directory; empty for points
   std::string unit = "m";        // of the mesh file: m, cm, mm, km, in, ft
   std::string material = "pec";  // pec, a name of assets/materials, or a file

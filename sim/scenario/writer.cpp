@@ -84,6 +84,11 @@ class ValueVisitor : public FieldVisitor {
     }
     line(key, fmt::format("{{{}}}", fmt::join(entries, ", ")));
   }
+  void words(const char* key, std::vector<std::string>& values, std::size_t, std::size_t) override {
+    std::vector<std::string> as_yaml;
+    for (const std::string& value : values) as_yaml.push_back(text_as_yaml(value));
+    line(key, fmt::format("[{}]", fmt::join(as_yaml, ", ")));
+  }
   void require(const char*) override {}
   bool optional(const char*, bool present) override { return present; }
 

@@ -126,7 +126,7 @@ TEST(Keys, AreListedWithDefaultAndBound) {
   const ProgramResult result = run_program({"keys"});
   EXPECT_EQ(result.code, 0);
   EXPECT_THAT(result.out, ContainsRegex("\nradar.carrier_ghz +16 +within 0.1 and 300\n"));
-  EXPECT_THAT(result.out, ContainsRegex("\ntargets.NAME.label +required +0, 1\n"));
+  EXPECT_THAT(result.out, ContainsRegex("\ntargets.NAME.label +required +whole, within 0 and 9\n"));
   EXPECT_THAT(
       result.out,
       ContainsRegex("\ntargets.NAME.points.N.position_m +required +\\[x, y, z\\], within -100000 and 100000\n"));

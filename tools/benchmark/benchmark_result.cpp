@@ -22,6 +22,8 @@ using nlohmann::ordered_json;
 constexpr std::size_t kUnseenSeas = 1;  // index of the group protocol
 constexpr double kPaperHandmade = 0.86;
 
+double chance_of(const Study& study) { return 1 / static_cast<double>(study.classes.size()); }
+
 const Outcome& outcome_of(const Study& study, const std::string& group) {
   const auto found = std::ranges::find(study.groups, group, &FeatureGroupResult::name);
   return found->outcomes[kUnseenSeas];
@@ -133,6 +135,7 @@ Claim motion_alone_separates(const Study& study) {
     claim.why += fmt::format("{}{} {} %", claim.why.empty() ? "" : ", ", entry.name, rounded(entry.scores));
   }
   if (claim.why.empty()) claim.why = "every quantity is at chance";
+  if (study.classes.size() > 2) claim.why += fmt::format(" (chance: {:.1f} %)", 100 * chance_of(study));
   return claim;
 }
 
@@ -155,8 +158,8 @@ std::vector<FloorEntry> floor_of(const Study& study) {
     entries.push_back({probe.name, probe.evaluations[kUnseenSeas].scores});
     estimates.push_back(estimate_of(entries.back().scores));
   }
-  const std::vector<ConfidenceInterval> intervals = holm_intervals(estimates);
-  const std::vector<bool> rejected = holm_rejections(estimates);
+  const std::vector<ConfidenceInterval> intervals = holm_intervals(estimates, chance_of(study));
+  const std::vector<bool> rejected = holm_rejections(estimates, chance_of(study));
   for (std::size_t i = 0; i < entries.size(); ++i) {
     entries[i].scores.accuracy_95 = intervals[i];
     entries[i].leaks = rejected[i];
@@ -171,6 +174,7 @@ std::vector<Claim> claims_of(const Study& study) {
 
 ordered_json benchmark_json(const Study& study) {
   ordered_json json;
+  if (study.classes.size() > 2) json["classes"] = study.classes;
   for (const auto& [name, evaluation] : baselines(study)) json["baselines"][name] = to_object(*evaluation);
   const std::vector<FloorEntry> floor = floor_of(study);
   for (const FloorEntry& entry : floor) {
@@ -197,7 +201,8 @@ std::string benchmark_text(const Study& study) {
   for (const auto& [name, evaluation] : baselines(study)) {
     all += fmt::format("  {:<28}{:>18}  {}\n", name, percent(evaluation->scores), by_height(*evaluation));
   }
-  all += "\nWithout motion (intervals by Holm over all of them; * = differs from chance)\n\n";
+  all += "\nWithout motion (intervals by Holm over all of them; * = differs from chance";
+  all += study.classes.size() > 2 ? fmt::format(", {:.1f} %)\n\n", 100 * chance_of(study)) : ")\n\n";
   for (const FloorEntry& entry : floor_of(study)) {
     all += fmt::format("  {:<28}{:>18}{}\n", entry.name, percent(entry.scores), entry.leaks ? " *" : "");
   }
@@ -210,7 +215,7 @@ std::string benchmark_text(const Study& study) {
 std::string benchmark_row(const std::string& name, std::size_t maps, std::size_t seas, const Study& study) {
   const std::vector<FloorEntry> floor = floor_of(study);
   const auto highest = std::ranges::max_element(
-      floor, {}, [](const FloorEntry& entry) { return std::abs(entry.scores.accuracy - 0.5); });
+      floor, {}, [&](const FloorEntry& entry) { return std::abs(entry.scores.accuracy - chance_of(study)); });
   const auto cell = [&](const char* group) { return by_height(outcome_of(study, group).primary); };
   return fmt::format("| `{}` | {}, {} | {} | {} | {} | {} {} |\n", name, maps, seas, cell("handmade"), cell("cnn"),
                      cell("fused"), highest->name, rounded(highest->scores));

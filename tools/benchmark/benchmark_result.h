@@ -20,7 +20,7 @@ struct FloorEntry {
   bool leaks = false;  // Holm's procedure rejects chance
 };
 
-// All probes of a study but the features of motion (MWR, CCF, sigma_v).
+// All probes of a study but the features of motion (MWR, CCF, sigma_v). Chance is 1 / number of classes.
 std::vector<FloorEntry> floor_of(const Study& study);
 
 enum class Verdict { kHeld, kNotHeld, kUndecided };

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cstdio>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "radar/waveform/figures_of_merit.h"
 #include "radar/waveform/pulse_train.h"
@@ -28,6 +31,24 @@ std::string summary(const Scenario& scenario, const SamplePlan& plan) {
                      seas * aspects, plan.size());
 }
 
+// A line for each class that several targets share: it has the maps of all of them. Empty where each has one target.
+std::string shared_classes(const Scenario& scenario, const SamplePlan& plan) {
+  const std::vector<std::string>& classes = scenario.dataset.classes;
+  std::string text;
+  for (std::size_t label = 0; label < classes.size(); ++label) {
+    std::vector<std::string> names;
+    for (const int t : plan.classes()) {
+      const TargetSpec& target = scenario.targets[static_cast<std::size_t>(t)];
+      if (target.label == static_cast<int>(label)) names.push_back(target.name);
+    }
+    if (names.size() < 2) continue;
+    text +=
+        fmt::format("label {} ({}) is shared by {} targets ({}): {} of {} maps\n", label, classes[label], names.size(),
+                    fmt::join(names, ", "), plan.size() / plan.classes().size() * names.size(), plan.size());
+  }
+  return text;
+}
+
 }  // namespace
 
 void add_check(CommandOptions& program, CommandContext& context) {
@@ -44,7 +65,8 @@ void add_check(CommandOptions& program, CommandContext& context) {
       const PulseTrain train = make_pulse_train(scenario.radar, pipeline.window_m(), scenario.seed, 0);
       print_out("{}", effective_yaml(scenario));
       std::fflush(stdout);
-      print_error(summary(scenario, pipeline.plan()) + figures_of_merit_text(train, scenario.radar));
+      print_error(summary(scenario, pipeline.plan()) + shared_classes(scenario, pipeline.plan()) +
+                  figures_of_merit_text(train, scenario.radar));
       report_motion_files(pipeline);
       warn(mesh_warnings(pipeline));
       warn(motion_warnings(pipeline));

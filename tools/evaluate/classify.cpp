@@ -5,10 +5,14 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
+#include <span>
+#include <vector>
 
 #include "classify/dataset/directory/dataset_reader.h"
 #include "classify/dataset/directory/file_names.h"
 #include "classify/model/saved_model.h"
+#include "classify/model/scores.h"
+#include "classify/model/study_text.h"
 #include "seaglint_version.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
@@ -31,8 +35,13 @@ std::vector<std::string> outside(const ModelCard& card, const DataRow& row) {
   return names;
 }
 
-const std::string& decided(const ModelCard& card, double probability) {
-  return card.classes[probability >= 0.5 ? 1 : 0];
+const std::string& decided(const ModelCard& card, std::span<const double> outputs) {
+  return card.classes[static_cast<std::size_t>(decision_of(outputs))];
+}
+
+// The classes whose probabilities are shown: the second of two, or all.
+std::vector<std::string> shown_classes(const ModelCard& card) {
+  return card.classes.size() == 2 ? std::vector{card.classes[1]} : card.classes;
 }
 
 // Four digits, a dash for an undefined value.
@@ -44,10 +53,13 @@ std::string sample_text(const SavedModel& model, const AppliedRows& applied) {
   std::string text = fmt::format("sample {}: {} (truth: {}), Hs {:g} m, azimuth {:g} deg\n", record.sample,
                                  record.target_name, model.card.classes[static_cast<std::size_t>(record.label)],
                                  record.significant_wave_height_m, record.azimuth_deg);
-  text += fmt::format("  {:<12}{:>24}  decision\n", "classifier", "P(" + model.card.classes[1] + ")");
+  text += fmt::format("  {:<12}", "classifier");
+  for (const std::string& name : shown_classes(model.card)) text += fmt::format("{:>24}", "P(" + name + ")");
+  text += "  decision\n";
   for (std::size_t i = 0; i < kModelNames.size(); ++i) {
-    const double probability = applied.probabilities[i].front();
-    text += fmt::format("  {:<12}{:>24.4f}  {}\n", kModelNames[i], probability, decided(model.card, probability));
+    text += fmt::format("  {:<12}", kModelNames[i]);
+    for (const double probability : applied.outputs(i, 0)) text += fmt::format("{:>24.4f}", probability);
+    text += fmt::format("  {}\n", decided(model.card, applied.outputs(i, 0)));
   }
   text += fmt::format("\n  {:<28}{:>12}{:>24}", "quantity", "value", "training range");
   for (const std::string& name : model.card.classes) text += fmt::format("{:>32}", name + ", 5 / 50 / 95 %");
@@ -65,14 +77,23 @@ std::string sample_text(const SavedModel& model, const AppliedRows& applied) {
   return text;
 }
 
+// Of two classes the probability of label 1; of more the decision with its probability.
 std::string all_text(const SavedModel& model, const AppliedRows& applied) {
+  const bool two = model.card.classes.size() == 2;
+  const int width = two ? 12 : 24;
   std::string text = fmt::format("{:>8} {:<16}", "sample", "truth");
-  for (const char* name : kModelNames) text += fmt::format("{:>12}", name);
-  text += fmt::format("  P({}); outside the training range\n", model.card.classes[1]);
+  for (const char* name : kModelNames) text += fmt::format("{:>{}}", name, width);
+  text += two ? fmt::format("  P({}); outside the training range\n", model.card.classes[1])
+              : "  decision, P(decision); outside the training range\n";
   for (std::size_t row = 0; row < applied.rows.size(); ++row) {
     const SampleRecord& record = applied.rows[row].record;
     text += fmt::format("{:>8} {:<16}", record.sample, model.card.classes[static_cast<std::size_t>(record.label)]);
-    for (const auto& probabilities : applied.probabilities) text += fmt::format("{:>12.4f}", probabilities[row]);
+    for (std::size_t i = 0; i < kModelNames.size(); ++i) {
+      const std::span<const double> outputs = applied.outputs(i, row);
+      text += two ? fmt::format("{:>12.4f}", outputs[0])
+                  : fmt::format("{:>24}", fmt::format("{}, {:.4f}", decided(model.card, outputs),
+                                                      outputs[static_cast<std::size_t>(decision_of(outputs))]));
+    }
     text += fmt::format("  {}\n", fmt::join(outside(model.card, applied.rows[row]), " "));
   }
   return text;
@@ -80,13 +101,15 @@ std::string all_text(const SavedModel& model, const AppliedRows& applied) {
 
 std::string csv(const SavedModel& model, const AppliedRows& applied) {
   std::string text = "sample,label";
-  for (const char* name : kModelNames) text += fmt::format(",probability_{}", name);
+  for (const char* name : kModelNames)
+    text += fmt::format(",{}", fmt::join(probability_columns(name, model.card.classes), ","));
   for (const std::string& feature : model.card.features) text += "," + feature;
   text += ",outside\n";
   for (std::size_t row = 0; row < applied.rows.size(); ++row) {
     const SampleRecord& record = applied.rows[row].record;
     text += fmt::format("{},{}", record.sample, record.label);
-    for (const auto& probabilities : applied.probabilities) text += fmt::format(",{}", probabilities[row]);
+    for (std::size_t i = 0; i < kModelNames.size(); ++i)
+      text += fmt::format(",{}", fmt::join(applied.outputs(i, row), ","));
     for (const float value : applied.features.row(row)) text += fmt::format(",{}", value);
     text += fmt::format(",{}\n", fmt::join(outside(model.card, applied.rows[row]), " "));
   }

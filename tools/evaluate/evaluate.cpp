@@ -91,7 +91,7 @@ std::string evaluate_model(const EvaluateRequest& request, const StopFlag* stop)
   std::string text = evaluation_table(evaluation, model, request);
   if (!request.output.empty()) {
     make_directory(request.output);
-    write_file(request.output / kProbabilitiesFile, probabilities_csv(evaluation));
+    write_file(request.output / kProbabilitiesFile, probabilities_csv(evaluation, model.card.classes));
     write_file(request.output / kEvaluationFile, evaluation_json(evaluation, model, request, manifests));
     text += fmt::format("\n{}: {}, {}\n", request.output.string(), kEvaluationFile, kProbabilitiesFile);
   }

@@ -53,13 +53,14 @@ std::string outside_table(const std::vector<OutsideCount>& counts, std::size_t r
   return text;
 }
 
-ordered_json to_object(const Calibration& calibration) {
+// `name`: of the fraction of label 1, or of right decisions.
+ordered_json to_object(const Calibration& calibration, const char* name) {
   ordered_json json{{"expected_error", number_or_null(calibration.expected_error)}, {"bins", ordered_json::array()}};
   for (const CalibrationBin& bin : calibration.bins) {
     json["bins"].push_back({{"lowest", bin.lowest},
                             {"rows", bin.rows},
                             {"mean_probability", number_or_null(bin.mean_probability)},
-                            {"ships", number_or_null(bin.ships)}});
+                            {name, number_or_null(bin.fraction)}});
   }
   return json;
 }
@@ -126,11 +127,13 @@ std::string evaluation_table(const ModelEvaluation& evaluation, const SavedModel
     loss[i] = evaluation.scores[i].log_loss;
   }
   text += "\n";
-  text += numbers_of("area under the ROC", auc);
+  const bool two = model.card.classes.size() == 2;
+  text += numbers_of(two ? "area under the ROC" : "area under the ROC, mean over pairs", auc);
   text += numbers_of("expected calibration error", error);
   text += numbers_of("log loss", loss);
-  for (std::size_t truth = 0; truth < 2; ++truth) {
-    for (std::size_t decision = 0; decision < 2; ++decision) {
+  const std::size_t classes = model.card.classes.size();
+  for (std::size_t truth = 0; truth < classes; ++truth) {
+    for (std::size_t decision = 0; decision < classes; ++decision) {
       text += fmt::format("  {:<37}",
                           fmt::format("{} declared {}", model.card.classes[truth], model.card.classes[decision]));
       for (const Scores& scores : evaluation.scores) text += fmt::format("{:>18}", scores.confusion[truth][decision]);
@@ -167,9 +170,9 @@ std::string evaluation_json(const ModelEvaluation& evaluation, const SavedModel&
                   {"unseen_seas", request.unseen_seas}};
   for (std::size_t i = 0; i < kModelNames.size(); ++i) {
     ordered_json& entry = json[kModelNames[i]];
-    entry = to_object(evaluation.scores[i]);
-    entry["calibration"] = to_object(evaluation.calibrations[i]);
-    entry["roc"] = to_object(evaluation.roc[i]);
+    entry = to_object(evaluation.scores[i], model.card.classes);
+    entry["calibration"] = to_object(evaluation.calibrations[i], model.card.classes.size() == 2 ? "ships" : "right");
+    entry["roc"] = to_object(evaluation.roc[i], model.card.classes);
   }
   json["by"] = ordered_json::array();
   for (const ColumnScores& column : evaluation.by) {
@@ -178,7 +181,8 @@ std::string evaluation_json(const ModelEvaluation& evaluation, const SavedModel&
       ordered_json bin{{"value", scored.bin.text},
                        {"lowest", number_or_null(scored.bin.lowest)},
                        {"highest", number_or_null(scored.bin.highest)}};
-      for (std::size_t i = 0; i < kModelNames.size(); ++i) bin[kModelNames[i]] = to_object(scored.scores[i]);
+      for (std::size_t i = 0; i < kModelNames.size(); ++i)
+        bin[kModelNames[i]] = to_object(scored.scores[i], model.card.classes);
       entry["bins"].push_back(std::move(bin));
     }
     json["by"].push_back(std::move(entry));
@@ -190,10 +194,10 @@ std::string evaluation_json(const ModelEvaluation& evaluation, const SavedModel&
   return json.dump(2) + "\n";
 }
 
-std::string probabilities_csv(const ModelEvaluation& evaluation) {
+std::string probabilities_csv(const ModelEvaluation& evaluation, const std::vector<std::string>& classes) {
   std::string text = "data_set,sample,sea,label,target_name,significant_wave_height_m,azimuth_deg,scr_peak_cell_db";
   for (const std::string& feature : evaluation.applied.features.names) text += "," + feature;
-  for (const char* model : kModelNames) text += fmt::format(",probability_{}", model);
+  for (const char* model : kModelNames) text += fmt::format(",{}", fmt::join(probability_columns(model, classes), ","));
   text += ",training,evaluated,outside\n";
   std::vector<bool> is_evaluated(evaluation.applied.rows.size());
   for (const std::size_t row : evaluation.evaluated) is_evaluated[row] = true;
@@ -205,7 +209,8 @@ std::string probabilities_csv(const ModelEvaluation& evaluation) {
                         number_cell(data.record.significant_wave_height_m), number_cell(data.record.azimuth_deg),
                         number_cell(data.record.scr_peak_cell_db));
     for (const float value : evaluation.applied.features.row(row)) text += fmt::format(",{}", value);
-    for (const auto& probabilities : evaluation.applied.probabilities) text += fmt::format(",{}", probabilities[row]);
+    for (std::size_t model = 0; model < kModelNames.size(); ++model)
+      text += fmt::format(",{}", fmt::join(evaluation.applied.outputs(model, row), ","));
     text += fmt::format(",{},{},{}\n", name(evaluation.uses[row]), is_evaluated[row] ? 1 : 0,
                         fmt::join(evaluation.outside[row], " "));
   }

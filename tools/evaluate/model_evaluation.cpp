@@ -38,8 +38,8 @@ std::vector<Prediction> predictions_of(const ModelEvaluation& evaluation, std::s
   predictions.reserve(rows.size());
   for (const std::size_t row : rows) {
     const SampleRecord& record = evaluation.applied.rows[row].record;
-    predictions.push_back({record.sample, evaluation.seas[row], record.significant_wave_height_m,
-                           static_cast<int>(record.label), evaluation.applied.probabilities[model][row]});
+    predictions.push_back(prediction_of(record.sample, evaluation.seas[row], record.significant_wave_height_m,
+                                        static_cast<int>(record.label), evaluation.applied.outputs(model, row)));
   }
   return predictions;
 }
@@ -170,7 +170,7 @@ ModelEvaluation evaluate_rows(const SavedModel& model, AppliedRows applied, std:
     const std::vector<Prediction> predictions = predictions_of(evaluation, i, evaluation.evaluated);
     evaluation.scores[i] =
         score(predictions, model.spec.bootstrap_samples, model.card.seed, bootstrap_index(i, Protocol::kGroup));
-    evaluation.roc[i] = roc_curve(predictions);
+    evaluation.roc[i] = roc_curves(predictions);
     evaluation.calibrations[i] = calibration(predictions);
   }
   score_columns(evaluation, model, request.by);

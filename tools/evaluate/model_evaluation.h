@@ -46,12 +46,12 @@ struct OutsideCount {
 // Members with [row] refer to all maps of the data sets in their order.
 struct ModelEvaluation {
   AppliedRows applied;
-  std::vector<std::int64_t> seas;                  // [row]
-  std::vector<TrainingUse> uses;                   // [row]
-  std::vector<std::vector<std::string>> outside;   // [row]: names of features and conditions outside the training range
-  std::vector<std::size_t> evaluated;              // rows, ascending
-  std::array<Scores, kModels> scores;              // of the evaluated rows, as are the following
-  std::array<std::vector<RocPoint>, kModels> roc;  // empty when a class is missing
+  std::vector<std::int64_t> seas;                 // [row]
+  std::vector<TrainingUse> uses;                  // [row]
+  std::vector<std::vector<std::string>> outside;  // [row]: names of features and conditions outside the training range
+  std::vector<std::size_t> evaluated;             // rows, ascending
+  std::array<Scores, kModels> scores;                   // of the evaluated rows, as are the following
+  std::array<std::vector<std::vector<RocPoint>>, kModels> roc;  // roc_curves(); empty curves when a class is missing
   std::array<Calibration, kModels> calibrations;
   std::vector<ColumnScores> by;
   std::vector<OutsideCount> features, conditions;

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numeric>
+#include <vector>
 
 namespace seaglint {
 
@@ -51,12 +53,17 @@ std::string Guessing::text() const {
 }
 
 Guessing guessing(const ordered_json& scores) {
-  const auto count = [&](const char* entry) { return scores.at("confusion").at(entry).get<double>(); };
-  const double arrays = count("array_as_array") + count("array_as_ship"),
-               ships = count("ship_as_array") + count("ship_as_ship");
-  if (!(arrays + ships > 0)) return {};
-  const double larger = std::max(arrays, ships) / (arrays + ships);
-  return {larger * larger + (1 - larger) * (1 - larger), larger};
+  // Entries by truth, then decision.
+  const ordered_json& confusion = scores.at("confusion");
+  const auto classes = static_cast<std::size_t>(std::lround(std::sqrt(confusion.size())));
+  std::vector<double> rows(classes);
+  std::size_t entry = 0;
+  for (const ordered_json& count : confusion) rows.at(entry++ / classes) += count.get<double>();
+  const double all = std::accumulate(rows.begin(), rows.end(), 0.0);
+  if (!(all > 0)) return {1.0 / static_cast<double>(classes), 1.0 / static_cast<double>(classes)};
+  double squares = 0;
+  for (const double count : rows) squares += count / all * (count / all);
+  return {squares, *std::max_element(rows.begin(), rows.end()) / all};
 }
 
 bool as_chance(const ordered_json& metrics, const ordered_json& probe) {

@@ -17,7 +17,7 @@ std::string accuracy_cell(const nlohmann::ordered_json& scores);
 // Accuracy of a probe on unseen seas; NaN if there is no probe of this name.
 double probe_accuracy(const nlohmann::ordered_json& metrics, const std::string& name);
 
-// Accuracies reached from the class frequencies alone: from guessing in proportion to them to always naming the larger
+// Accuracies reached from the class frequencies alone: from guessing in proportion to them to always naming the largest
 // class.
 struct Guessing {
   double least = 0.5, most = 0.5;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <system_error>
 #include <utility>
 
@@ -102,10 +103,10 @@ std::string joined(const std::vector<fs::path>& paths) {
 }
 
 // Reads a data set; each shard is passed to `use` if given.
-void read_data(LearningData& data, const DatasetReader& reader, const StopFlag* stop,
+void read_data(LearningData& data, const DatasetReader& reader, const Scenario& scenario, const StopFlag* stop,
                const std::function<void(const Shard&)>& use) {
   const std::size_t number = data.manifests.size();
-  LearningTable table = load_learning_table(reader, stop, [&](const Shard& shard) {
+  const auto keep = [&](const Shard& shard) {
     append_rows(data.rows, number, shard);
     if (number == 0) {
       data.axes = shard.axes;
@@ -114,7 +115,8 @@ void read_data(LearningData& data, const DatasetReader& reader, const StopFlag* 
           fmt::format("{}: maps of another grid than the first data set's: {}", reader.directory().string(), other));
     }
     if (use) use(shard);
-  });
+  };
+  LearningTable table = load_learning_table(reader, stop, keep, scenario.dataset.classes);
   if (number == 0) {
     data.table = std::move(table);
   } else {
@@ -142,7 +144,7 @@ std::vector<RowGroup> common_seas(std::span<const DataRow> rows, std::span<const
 void divide_rows(LearningData& data, const Scenario& scenario, const DivisionRequest& request) {
   LearningTable& table = data.table;
   if (!request.is_default()) table.other_division = make_division(data.rows, table.groups, table.labels, request);
-  if (!request.is_default() || data.manifests.size() > 1) require_two_classes(table.division(), table.labels, scenario);
+  if (!request.is_default() || data.manifests.size() > 1) require_classes(table.division(), table.labels, scenario);
 }
 
 TrainedModel train_on(const LearningData& data, const Scenario& scenario, const fs::path& model_directory, int threads,
@@ -171,7 +173,8 @@ TrainedModel train_on(const LearningData& data, const Scenario& scenario, const 
 
 }  // namespace
 
-void require_two_classes(const Division& division, std::span<const int> labels, const Scenario& scenario) {
+void require_classes(const Division& division, std::span<const int> labels, const Scenario& scenario) {
+  const std::vector<std::string>& classes = scenario.dataset.classes;
   for (int repeat = 0; repeat < scenario.learning.split_repeats; ++repeat) {
     const Split split = divide(division, Protocol::kGroup, scenario.dataset.train_fraction, scenario.seed,
                                static_cast<std::uint64_t>(repeat));
@@ -180,7 +183,15 @@ void require_two_classes(const Division& division, std::span<const int> labels, 
       const int label = labels[rows->front()];
       if (std::all_of(rows->begin(), rows->end(), [&](std::size_t row) { return labels[row] == label; })) {
         throw InputError(fmt::format("{}: leaves {} maps to {} on, all of class {} ({})", division.text, rows->size(),
-                                     use, label, class_names_by_label()[static_cast<std::size_t>(label)]));
+                                     use, label, classes[static_cast<std::size_t>(label)]));
+      }
+    }
+    std::set<int> trained;
+    for (const std::size_t row : split.train) trained.insert(labels[row]);
+    for (int label = 0; label < static_cast<int>(classes.size()); ++label) {
+      if (!trained.contains(label)) {
+        throw InputError(fmt::format("{}: leaves no map of class {} ({}) to train on", division.text, label,
+                                     classes[static_cast<std::size_t>(label)]));
       }
     }
   }
@@ -190,7 +201,7 @@ TrainedModel train_model(const DatasetReader& data, const Scenario& scenario, co
                          int threads, const StopFlag* stop, const std::function<void(const Shard&)>& use) {
   require_own_directory(model_directory);
   LearningData learning;
-  read_data(learning, data, stop, use);
+  read_data(learning, data, scenario, stop, use);
   require_learnable(learning.table, data.directory().string());
   divide_rows(learning, scenario, division_request(scenario.learning.split));
   return train_on(learning, scenario, model_directory, threads, stop);
@@ -212,12 +223,17 @@ TrainedModel train_model(const std::vector<fs::path>& data_sets, const fs::path&
       throw InputError(
           fmt::format("{}: the same maps as {}: of one scenario", data_set.string(), first->second.string()));
     }
-    const std::string other =
-        settings_difference(settings_of(read_scenario(data_set / kScenarioFile)), settings_of(scenario));
+    const Scenario own = read_scenario(data_set / kScenarioFile);
+    const std::string classes = classes_difference(own.dataset.classes, scenario.dataset.classes);
+    if (!classes.empty()) {
+      throw InputError(
+          fmt::format("{}: other classes than {}: {}", data_set.string(), data_sets.front().string(), classes));
+    }
+    const std::string other = settings_difference(settings_of(own), settings_of(scenario));
     if (!other.empty())
       throw InputError(
           fmt::format("{}: other settings than {}: {}", data_set.string(), data_sets.front().string(), other));
-    read_data(learning, reader, stop, {});
+    read_data(learning, reader, scenario, stop, {});
   }
   LearningTable& table = learning.table;
   require_learnable(table, joined(data_sets));

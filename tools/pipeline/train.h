@@ -54,7 +54,8 @@ TrainedModel train_model(const std::vector<std::filesystem::path>& data_sets,
 TrainedModel train_model(const std::filesystem::path& data_set, const std::filesystem::path& model_directory,
                          const std::vector<Override>& overrides, int threads, const StopFlag* stop = nullptr);
 
-// Throws InputError when a side of the group protocol is empty or of one class only, in any repeat.
-void require_two_classes(const Division& division, std::span<const int> labels, const Scenario& scenario);
+// Throws InputError when a side of the group protocol is empty or of one class only, or no map of a class is trained
+// on, in any repeat.
+void require_classes(const Division& division, std::span<const int> labels, const Scenario& scenario);
 
 }  // namespace seaglint

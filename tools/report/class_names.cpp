@@ -10,14 +10,14 @@ namespace seaglint {
 
 ClassNames class_names(const Scenario& scenario) {
   constexpr std::size_t kMostNames = 3;
+  if (scenario.dataset.classes != default_classes()) return scenario.dataset.classes;
   ClassNames classes;
   for (const int label : {0, 1}) {
     std::vector<std::string> names;
     for (const TargetSpec& target : scenario.targets)
       if (target.role == TargetRole::kClass && target.label == label) names.push_back(target.name);
-    classes[static_cast<std::size_t>(label)] = names.empty() || names.size() > kMostNames
-                                                   ? fmt::format("label {}", label)
-                                                   : fmt::format("{}", fmt::join(names, ", "));
+    classes.push_back(names.empty() || names.size() > kMostNames ? fmt::format("label {}", label)
+                                                                 : fmt::format("{}", fmt::join(names, ", ")));
   }
   return classes;
 }

@@ -65,17 +65,22 @@ void check_division(const Scenario& scenario, const SamplePlan& plan) {
   if (!all_planned) return;
   at_key(scenario, "learning.split", [&] {
     const Division division = make_division(rows, planned_seas(plan), labels, request);
-    require_two_classes(division, labels, scenario);
+    require_classes(division, labels, scenario);
     check_splits(division, scenario.learning, scenario.dataset.train_fraction, scenario.seed);
   });
 }
 
 void check_learnable(const Scenario& scenario, const SamplePlan& plan) {
-  const auto has = [&](int label) {
-    return std::ranges::any_of(
+  const std::vector<std::string>& classes = scenario.dataset.classes;
+  for (int label = 0; label < static_cast<int>(classes.size()); ++label) {
+    const bool has = std::ranges::any_of(
         plan.classes(), [&](int target) { return scenario.targets[static_cast<std::size_t>(target)].label == label; });
-  };
-  if (!has(0) || !has(1)) throw InputError("targets: learning needs a target of label 0 and one of label 1");
+    if (has) continue;
+    if (classes.size() == 2) throw InputError("targets: learning needs a target of label 0 and one of label 1");
+    throw InputError(fmt::format("{}: learning needs a target of every class, also of '{}' (label {})",
+                                 place_of(scenario, "dataset.classes"), classes[static_cast<std::size_t>(label)],
+                                 label));
+  }
   if (division_request(scenario.learning.split).is_default()) {
     check_splits(division_by_sea(planned_seas(plan)), scenario.learning, scenario.dataset.train_fraction,
                  scenario.seed);

@@ -129,11 +129,13 @@ std::string page(const ordered_json& metrics, const ReportData& data, const Scen
                  const std::vector<ReportFigure>& all, const HotSpots& spots, const std::string& missing) {
   const std::string name = escape_html(scenario.name);
   const ClassNames classes = class_names(scenario);
+  const bool are_default = scenario.dataset.classes == default_classes();
   std::string body = fmt::format(
-      "<header>\n<h1>Ship or corner-reflector array?</h1>\n<p class=\"lead\">Simulated frequency-agile radar maps, "
-      "their features and how well they tell the two "
-      "apart. Scenario <b>{}</b>, seed {}, seaglint {}.</p>\n</header>\n",
-      name, scenario.seed, escape_html(metrics.at("version").get<std::string>()));
+      "<header>\n<h1>{}?</h1>\n<p class=\"lead\">Simulated frequency-agile radar maps, their features and how well "
+      "they tell the {} apart. Scenario <b>{}</b>, seed {}, seaglint {}.</p>\n</header>\n",
+      are_default ? "Ship or corner-reflector array" : escape_html(fmt::format("{}", fmt::join(classes, " or "))),
+      classes.size() == 2 ? "two" : "classes", name, scenario.seed,
+      escape_html(metrics.at("version").get<std::string>()));
   body +=
       "<nav><a href=\"#maps\">Maps</a><a href=\"#accuracy\">Accuracy</a><a href=\"#paper\">The paper’s claims</a><a "
       "href=\"#features\">Features</a>"
@@ -161,8 +163,9 @@ std::string page(const ordered_json& metrics, const ReportData& data, const Scen
                       feature_table(metrics, classes));
   body += section("aspects", "Dependence on aspect", figures(all, "aspects"));
   body += section("probes", "Probes: what else could tell the class",
-                  "<p>Each quantity is given to the same trees by itself. Quantities that know nothing of the target "
-                  "must stay near 50 %.</p>\n" +
+                  fmt::format("<p>Each quantity is given to the same trees by itself. Quantities that know nothing of "
+                              "the target must stay near {:.0f} %.</p>\n",
+                              100.0 / static_cast<double>(classes.size())) +
                       probes_table(metrics, scenario));
   body += section("notes", "What an expert should notice", expert_notes(metrics, scenario));
   body += section("sea", "Sea and motion", figures(all, "sea"));

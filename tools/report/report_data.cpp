@@ -28,7 +28,7 @@ int nearest(std::size_t count, Distance distance) {
   return best;
 }
 
-// Numbers of the samples that the report shows: both classes at two aspects.
+// Numbers of the samples that the report shows: every class at two aspects.
 std::vector<std::size_t> shown_samples(const Scenario& scenario, const SamplePlan& plan) {
   const std::vector<SeaState>& states = plan.sea_states();
   const std::vector<View>& aspects = plan.views();
@@ -44,7 +44,7 @@ std::vector<std::size_t> shown_samples(const Scenario& scenario, const SamplePla
   if (chosen[0] == chosen[1]) chosen.pop_back();
   std::vector<std::size_t> samples;
   for (const int view : chosen) {
-    for (const int label : {1, 0}) {
+    for (int label = static_cast<int>(scenario.dataset.classes.size()) - 1; label >= 0; --label) {
       const auto target = std::ranges::find(plan.classes(), label,
                                             [&](int t) { return scenario.targets[static_cast<std::size_t>(t)].label; });
       if (target == plan.classes().end()) continue;
@@ -85,6 +85,7 @@ LineFit fit_line(const std::vector<StoredCentre>& centres) {
 ReportCollector::ReportCollector(const Scenario& scenario, const SamplePlan& plan)
     : wanted_(shown_samples(scenario, plan)) {
   data_.shown.resize(wanted_.size());
+  data_.classes = static_cast<int>(scenario.dataset.classes.size());
   const std::size_t states = plan.classes().size() * plan.views().size() * plan.sea_states().size();
   of_each_state_ = std::max<std::size_t>(1, (kMostMaps + states - 1) / states);
   data_.handmade.names = {"mwr", "ccf", "sigma_r_m", "sigma_v_mps"};

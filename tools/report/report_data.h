@@ -39,7 +39,8 @@ struct ShownMap {
 
 struct ReportData {
   std::vector<ReportRow> rows;
-  std::vector<ShownMap> shown;  // ship and array at the first aspect, then at the second
+  std::vector<ShownMap> shown;  // every class, the last label first, at the first aspect, then at the second
+  int classes = 2;              // labels 0 to classes - 1
   double shown_wave_height_m = 0;
   std::vector<ExplorerMap> maps;  // of every state in turn: at most about kMostMaps, see ReportCollector
   StoredAxes axes;                // of all maps

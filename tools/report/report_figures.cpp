@@ -165,7 +165,7 @@ LinePlot class_scatter(const ReportData& data, const ClassNames& classes,
                        const std::function<std::array<double, 2>(std::size_t)>& point,
                        const std::vector<std::size_t>& rows) {
   LinePlot plot;
-  for (const int label : {0, 1}) {
+  for (int label = 0; label < static_cast<int>(classes.size()); ++label) {
     Series series;
     series.name = classes[static_cast<std::size_t>(label)];
     series.style = SeriesStyle::kPoints;
@@ -261,13 +261,13 @@ void add_aspects(FigureList& list, const ReportData& data, const ClassNames& cla
     plot.title = fmt::format("{}, Hs {:g} m", quantity.title, data.shown_wave_height_m);
     plot.x.label = "azimuth of the radar, 0 = ahead of the bow (deg)";
     plot.y = quantity.axis;
-    for (const int label : {0, 1}) {
+    for (int label = 0; label < data.classes; ++label) {
       Series series;
       series.name = classes[static_cast<std::size_t>(label)];
       series.style = SeriesStyle::kLinesPoints;
       for (const double azimuth : azimuths) {
         const Quartiles q = quartiles_of(data, {label, data.shown_wave_height_m, azimuth}, quantity.value);
-        series.x.push_back(azimuth + (label == 1 ? 1 : -1));
+        series.x.push_back(azimuth + 2 * label - (data.classes - 1));
         series.y.push_back(q.median);
         series.interval.push_back({q.lower, q.upper});
       }

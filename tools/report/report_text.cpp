@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -82,6 +84,34 @@ std::string pooled_splits(int repeats) {
       repeats);
 }
 
+std::size_t confused(const ordered_json& scores, std::size_t classes, std::size_t truth, std::size_t decision) {
+  return std::next(scores.at("confusion").begin(), static_cast<std::ptrdiff_t>(truth * classes + decision))
+      ->get<std::size_t>();
+}
+
+// Decisions of the fused features on unseen seas by truth.
+std::string confusion_table(const ordered_json& metrics, const ClassNames& classes) {
+  Rows rows{{"truth"}};
+  for (const std::string& name : classes) rows.front().push_back("declared " + escape_html(name));
+  for (std::size_t truth = 0; truth < classes.size(); ++truth) {
+    rows.push_back({escape_html(classes[truth])});
+    for (std::size_t decision = 0; decision < classes.size(); ++decision)
+      rows.back().push_back(
+          fmt::format("{}", confused(metrics.at("fused").at("group"), classes.size(), truth, decision)));
+  }
+  return "<h3>Decisions by class, fused features, split by sea</h3>\n" + html_table(rows);
+}
+
+// "0.1 (ship) and 0.2 (array)", from the last label to the first.
+std::string by_class(const ClassNames& classes, const std::function<std::string(int label)>& value) {
+  std::string text;
+  for (int label = static_cast<int>(classes.size()) - 1; label >= 0; --label) {
+    text += text.empty() ? "" : label > 0 ? ", " : " and ";
+    text += fmt::format("{} ({})", value(label), escape_html(classes[static_cast<std::size_t>(label)]));
+  }
+  return text;
+}
+
 std::string item(const std::string& text) { return "<li>" + text + "</li>\n"; }
 
 }  // namespace
@@ -127,19 +157,24 @@ std::string accuracy_tables(const ordered_json& metrics, const ClassNames& class
   }
 
   html += "<h3>Further figures of merit, all wave heights</h3>\n";
-  Rows rows{{"features, split", "fusion", "accuracy", "AUC", "log loss",
-             fmt::format("predictions: {} as {}", escape_html(classes[0]), escape_html(classes[1])),
-             fmt::format("{} as {}", escape_html(classes[1]), escape_html(classes[0])),
-             "maps the trees learned from, each split"}};
-  const auto add = [&rows](const std::string& name, const std::string& fusion, const ordered_json& e) {
+  const bool two = classes.size() == 2;
+  Rows rows{{"features, split", "fusion", "accuracy", two ? "AUC" : "AUC, mean over pairs of classes", "log loss"}};
+  if (two) {
+    rows.front().push_back(fmt::format("predictions: {} as {}", escape_html(classes[0]), escape_html(classes[1])));
+    rows.front().push_back(fmt::format("{} as {}", escape_html(classes[1]), escape_html(classes[0])));
+  }
+  rows.front().push_back("maps the trees learned from, each split");
+  const auto add = [&rows, two](const std::string& name, const std::string& fusion, const ordered_json& e) {
     const auto number = [](double x, const char* format) {
       return std::isfinite(x) ? fmt::format(fmt::runtime(format), x) : "–";
     };
     rows.push_back({name, fusion, accuracy_cell(e), number(value_or_nan(e.at("auc")), "{:.3f}"),
-                    number(value_or_nan(e.at("log_loss")), "{:.3f}"),
-                    fmt::format("{}", e.at("confusion").at("array_as_ship").get<std::size_t>()),
-                    fmt::format("{}", e.at("confusion").at("ship_as_array").get<std::size_t>()),
-                    fmt::format("{}", e.at("train_rows").get<std::size_t>())});
+                    number(value_or_nan(e.at("log_loss")), "{:.3f}")});
+    if (two) {
+      rows.back().push_back(fmt::format("{}", confused(e, 2, 0, 1)));
+      rows.back().push_back(fmt::format("{}", confused(e, 2, 1, 0)));
+    }
+    rows.back().push_back(fmt::format("{}", e.at("train_rows").get<std::size_t>()));
   };
   for (const char* protocol : kProtocols) {
     for (int k = 0; k < 3; ++k) {
@@ -156,6 +191,7 @@ std::string accuracy_tables(const ordered_json& metrics, const ClassNames& class
     }
   }
   html += html_table(rows);
+  if (!two) html += confusion_table(metrics, classes);
   html += pooled_splits(metrics.at("split_repeats"));
   html +=
       "<p>Fusion <code>split</code>: the network learns from one part of the training maps, the trees from the other, "
@@ -192,6 +228,7 @@ std::string claims_table(const ordered_json& metrics, const ClassNames& classes)
                   fmt::format("{} / {}", verdict(fused_best[0]), verdict(fused_best[1]))});
   rows.push_back({"Hand-made features alone exceed 86 %", percent(handmade_random), percent(handmade_group),
                   fmt::format("{} / {}", verdict(handmade_random > 0.86), verdict(handmade_group > 0.86))});
+  if (classes.size() > 2) return html_table(rows, false);  // the next claim is on a ship and an array
   std::string residuals;
   bool array_scatters = true;
   for (const auto& row : metrics.at("handmade").at("random").at("by_wave_height")) {
@@ -288,29 +325,36 @@ std::string expert_notes(const ordered_json& metrics, const Scenario& scenario) 
   const PulseTrain train = make_pulse_train(scenario.radar, scenario.map.range_span_m, scenario.seed, 0);
   const double cell = train.velocity_resolution_mps();
   const double shown = metrics.at("report").at("features_by_azimuth")[0].at("significant_wave_height_m");
-  const double ship = median_at(metrics, "features_by_wave_height", "significant_wave_height_m", shown, 1, "mwr");
-  const double array = median_at(metrics, "features_by_wave_height", "significant_wave_height_m", shown, 0, "mwr");
+  const std::string residuals = by_class(classes, [&](int label) {
+    return fmt::format("{:.2g}",
+                       median_at(metrics, "features_by_wave_height", "significant_wave_height_m", shown, label, "mwr"));
+  });
   html +=
       item(fmt::format("<b>Scale of the residual.</b> One velocity cell is {:.3f} m/s; a spread over one cell alone "
                        "gives an MWR of {:.2g} (m/s)². At H<sub>s</sub> {:g} m "
-                       "the medians are {:.2g} ({}) and {:.2g} ({}) (m/s)².",
-                       cell, cell * cell / 12, shown, ship, escape_html(classes[1]), array, escape_html(classes[0])));
+                       "the medians are {} (m/s)².",
+                       cell, cell * cell / 12, shown, residuals));
   std::string aspects;
   for (const auto& e : metrics.at("report").at("features_by_azimuth")) {
     if (e.at("label") != 1) continue;
     const double azimuth = e.at("azimuth_deg");
-    const double line = value_or_nan(e.at("line_explained").at("median"));
-    const double other = median_at(metrics, "features_by_azimuth", "azimuth_deg", azimuth, 0, "line_explained");
-    aspects += fmt::format("{}{:g}°: {:.0f} / {:.0f} %", aspects.empty() ? "" : ", ", azimuth, 100 * line, 100 * other);
+    std::vector<std::string> explained;
+    for (int label = static_cast<int>(classes.size()) - 1; label >= 0; --label) {
+      const double line = median_at(metrics, "features_by_azimuth", "azimuth_deg", azimuth, label, "line_explained");
+      explained.push_back(fmt::format("{:.0f}", 100 * line));
+    }
+    aspects += fmt::format("{}{:g}°: {} %", aspects.empty() ? "" : ", ", azimuth, fmt::join(explained, " / "));
   }
+  std::vector<std::string> names;
+  for (auto name = classes.rbegin(); name != classes.rend(); ++name) names.push_back(escape_html(*name));
   html += item(
       fmt::format("<b>When a ship is a line.</b> v = r̂·(ω × x) depends on cross-range coordinates alone: it is "
                   "linear in range only for a line-like hull seen obliquely, mast "
                   "height breaks it, and it fades near bow and stern. A flat line (nothing moves) explains no variance "
                   "and is a line all the same: there MWR is what is small. Velocity variance explained by the line "
                   "(adjusted for the number of centres, 0 for loose points), "
-                  "medians of {} / {} at H<sub>s</sub> {:g} m: {}.",
-                  escape_html(classes[1]), escape_html(classes[0]), shown, aspects));
+                  "medians of {} at H<sub>s</sub> {:g} m: {}.",
+                  fmt::join(names, " / "), shown, aspects));
   if (scenario.radar.hop_code != HopCode::kStepped) {
     html += item(
         "<b>The pedestal is not noise.</b> Random hopping leaves a pedestal at all velocities within ±6 m of every "

@@ -20,6 +20,29 @@ std::string split_name(const std::string& protocol) {
   return protocol == "random" ? "random split of the maps" : "split by sea realisation";
 }
 
+void add_curve(Series& series, const nlohmann::ordered_json& curve) {
+  for (const double x : curve.at("false_alarms")) series.x.push_back(100 * x);
+  for (const double y : curve.at("detections")) series.y.push_back(100 * y);
+}
+
+Series chance() { return {"chance", {0, 100}, {0, 100}, {}, SeriesStyle::kLines}; }
+
+// Of more than two classes: each against the rest, by the fused features.
+LinePlot rest_roc_plot(const nlohmann::ordered_json& curves, const std::string& protocol) {
+  LinePlot plot;
+  plot.title = "ROC of each class against the rest, fused, " + split_name(protocol);
+  plot.x = {"false alarms: others declared the class (%)", AxisRange{0, 100}, false};
+  plot.y = {"detections of the class (%)", AxisRange{0, 102}, false};
+  for (const auto& [name, curve] : curves.items()) {
+    Series series;
+    series.name = name;
+    add_curve(series, curve);
+    plot.series.push_back(std::move(series));
+  }
+  plot.series.push_back(chance());
+  return plot;
+}
+
 }  // namespace
 
 LinePlot accuracy_plot(const nlohmann::ordered_json& metrics, const std::string& protocol) {
@@ -51,6 +74,8 @@ LinePlot accuracy_plot(const nlohmann::ordered_json& metrics, const std::string&
 }
 
 std::optional<LinePlot> roc_plot(const nlohmann::ordered_json& metrics, const std::string& protocol) {
+  const auto& fused = metrics.at("fused").at(protocol);
+  if (fused.contains("roc") && !fused.at("roc").contains("detections")) return rest_roc_plot(fused.at("roc"), protocol);
   LinePlot plot;
   plot.title = "ROC, " + split_name(protocol);
   plot.x = {"false alarms: label 0 declared label 1 (%)", AxisRange{0, 100}, false};
@@ -60,11 +85,10 @@ std::optional<LinePlot> roc_plot(const nlohmann::ordered_json& metrics, const st
     if (!scores.contains("roc")) return std::nullopt;
     Series series;
     series.name = fmt::format("{}, AUC {:.3f}", label, value_or_nan(scores.at("auc")));
-    for (const double x : scores.at("roc").at("false_alarms")) series.x.push_back(100 * x);
-    for (const double y : scores.at("roc").at("detections")) series.y.push_back(100 * y);
+    add_curve(series, scores.at("roc"));
     plot.series.push_back(std::move(series));
   }
-  plot.series.push_back({"chance", {0, 100}, {0, 100}, {}, SeriesStyle::kLines});
+  plot.series.push_back(chance());
   return plot;
 }
 

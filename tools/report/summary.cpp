@@ -65,7 +65,7 @@ ordered_json report_numbers(const ReportData& data) {
   ordered_json json;
   json["features_by_wave_height"] = ordered_json::array();
   for (const double height : wave_heights_m(data)) {
-    for (const int label : {1, 0}) {
+    for (int label = data.classes - 1; label >= 0; --label) {
       ordered_json entry{{"significant_wave_height_m", height}, {"label", label}};
       for (const NamedValue& v : kValues) entry[v.name] = to_object(quartiles_of(data, {label, height, {}}, v.value));
       json["features_by_wave_height"].push_back(entry);
@@ -73,7 +73,7 @@ ordered_json report_numbers(const ReportData& data) {
   }
   json["features_by_azimuth"] = ordered_json::array();
   for (const double azimuth : azimuths_deg(data)) {
-    for (const int label : {1, 0}) {
+    for (int label = data.classes - 1; label >= 0; --label) {
       ordered_json entry{
           {"azimuth_deg", azimuth}, {"significant_wave_height_m", data.shown_wave_height_m}, {"label", label}};
       for (const NamedValue& v : kValues)

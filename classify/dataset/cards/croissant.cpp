@@ -88,14 +88,19 @@ ordered_json distribution(const DatasetReader& reader) {
   return files;
 }
 
-// Labels of the scenario's targets with the targets' names.
+// Labels of the scenario's targets with the names of the classes or, where it gives none, of the targets.
 ordered_json classes(const Scenario& scenario, std::size_t per_target) {
+  const bool are_named = scenario.dataset.classes != default_classes();
   std::map<int, std::string> names;
   std::map<int, std::size_t> counts;
   for (const TargetSpec& target : scenario.targets) {
     if (target.role == TargetRole::kPart) continue;
     std::string& name = names[target.label];
-    name += (name.empty() ? "" : ", ") + target.name;
+    if (are_named) {
+      name = scenario.dataset.classes[static_cast<std::size_t>(target.label)];
+    } else {
+      name += (name.empty() ? "" : ", ") + target.name;
+    }
     counts[target.label] += per_target;
   }
   const auto id = [](const char* field) { return fmt::format("{}/{}", kClasses, field); };
@@ -107,9 +112,10 @@ ordered_json classes(const Scenario& scenario, std::size_t per_target) {
   set["description"] = "classes of the targets";
   set["dataType"] = "sc:Enumeration";
   set["key"] = reference(id("label"));
-  set["field"] = {field("label", "sc:Integer", "value of the column label"),
-                  field("name", "sc:Text", "targets of the scenario that are of this class"),
-                  field("samples", "sc:Integer", "samples of this class")};
+  set["field"] = {
+      field("label", "sc:Integer", "value of the column label"),
+      field("name", "sc:Text", are_named ? "name of the class" : "targets of the scenario that are of this class"),
+      field("samples", "sc:Integer", "samples of this class")};
   set["data"] = ordered_json::array();
   for (const auto& [label, name] : names)
     set["data"].push_back({{id("label"), label}, {id("name"), name}, {id("samples"), counts[label]}});
@@ -121,13 +127,14 @@ std::string with_unit(const TableEntry& entry) {
   return entry.description + (entry.unit == "1" ? "; dimensionless" : "; unit " + entry.unit);
 }
 
-ordered_json samples(const DrawnKeys& drawn) {
+ordered_json samples(const DrawnKeys& drawn, const std::vector<std::string>& classes) {
   ordered_json set{{"@type", "cr:RecordSet"}, {"@id", kSamples}, {"name", kSamples}};
   set["description"] = "one record for each map: its class, sea, view, keys, signal-to-clutter ratios and features";
   set["key"] = reference(fmt::format("{}/sample", kSamples));
   std::vector<TableEntry> entries(table_entries().begin(), table_entries().end());
   std::ranges::copy(drawn_entries(drawn), std::back_inserter(entries));
-  for (const TableEntry& entry : entries) {
+  for (TableEntry& entry : entries) {
+    if (entry.name == "label") entry.description = label_description(classes);
     const std::string type = fmt::format("sc:{}", entry.type);
     ordered_json field{{"@type", "cr:Field"}, {"@id", fmt::format("{}/{}", kSamples, entry.name)}};
     field["name"] = entry.name;
@@ -181,7 +188,8 @@ std::string croissant_json(const DatasetReader& reader, const Scenario& scenario
   json["isBasedOn"] = {
       {"@type", "sc:SoftwareApplication"}, {"name", kProgram}, {"softwareVersion", manifest.program_version}};
   json["distribution"] = distribution(reader);
-  json["recordSet"] = {classes(scenario, samples_per_target(plan)), samples(drawn_keys(scenario))};
+  json["recordSet"] = {classes(scenario, samples_per_target(plan)),
+                       samples(drawn_keys(scenario), scenario.dataset.classes)};
   return json.dump(2) + "\n";
 }
 

@@ -42,6 +42,9 @@ class Auditor {
     }
     if (manifest.samples != plan_.size())
       fault(kManifestFile, fmt::format("{} samples, the scenario has {}", manifest.samples, plan_.size()));
+    if (manifest.classes != result_.scenario.dataset.classes)
+      fault(kManifestFile, fmt::format("classes {}, the scenario has {}", fmt::join(manifest.classes, ", "),
+                                       fmt::join(result_.scenario.dataset.classes, ", ")));
     if (manifest.seed != result_.scenario.seed)
       fault(kManifestFile, fmt::format("seed {}, the scenario has {}", manifest.seed, result_.scenario.seed));
     if (manifest.scenario != result_.scenario.name)
@@ -82,6 +85,9 @@ class Auditor {
       processors_.insert(content.origin.processor);
       if (const std::string& version = content.origin.program_version; version != manifest().program_version)
         fault(name, fmt::format("made by version {}, by the manifest {}", version, manifest().program_version));
+      if (content.classes != manifest().classes)
+        fault(name, fmt::format("classes {}, by the manifest {}", fmt::join(content.classes, ", "),
+                                fmt::join(manifest().classes, ", ")));
       if (!axes_) axes_ = content.axes;
       if (*axes_ != content.axes) fault(name, "other axes than the first shard");
       for (const Sample& sample : content.samples) check(name, sample);

@@ -19,6 +19,13 @@ std::string join(const std::vector<double>& values) {
   return text;
 }
 
+// "2", or "2 (guarded ship)" where the scenario names the classes.
+std::string label_text(const Scenario& scenario, int label) {
+  const std::vector<std::string>& classes = scenario.dataset.classes;
+  if (classes == default_classes()) return fmt::format("{}", label);
+  return fmt::format("{} ({})", label, markdown_text(classes[static_cast<std::size_t>(label)]));
+}
+
 // A row for each target; a part has no label and no samples.
 std::string targets_table(const Scenario& scenario, const SamplePlan& plan) {
   std::string table = "| target | label | samples | made of |\n|---|---|---|---|\n";
@@ -28,16 +35,17 @@ std::string targets_table(const Scenario& scenario, const SamplePlan& plan) {
     made_of += layout_text(target);
     const bool is_part = target.role == TargetRole::kPart;
     table += fmt::format("| {} | {} | {} | {} |\n", markdown_text(target.name),
-                         is_part ? "part of others" : fmt::format("{}", target.label),
+                         is_part ? "part of others" : label_text(scenario, target.label),
                          is_part ? 0 : samples_per_target(plan), made_of);
   }
   return table;
 }
 
-std::string columns_table() {
+std::string columns_table(const std::vector<std::string>& classes) {
   std::string table = "| column | units | meaning |\n|---|---|---|\n";
   for (const SampleColumn& column : sample_columns()) {
-    table += fmt::format("| `{}` | {} | {} |\n", column.name, column.unit, markdown_text(column.description));
+    table +=
+        fmt::format("| `{}` | {} | {} |\n", column.name, column.unit, markdown_text(description_of(column, classes)));
   }
   return table;
 }
@@ -143,7 +151,7 @@ std::string data_card(const Scenario& scenario, const SamplePlan& plan, const Ma
       join(wave_heights(plan)), join(scenario.view.azimuth_deg), join(scenario.view.elevation_deg), set.maps_per_case,
       set.realisations_per_case, set.interval_spacing_s, axes.velocity_mps.size(), axes.velocity_mps.front(),
       axes.velocity_mps.back(), axes.range_m.size(), axes.range_m.front(), axes.range_m.back());
-  text += arrays_table(scenario, axes) + "\n" + kReading + "## Columns of `samples/`\n\n" + columns_table() +
+  text += arrays_table(scenario, axes) + "\n" + kReading + "## Columns of `samples/`\n\n" + columns_table(set.classes) +
           drawn_table(scenario);
   text += fmt::format(
       "\n## Splitting\n\n"

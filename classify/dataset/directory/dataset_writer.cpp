@@ -241,6 +241,7 @@ bool DatasetWriter::complete(std::size_t shard) {
 void DatasetWriter::put(std::size_t shard, Shard content) {
   const fs::path file = shard_file(shard);
   content.origin = origin_;
+  content.classes = scenario_.dataset.classes;
   const std::scoped_lock lock(mutex_, hdf5_mutex());
   invalidate_manifest();
   std::string written;
@@ -274,6 +275,7 @@ Manifest DatasetWriter::manifest() const {
   manifest.scenario = scenario_.name;
   manifest.scenario_sha256 = sha256(scenario_yaml_);
   manifest.program_version = origin_.program_version;
+  manifest.classes = scenario_.dataset.classes;
   manifest.seed = scenario_.seed;
   manifest.samples = plan_.size();
   manifest.rows = axes_->velocity_mps.size();

@@ -80,13 +80,15 @@ std::string description(const Range& range, const std::set<std::string>& process
   json["program_version"] = range.reader.manifest().program_version;
   json["processors"] = processors;
   json["manifest_sha256"] = sha256_file(range.reader.directory() / kManifestFile);
+  const std::vector<std::string>& classes = range.reader.manifest().classes;
+  if (classes != default_classes()) json["classes"] = classes;
   const auto add = [&](const std::string& path, const ArrayText& text) {
     json["arrays"][name_of(path)] = {{"units", text.units}, {"description", text.description}};
   };
   for (const StoredArray& array : {kRangeAxis, kVelocityAxis, kMaps, kHopCodes, kCentres})
     add(array.path, array.text());
   if (complex_maps) add(kComplexMaps.path, {kComplexMaps.units, "RV, [sample][velocity][range]"});
-  for (const SampleColumn& column : sample_columns()) add(column_path(column), column_text(column));
+  for (const SampleColumn& column : sample_columns()) add(column_path(column), column_text(column, classes));
   for (const std::string& key : keys.numbers) add(drawn_path(key), drawn_text(key));
   for (const std::string& key : keys.words) add(drawn_path(key), drawn_text(key));
   return json.dump(2) + "\n";

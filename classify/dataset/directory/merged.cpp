@@ -124,7 +124,7 @@ void write_merged(const DatasetReader& reader, const fs::path& temporary, const 
     std::visit(
         [&](auto member) {
           merged.array(column_path(column), array_type_of<typename MemberType<decltype(member)>::Type>(), size, chunk,
-                       column_text(column));
+                       column_text(column, manifest.classes));
         },
         column.member);
   }

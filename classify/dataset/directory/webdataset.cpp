@@ -124,6 +124,7 @@ std::string description(const DatasetReader& reader, const std::string& manifest
   json["program_version"] = reader.manifest().program_version;
   json["processors"] = reader.manifest().processors;
   json["manifest_sha256"] = manifest_sha256;
+  if (reader.manifest().classes != default_classes()) json["classes"] = reader.manifest().classes;
   json["samples"] = reader.size();
   json["axes"] = {{"velocity_mps", first.axes.velocity_mps}, {"range_m", first.axes.range_m}};
   const auto add = [&](const char* name, const char* type, const StoredArray& array, const char* order) {
@@ -139,7 +140,8 @@ std::string description(const DatasetReader& reader, const std::string& manifest
   add("hop_code.npy", "uint16", kHopCodes, "pulse");
   add("centres.npy", "float32", kCentres, "centre, value; strongest first");
   for (const SampleColumn& column : sample_columns())
-    json["columns"][column.name] = {{"units", column.unit}, {"description", column.description}};
+    json["columns"][column.name] = {{"units", column.unit},
+                                    {"description", description_of(column, reader.manifest().classes)}};
   visit_drawn(first.samples.front().record, [&](const std::string& key, const auto&) {
     const ArrayText text = drawn_text(key);
     json["columns"][key] = {{"units", text.units}, {"description", text.description}};

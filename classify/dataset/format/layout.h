@@ -3,6 +3,7 @@
 
 // The arrays of a data set by path: the same in a shard, in the merged file and, without the leading slash, in .npz.
 
+#include <span>
 #include <string>
 #include <variant>
 
@@ -32,7 +33,9 @@ inline constexpr StoredArray kHopCodes{"/hop_code", "1", "carrier number of ever
 inline constexpr StoredArray kCentres{"/centres", "m, m/s, m", "range_m, velocity_mps, amplitude_m"};
 
 inline std::string column_path(const SampleColumn& column) { return std::string("/samples/") + column.name; }
-inline ArrayText column_text(const SampleColumn& column) { return {column.unit, column.description}; }
+inline ArrayText column_text(const SampleColumn& column, std::span<const std::string> classes) {
+  return {column.unit, description_of(column, classes)};
+}
 
 // The type of a column's values.
 template <class Member>

@@ -36,6 +36,7 @@ std::string to_json(const Manifest& manifest) {
   json["processors"] = manifest.processors;
   json["seed"] = manifest.seed;
   json["samples"] = manifest.samples;
+  if (manifest.classes != default_classes()) json["classes"] = manifest.classes;
   json["map"] = {{"rows", manifest.rows}, {"columns", manifest.columns}, {"units", "m"}};
   json["shards"] = ordered_json::array();
   for (const ManifestShard& shard : manifest.shards) {
@@ -46,7 +47,8 @@ std::string to_json(const Manifest& manifest) {
   }
   json["columns"] = ordered_json::array();
   for (const SampleColumn& column : sample_columns()) {
-    json["columns"].push_back({{"name", column.name}, {"units", column.unit}, {"description", column.description}});
+    json["columns"].push_back(
+        {{"name", column.name}, {"units", column.unit}, {"description", description_of(column, manifest.classes)}});
   }
   return json.dump(2) + "\n";
 }
@@ -65,6 +67,7 @@ Manifest read_manifest(const std::filesystem::path& file) {
     manifest.scenario_sha256 = json.at("scenario_sha256").get<std::string>();
     manifest.program_version = json.at("program_version").get<std::string>();
     manifest.processors = json.at("processors").get<std::vector<std::string>>();
+    if (json.contains("classes")) manifest.classes = json.at("classes").get<std::vector<std::string>>();
     // Elsewhere -1 would be read as a huge number, 4.7 as 4.
     const auto whole = [&](const ordered_json& object, const char* key) {
       const ordered_json& value = object.at(key);

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "sim/scenario/learning_spec.h"
+
 namespace seaglint {
 
 struct ManifestShard {
@@ -28,6 +30,7 @@ struct Manifest {
   std::uint64_t rows = 0;     // velocity cells of a map
   std::uint64_t columns = 0;  // range cells of a map
   std::vector<ManifestShard> shards;
+  std::vector<std::string> classes = default_classes();  // names by label; in the file where they are others
 };
 
 std::string to_json(const Manifest& manifest);              // with the descriptions of all columns

@@ -1,13 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "classify/dataset/format/sample.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+
+#include "sim/scenario/learning_spec.h"
+
 namespace seaglint {
+
+namespace {
+constexpr const char* kLabelOfDefault = "1 = ship, 0 = corner-reflector array";
+}
 
 std::span<const SampleColumn> sample_columns() {
   using R = SampleRecord;
   static const SampleColumn columns[] = {
       {"sample", "1", "number of the sample in the scenario's enumeration", &R::sample},
-      {"label", "1", "1 = ship, 0 = corner-reflector array", &R::label},
+      {"label", "1", kLabelOfDefault, &R::label},
       {"target", "1", "index of the target in the scenario file", &R::target},
       {"target_name", "1", "name of the target in the scenario file", &R::target_name},
       {"layout", "1", "layout of the target's bodies: single, line, ring, grid or random", &R::layout},
@@ -56,6 +67,18 @@ std::span<const SampleColumn> sample_columns() {
       {"heave_rate_mps", "m/s", "rate of heave_m", &R::heave_rate_mps},
   };
   return columns;
+}
+
+std::string label_description(std::span<const std::string> classes) {
+  if (std::ranges::equal(classes, default_classes())) return kLabelOfDefault;
+  std::string text;
+  for (std::size_t label = 0; label < classes.size(); ++label)
+    text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", label, classes[label]);
+  return text;
+}
+
+std::string description_of(const SampleColumn& column, std::span<const std::string> classes) {
+  return std::string_view(column.name) == "label" ? label_description(classes) : column.description;
 }
 
 }  // namespace seaglint

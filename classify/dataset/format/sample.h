@@ -83,6 +83,9 @@ struct SampleColumn {
 
 // Every column of a shard's /samples group, in the order of SampleRecord; drawn values have columns of their own.
 std::span<const SampleColumn> sample_columns();
+// Descriptions of the label and of any column in a data set of these classes (names by label): "0 = decoys, 1 = ship".
+std::string label_description(std::span<const std::string> classes);
+std::string description_of(const SampleColumn& column, std::span<const std::string> classes);
 
 // A scattering centre as stored: range_m, velocity_mps, amplitude_m.
 using StoredCentre = std::array<float, 3>;

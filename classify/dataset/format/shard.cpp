@@ -2,8 +2,10 @@
 #include "classify/dataset/format/shard.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <string_view>
 
 #include "classify/dataset/format/checksum.h"
 #include "classify/dataset/format/drawn_columns.h"
@@ -17,6 +19,8 @@ namespace seaglint {
 namespace {
 
 constexpr const char* kFormat = "seaglint shard 5";
+constexpr const char* kClasses = "classes";
+constexpr std::string_view kBetween = ", ";
 constexpr std::size_t kMaxBytes = std::size_t{64} << 30;  // a limit beyond every scenario's
 
 // The values of a column, one per sample.
@@ -50,14 +54,14 @@ void write_values(Hdf5Writer& file, const StoredArray& array, const Dimensions& 
   file.write<T>(array.path, 0, values);
 }
 
-void write_columns(Hdf5Writer& file, const std::vector<Sample>& samples) {
+void write_columns(Hdf5Writer& file, const std::vector<Sample>& samples, const std::vector<std::string>& classes) {
   const Dimensions size{samples.size()};
   for (const SampleColumn& column : sample_columns()) {
     std::visit(
         [&](auto member) {
           using T = typename MemberType<decltype(member)>::Type;
           const std::string path = column_path(column);
-          file.array(path, array_type_of<T>(), size, size, column_text(column));
+          file.array(path, array_type_of<T>(), size, size, column_text(column, classes));
           const std::vector<T> values = column_values(samples, member);
           if constexpr (std::is_same_v<T, std::string>) {
             file.write_names(path, 0, values);
@@ -75,6 +79,8 @@ void write_content(Hdf5Writer& file, const Shard& shard, int max_centres) {
   file.attribute("format", kFormat);
   file.attribute("program_version", shard.origin.program_version);
   file.attribute("processor", shard.origin.processor);
+  if (shard.classes != default_classes())
+    file.attribute(kClasses, fmt::format("{}", fmt::join(shard.classes, kBetween)));
 
   const StoredAxes& axes = shard.axes;
   const std::uint64_t n = shard.samples.size(), rows = axes.velocity_mps.size(), columns = axes.range_m.size();
@@ -109,7 +115,7 @@ void write_content(Hdf5Writer& file, const Shard& shard, int max_centres) {
   write_values(file, kHopCodes, {n, pulses}, {1, pulses}, codes);
   write_values(file, kCentres, {n, centres, 3}, {1, centres, 3}, centre_table);
   file.group("/samples");
-  write_columns(file, shard.samples);
+  write_columns(file, shard.samples, shard.classes);
   create_drawn(file, drawn_keys(shard.samples.front().record), n, n);
   std::vector<const SampleRecord*> records;
   for (const Sample& sample : shard.samples) records.push_back(&sample.record);
@@ -138,6 +144,17 @@ void read_columns(const Hdf5Reader& file, std::vector<Sample>& samples) {
   }
 }
 
+// "decoys, ship" as two names, which contain no comma.
+std::vector<std::string> classes_of(const std::string& names) {
+  std::vector<std::string> classes;
+  for (std::size_t begin = 0; begin <= names.size();) {
+    const std::size_t end = std::min(names.find(kBetween, begin), names.size());
+    classes.push_back(names.substr(begin, end - begin));
+    begin = end + kBetween.size();
+  }
+  return classes;
+}
+
 Shard read_content(const ShardFile& loaded) {
   const Hdf5Reader file(loaded.image);
   const std::string format = file.attribute("format");
@@ -148,6 +165,7 @@ Shard read_content(const ShardFile& loaded) {
   }
   Shard shard;
   shard.origin = {file.attribute("program_version"), file.attribute("processor")};
+  if (const std::string names = file.attribute(kClasses); !names.empty()) shard.classes = classes_of(names);
   shard.axes.range_m = file.read<double>(kRangeAxis.path, 1).values;
   shard.axes.velocity_mps = file.read<double>(kVelocityAxis.path, 1).values;
   const std::size_t cells = shard.axes.cells();

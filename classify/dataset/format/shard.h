@@ -14,8 +14,9 @@
 //   /samples/<column>                   [sample], one array per column of sample_columns()
 //   /drawn/<key>                        [sample], one array per drawn key (drawn_columns.h); only with drawn values
 //
-// Attributes of the file: `format`, `program_version`, `processor`; of every array: `units`, `description`. Every chunk
-// of an array has a Fletcher-32 checksum, every header a checksum of its own (HDF5 1.8 format).
+// Attributes of the file: `format`, `program_version`, `processor`; `classes`, their names by label separated by ", ",
+// where the scenario names them; of every array: `units`, `description`. Every chunk of an array has a Fletcher-32
+// checksum, every header a checksum of its own (HDF5 1.8 format).
 
 #include <filesystem>
 #include <string>
@@ -24,6 +25,7 @@
 #include "classify/dataset/format/hdf5_file.h"
 #include "classify/dataset/format/sample.h"
 #include "sim/core/process/error.h"
+#include "sim/scenario/learning_spec.h"
 
 namespace seaglint {
 
@@ -46,6 +48,7 @@ struct Shard {
   Provenance origin;
   StoredAxes axes;
   std::vector<Sample> samples;
+  std::vector<std::string> classes = default_classes();  // names by label
 };
 
 // "shard_00012.h5"

@@ -167,5 +167,43 @@ TEST(Network, StopsWhenTheFlagIsSet) {
   EXPECT_THROW(Network::train(set.maps, {range_of(0, 8), {}}, set.labels, short_training(), 42, 0, &stop), Interrupted);
 }
 
+// Rotating lines, free points and lines of three centres: three outputs, one logit of each class.
+TEST(Network, OfThreeClassesSeparatesThemAndReloads) {
+  MatchedSet set = matched_set(240);
+  for (std::size_t i = 0; i < set.maps.size(); i += 3) {
+    set.labels[i] = 2;
+    set.maps[i].pop_back();
+  }
+  const auto train = [&](const LearningSpec& spec) {
+    return Network::train(set.maps, {range_of(0, 120), range_of(120, 160)}, set.labels, spec, 42, 0, nullptr, 3);
+  };
+  const Network network = train(LearningSpec{});
+  const Embeddings outputs = network.embed(set.maps);
+  ASSERT_EQ(outputs.outputs, 3u);
+  ASSERT_EQ(outputs.logits.size(), 3 * set.maps.size());
+  int right = 0;
+  for (std::size_t i = 160; i < 240; ++i) {
+    const auto logits = outputs.logits.begin() + static_cast<std::ptrdiff_t>(3 * i);
+    right += std::max_element(logits, logits + 3) - logits == set.labels[i] ? 1 : 0;
+  }
+  EXPECT_GT(right, 64);  // of 80
+
+  LearningSpec spec = short_training();
+  const std::vector<float> first = train(spec).embed(set.maps).logits;
+  spec.threads = 3;
+  EXPECT_EQ(train(spec).embed(set.maps).logits, first);
+
+  const auto file = std::filesystem::temp_directory_path() / ("seaglint_three_" + std::to_string(::getpid()) + ".bin");
+  network.save(file);
+  EXPECT_EQ(Network::load(file).embed(set.maps).logits, outputs.logits);
+  EXPECT_EQ(Network::load(file).classes(), 3u);
+  const std::string bytes = read_file(file);
+  for (const char count : {'\x02', '\x04', '\x0b'}) {
+    write_file(file, bytes.substr(0, 16) + count + bytes.substr(17));
+    EXPECT_THROW(Network::load(file), InputError) << static_cast<int>(count) << " classes";
+  }
+  std::filesystem::remove(file);
+}
+
 }  // namespace
 }  // namespace seaglint

@@ -216,10 +216,10 @@ TEST(Calibration, OfASmallExampleByHand) {
   const Calibration result = calibration(predictions);
   ASSERT_EQ(result.bins.size(), 10u);
   EXPECT_EQ(result.bins[9].rows, 2u);
-  EXPECT_DOUBLE_EQ(result.bins[9].ships, 0.5);
+  EXPECT_DOUBLE_EQ(result.bins[9].fraction, 0.5);
   // (0.05 + 0.15 + |1.9 - 1|) / 4
   EXPECT_NEAR(result.expected_error, 0.275, 1e-12);
-  EXPECT_TRUE(std::isnan(result.bins[5].ships));
+  EXPECT_TRUE(std::isnan(result.bins[5].fraction));
   EXPECT_TRUE(std::isnan(calibration({}).expected_error));
 }
 

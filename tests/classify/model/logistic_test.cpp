@@ -33,7 +33,7 @@ TEST(LogisticModel, HasTheOddsOfTwoNormalClasses) {
   EXPECT_NEAR(model.weights()[0] / std::sqrt(1 + 0.49), 1.4, 0.08);
   EXPECT_NEAR(model.weights()[1], 0, 0.08);
   EXPECT_EQ(model.weights()[2], 0);
-  EXPECT_NEAR(model.offset(), 0, 0.08);
+  EXPECT_NEAR(model.offsets()[0], 0, 0.08);
 }
 
 // The gradient of the penalised likelihood: sum of (p - y) z = -w, sum of (p - y) = 0.
@@ -77,6 +77,84 @@ TEST(LogisticModel, IsInvariantUnderScalingOfAColumn) {
 TEST(LogisticModel, OfOneClassIsCertainOfIt) {
   const FeatureMatrix features{{"x"}, {1, 2, 3}};
   for (const double p : LogisticModel::train(features, std::vector<int>{1, 1, 1}).predict(features)) EXPECT_GT(p, 0.99);
+}
+
+// Three classes with x of means -m, 0 and m.
+FeatureMatrix three_classes(std::size_t rows, std::vector<int>& labels) {
+  FeatureMatrix features{{"x", "noise", "constant"}, {}};
+  for (std::size_t i = 0; i < rows; ++i) {
+    Random random({6, Stream::kTest, i});
+    labels.push_back(static_cast<int>(random.below(3)));
+    features.values.push_back(static_cast<float>(1.5 * (labels.back() - 1) + random.normal()));
+    features.values.push_back(static_cast<float>(random.normal()));
+    features.values.push_back(3);
+  }
+  return features;
+}
+
+// The odds of two of three normal classes of equal deviation are exp((m_a - m_b) x + const).
+TEST(MultinomialModel, HasTheOddsOfThreeNormalClasses) {
+  std::vector<int> labels;
+  const FeatureMatrix features = three_classes(20000, labels);
+  const LogisticModel model = LogisticModel::train(features, labels, 3);
+  const std::vector<double>& w = model.weights();
+  ASSERT_EQ(w.size(), 9u);
+  const double deviation = std::sqrt(1 + 1.5 * 1.5 * 2 / 3);  // of x
+  EXPECT_NEAR((w[3] - w[0]) / deviation, 1.5, 0.08);          // three standard errors
+  EXPECT_NEAR((w[6] - w[3]) / deviation, 1.5, 0.08);
+  EXPECT_NEAR(w[4] - w[1], 0, 0.08);
+  EXPECT_EQ(w[2], 0);
+  EXPECT_NEAR(model.offsets()[0] + model.offsets()[1] + model.offsets()[2], 0, 1e-6);
+}
+
+// Sums of (p_k - y_k) z are -w_k, those of (p_k - y_k) zero; probabilities of a row sum to one.
+TEST(MultinomialModel, IsAtTheMinimumOfItsPenalisedLikelihood) {
+  constexpr std::size_t kRows = 300;
+  std::vector<int> labels;
+  const FeatureMatrix features = three_classes(kRows, labels);
+  const LogisticModel model = LogisticModel::train(features, labels, 3);
+  const std::vector<double> p = model.predict(features);
+  double mean = 0, squares = 0;
+  for (std::size_t i = 0; i < kRows; ++i) mean += features.row(i)[0] / static_cast<double>(kRows);
+  for (std::size_t i = 0; i < kRows; ++i) squares += std::pow(features.row(i)[0] - mean, 2) / kRows;
+  for (std::size_t k = 0; k < 3; ++k) {
+    double along = 0, sum = 0;
+    for (std::size_t i = 0; i < kRows; ++i) {
+      const double rest = p[3 * i + k] - (labels[i] == static_cast<int>(k) ? 1 : 0);
+      along += rest * (features.row(i)[0] - mean) / std::sqrt(squares);
+      sum += rest;
+    }
+    EXPECT_NEAR(along, -model.weights()[3 * k], 1e-6) << k;
+    EXPECT_NEAR(sum, 0, 1e-6) << k;
+  }
+  for (std::size_t i = 0; i < kRows; ++i) EXPECT_NEAR(p[3 * i] + p[3 * i + 1] + p[3 * i + 2], 1, 1e-12);
+}
+
+// Without information the probabilities are the frequencies of the classes.
+TEST(MultinomialModel, OfAConstantColumnHasTheFrequencies) {
+  const FeatureMatrix features{{"constant"}, std::vector<float>(10, 2.0f)};
+  const std::vector<double> p =
+      LogisticModel::train(features, std::vector<int>{0, 0, 0, 0, 0, 1, 1, 1, 2, 2}, 3).predict(features);
+  EXPECT_NEAR(p[0], 0.5, 1e-8);
+  EXPECT_NEAR(p[1], 0.3, 1e-8);
+  EXPECT_NEAR(p[2], 0.2, 1e-8);
+}
+
+// With no row of a third class the weights of the other two are +-w / 2, whose penalty is half of the model's of two
+// classes: the same minimum as with every row twice.
+TEST(MultinomialModel, OfTwoClassesIsTheModelOfTwoWithHalfThePenalty) {
+  std::vector<int> labels;
+  FeatureMatrix features = normal_classes(200, 0.7, labels);
+  const std::vector<double> three = LogisticModel::train(features, labels, 3).predict(features);
+  FeatureMatrix twice = features;
+  twice.values.insert(twice.values.end(), features.values.begin(), features.values.end());
+  std::vector<int> labels_twice = labels;
+  labels_twice.insert(labels_twice.end(), labels.begin(), labels.end());
+  const std::vector<double> two = LogisticModel::train(twice, labels_twice).predict(features);
+  for (std::size_t i = 0; i < 200; ++i) {
+    EXPECT_NEAR(three[3 * i + 1], two[i], 1e-6) << i;
+    EXPECT_LT(three[3 * i + 2], 1e-6);
+  }
 }
 
 }  // namespace

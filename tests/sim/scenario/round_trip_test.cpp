@@ -66,6 +66,9 @@ class Collector : public Walker {
     values[path(key)] = fmt::format("{:a} {:a} {:a}", v[0], v[1], v[2]);
   }
   void ratio(const char* key, double& value) override { values[path(key)] = fmt::format("{:a}", value); }
+  void words(const char* key, std::vector<std::string>& names, std::size_t, std::size_t) override {
+    for (const std::string& name : names) values[path(key)] += name + ";";
+  }
   void sweep(const char* key, Sweep& sweep, const Bound&, Names words, std::size_t* word) override {
     values[path(key)] = word != nullptr && *word > 0 ? words[*word - 1] : "";
     for (const double value : sweep) values[path(key)] += fmt::format("{:a} ", value);
@@ -103,6 +106,9 @@ class Mutator : public Walker {
     for (double& value : values) value = draw(bound);
   }
   void ratio(const char*, double& fraction) override { fraction = random_.uniform(); }
+  void words(const char*, std::vector<std::string>& names, std::size_t, std::size_t) override {
+    for (std::string& name : names) name += "_1-b c";
+  }
   void sweep(const char*, Sweep& values, const Bound& bound, Names, std::size_t* word) override {
     if (word != nullptr && *word > 0) return;
     values.resize(1 + random_.below(3));
@@ -144,6 +150,7 @@ Scenario full_scenario() {
   scenario.sea.depth_m = 30;
   scenario.clutter.sea_state = 3;
   scenario.targets = {ship, array, ring, points};
+  scenario.dataset.classes = {"null", "true", "1e3", "d", "e", "f", "g", "h", "i", "k"};  // one for every label
   return scenario;
 }
 

@@ -82,6 +82,17 @@ TEST(BenchmarkFloor, LeavesOutTheFeaturesOfMotion) {
   EXPECT_FALSE(floor[1].leaks);
 }
 
+// A third is chance of three classes, where a half leaks.
+TEST(BenchmarkFloor, ComparesThreeClassesWithAThird) {
+  Study study = study_of({0.9}, {0.9}, {0.9}, {0.9}, 1.0 / 3);
+  study.classes = {"decoys", "ship", "guarded ship"};
+  const std::vector<FloorEntry> floor = floor_of(study);
+  EXPECT_FALSE(floor[0].leaks);
+  EXPECT_TRUE(floor[1].leaks);
+  EXPECT_THAT(benchmark_text(study), HasSubstr("differs from chance, 33.3 %"));
+  EXPECT_EQ(benchmark_json(study)["classes"].size(), 3u);
+}
+
 TEST(BenchmarkJson, HasBaselinesFloorAndClaims) {
   const Study study = study_of({0.8, 0.99, 0.98}, {0.7, 0.9, 0.92}, {0.82, 0.99, 0.99}, {0.7, 0.9, 0.95});
   const nlohmann::ordered_json json = benchmark_json(study);
