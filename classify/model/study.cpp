@@ -141,6 +141,34 @@ JobResult run_job(const Job& job, const LearningTable& table, const LearningSpec
   return result;
 }
 
+// Fits the network and the trees of every group to all rows that are not held out, in place of those of the first
+// split. Without the network trees have all of these rows, as the primary results do.
+void refit(Study& study, const LearningTable& table, const LearningSpec& spec, std::uint64_t seed,
+           const StopFlag* stop) {
+  const Division division = table.division();
+  const Job job{static_cast<std::uint64_t>(spec.split_repeats), Protocol::kGroup, spec.fusion};
+  JobRows rows;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const bool is_held_out = !division.held_out.empty() && division.held_out[row];
+    (is_held_out ? rows.split.test : rows.split.train).push_back(row);
+  }
+  Split fusion = split_for_fusion(division.units, rows.split, job.protocol, spec.network_fraction, seed, job.repeat);
+  rows.fit = std::move(fusion.train);
+  rows.validation = std::move(fusion.test);
+  study.network = train_network(job, rows, table, spec, seed, stop);
+
+  const FeatureMatrix embeddings = embedding_matrix(study.network->embed(table.centres));
+  const FeatureMatrix fused = join_columns(table.handmade, embeddings);
+  const FeatureMatrix* features[kGroups] = {&table.handmade, &embeddings, &fused, &table.extended};
+  for (std::size_t group = 0; group < kGroups; ++group) {
+    const bool reads_unseen = kHasNetwork[group] && spec.fusion == Fusion::kSplit;
+    const std::vector<std::size_t>& fitted = reads_unseen ? rows.validation : rows.split.train;
+    study.trees[group] = Booster::train(select_rows(*features[group], fitted), select(table.labels, fitted), spec, stop,
+                                        table.classes.size());
+  }
+  study.splits.back() = std::move(rows.split);
+}
+
 // Bootstrap keys: a block of 1000 per evaluation, in the order primary and alternative of the random, then of the group
 // protocol, of each group of features; then the probes.
 constexpr std::uint64_t kBootstrapBlock = 1000;
@@ -303,6 +331,7 @@ Study run_study(const LearningTable& table, const LearningSpec& spec, double tra
   study.splits = {random.split, group.split};
   study.embeddings = std::move(group.embeddings);
   study.division = table.division().text;
+  if (spec.refit) refit(study, table, spec, seed, stop);
   return study;
 }
 

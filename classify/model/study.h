@@ -53,10 +53,11 @@ struct Study {
   std::vector<std::string> classes = default_classes();  // names by label
   std::vector<FeatureGroupResult> groups;                // handmade, cnn, fused, extended
   std::vector<ProbeResult> probes;
+  // The saved model: of the group protocol's first repeat, with learning.refit of all rows that are not held out.
   std::optional<Network> network;  // always set in a finished study
   std::vector<Booster> trees;      // handmade, cnn, fused, extended
-  std::vector<Split> splits;       // random, then group, of the first repeat
-  FeatureMatrix embeddings;        // of all rows, of the network: embedding values, then the logit
+  std::vector<Split> splits;       // random, of the first repeat; then that of the saved model
+  FeatureMatrix embeddings;        // of all rows, by the first repeat's network: embedding values, then the logit
   std::string division;            // how the group protocol divides
 };
 

@@ -333,6 +333,7 @@ void visit(LearningSpec& spec, FieldVisitor& v) {
   v.number("subsample", spec.subsample, above_up_to(0, 1));
   v.number("colsample_bytree", spec.colsample_bytree, above_up_to(0, 1));
   v.integer("tree_seed", spec.tree_seed, within(0, std::numeric_limits<int>::max()));
+  v.flag("refit", spec.refit);
   v.integer("split_repeats", spec.split_repeats, within(1, 100));
   v.integer("bootstrap_samples", spec.bootstrap_samples, within(10, 100000));
 }

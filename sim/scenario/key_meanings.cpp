@@ -255,6 +255,9 @@ constexpr Meaning kMeanings[] = {
     {"learning.subsample", "Fraction of the rows for each tree."},
     {"learning.colsample_bytree", "Fraction of the columns for each tree."},
     {"learning.tree_seed", "Seed of XGBoost."},
+    {"learning.refit",
+     "Fit the saved model to all maps that are not held out, in place of the first split's; accuracies stay those of "
+     "the splits."},
     {"learning.split_repeats", "Independent splits whose test predictions are pooled."},
     {"learning.bootstrap_samples", "Bootstrap samples of the confidence intervals."},
 };

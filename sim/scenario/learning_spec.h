@@ -68,6 +68,7 @@ struct LearningSpec {
   double subsample = 0.8;
   double colsample_bytree = 0.8;
   int tree_seed = 42;
+  bool refit = false;            // fit the saved model to all rows that are not held out
   int split_repeats = 1;         // independent splits whose test predictions are pooled, 1 <= x <= 100
   int bootstrap_samples = 1000;  // of the grouped confidence intervals, 10 <= x <= 100000
 };

@@ -17,11 +17,6 @@
 
 namespace seaglint {
 
-std::mutex& hdf5_mutex() {
-  static std::mutex mutex;
-  return mutex;
-}
-
 namespace {
 
 // Throws WorkError with the system error in HDF5's error stack, "WHAT: No space left on device", or without one if no

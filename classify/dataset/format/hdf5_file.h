@@ -37,7 +37,10 @@ struct VirtualSource {
 };
 
 // The HDF5 library serves one thread at a time: locked where several threads may read or write.
-std::mutex& hdf5_mutex();
+inline std::mutex& hdf5_mutex() {
+  static std::mutex mutex;
+  return mutex;
+}
 
 enum class Hdf5Version { k18, k110 };  // oldest library that reads the file; virtual arrays need 1.10
 
