@@ -26,6 +26,32 @@ def test_metrics_are_those_of_the_program(data_set, tmp_path):
         assert (tmp_path / "package" / name).read_bytes() == (tmp_path / "program" / name).read_bytes(), name
 
 
+def test_a_division_by_columns_is_that_of_the_program(data_set, tmp_path):
+    options = [word for key, value in FEW.items() for word in ("--set", f"learning.{key}={value}")]
+    made = program("train", data_set, "-o", tmp_path / "program", *options, "--by", "sea", "--hold-out", "azimuth_deg=80")
+    assert made.returncode == 0, made.stderr
+    metrics = seaglint.train(data_set, tmp_path / "package", by="sea", hold_out={"azimuth_deg": 80}, **FEW)
+    assert metrics == json.loads((tmp_path / "program/metrics.json").read_text()) and "azimuth_deg=80" in metrics["division"]
+
+
+def test_evaluation_is_that_of_the_program(data_set, tmp_path):
+    model = tmp_path / "model"
+    seaglint.train(data_set, model, **FEW)
+    made = program("evaluate", model, data_set, "-o", tmp_path / "program", "--by", "energy_m2", "--trained-rows")
+    assert made.returncode == 0, made.stderr
+    evaluation = seaglint.evaluate(model, seaglint.Dataset(data_set), by=["energy_m2"], trained_rows=True, output=tmp_path / "package")
+    assert evaluation == json.loads((tmp_path / "program/evaluation.json").read_text())
+    for name in ("evaluation.json", "probabilities.csv"):
+        assert (tmp_path / "package" / name).read_bytes() == (tmp_path / "program" / name).read_bytes(), name
+    unseen = seaglint.evaluate(model, [data_set], unseen_seas=True)
+    assert unseen["maps"]["evaluated"] == 40 - unseen["maps"]["trained"] - unseen["maps"]["sea_seen"]
+    for call, message in [(lambda: seaglint.evaluate(tmp_path / "none", data_set), "none"), (lambda: seaglint.evaluate(model, []), "data: must be a data set"),
+                          (lambda: seaglint.evaluate(model, [data_set, data_set]), "the same maps as"), (lambda: seaglint.evaluate(model, data_set, by="energy"), "energy: no column of a data set")]:
+        with pytest.raises(seaglint.InputError) as error:
+            call()
+        assert message in str(error.value)
+
+
 @pytest.mark.parametrize("before, after", [("import torch", ""), ("", "import torch")])
 def test_torch_of_python_before_or_after(data_set, tmp_path, before, after):
     pytest.importorskip("torch", reason="needs the package python3-torch")

@@ -15,5 +15,6 @@ void bind_sample(pybind11::module_& module);    // Pipeline
 void bind_series(pybind11::module_& module);    // sea, motion
 void bind_compare(pybind11::module_& module);   // Exports, compare
 void bind_train(pybind11::module_& module);     // train
+void bind_evaluate(pybind11::module_& module);  // evaluate
 
 }  // namespace seaglint

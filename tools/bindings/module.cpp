@@ -22,4 +22,5 @@ PYBIND11_MODULE(_core, module) {
   seaglint::bind_series(module);
   seaglint::bind_compare(module);
   seaglint::bind_train(module);
+  seaglint::bind_evaluate(module);
 }

@@ -5,6 +5,7 @@
 #include "tools/cli/arguments.h"
 #include "tools/cli/command.h"
 #include "tools/evaluate/evaluate.h"
+#include "tools/pipeline/warnings.h"
 
 namespace seaglint {
 
@@ -49,7 +50,9 @@ void add_evaluate(CommandOptions& program, CommandContext& context) {
           find_model(arguments->model), {}, arguments->by, arguments->output, arguments->trained_rows,
           arguments->unseen_seas};
       for (const std::string& data : arguments->data) request.data_sets.push_back(find_data_set(data));
-      print_text(evaluate_model(request, &context.stop));
+      const EvaluatedModel evaluated = evaluate_model(request, &context.stop);
+      warn(evaluated.warnings);
+      print_text(evaluated.text);
     };
   });
 }

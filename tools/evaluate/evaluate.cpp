@@ -38,16 +38,18 @@ void require_output(const fs::path& directory) {
 
 }  // namespace
 
-std::string evaluate_model(const EvaluateRequest& request, const StopFlag* stop) {
+EvaluatedModel evaluate_model(const EvaluateRequest& request, const StopFlag* stop) {
   require_output(request.output);
   // Refuses an unknown column before any work; keys that are drawn are known when the rows are.
   for (const std::string& name : request.by)
     if (name.find('.') == std::string::npos) column_of({}, name);
+  EvaluatedModel result;
   std::vector<DatasetReader> readers;
   std::map<std::string, std::string> scenarios;
   for (const fs::path& data_set : request.data_sets) {
     readers.emplace_back(data_set);
-    warn(data_set_warnings(readers.back()));
+    const std::vector<std::string> warnings = data_set_warnings(readers.back());
+    result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
     const auto [first, is_new] = scenarios.try_emplace(readers.back().manifest().scenario_sha256, data_set.string());
     if (!is_new)
       throw InputError(fmt::format("{}: the same maps as {}: of one scenario", data_set.string(), first->second));
@@ -88,14 +90,15 @@ std::string evaluate_model(const EvaluateRequest& request, const StopFlag* stop)
   const ModelEvaluation evaluation = evaluate_rows(model, std::move(applied), std::move(uses), request);
   std::vector<Manifest> manifests;
   for (const DatasetReader& reader : readers) manifests.push_back(reader.manifest());
-  std::string text = evaluation_table(evaluation, model, request);
+  result.text = evaluation_table(evaluation, model, request);
+  result.json = evaluation_json(evaluation, model, request, manifests);
   if (!request.output.empty()) {
     make_directory(request.output);
     write_file(request.output / kProbabilitiesFile, probabilities_csv(evaluation, model.card.classes));
-    write_file(request.output / kEvaluationFile, evaluation_json(evaluation, model, request, manifests));
-    text += fmt::format("\n{}: {}, {}\n", request.output.string(), kEvaluationFile, kProbabilitiesFile);
+    write_file(request.output / kEvaluationFile, result.json);
+    result.text += fmt::format("\n{}: {}, {}\n", request.output.string(), kEvaluationFile, kProbabilitiesFile);
   }
-  return text;
+  return result;
 }
 
 }  // namespace seaglint

@@ -19,9 +19,9 @@ from ._rcs import compare, rcs
 from ._sample import Sample, Simulator, sample
 from ._scenario import Scenario
 from ._series import MotionSeries, SeaSeries, motion, sea
-from ._train import train
+from ._train import evaluate, train
 
-__all__ = ["Dataset", "InputError", "Mesh", "MotionSeries", "Sample", "Scenario", "SeaSeries", "SeaglintWarning", "Simulator", "WorkError", "compare", "data_folder", "motion", "rcs", "sample", "sea",
+__all__ = ["Dataset", "InputError", "Mesh", "MotionSeries", "Sample", "Scenario", "SeaSeries", "SeaglintWarning", "Simulator", "WorkError", "compare", "data_folder", "evaluate", "motion", "rcs", "sample", "sea",
            "train"]
 __version__ = _core.__version__
 InputError.__doc__ = "Wrong input: file:line:col, key, value and bound, where they exist."
