@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <initializer_list>
 #include <optional>
+#include <set>
 #include <span>
 
 #include "sim/core/process/error.h"
@@ -206,24 +207,19 @@ class Reader : public FieldVisitor {
     if (node == nullptr) return;
     if (node->kind != YamlNode::Kind::kList || node->items.size() < least || node->items.size() > most)
       fail(*node, path_of(key), fmt::format("must be a list of {} to {} names", least, most));
+    constexpr std::size_t kLongest = 40;
     values.clear();
-    std::vector<std::string> one_word;  // with '_' for a space, as in names of columns
-    for (std::size_t i = 0; i < node->items.size(); ++i) {
-      const YamlNode& item = node->items[i];
-      const std::string path = fmt::format("{}.{}", path_of(key), i);
-      constexpr std::size_t kLongest = 40;
-      const bool is_name =
-          item.kind == YamlNode::Kind::kScalar && !item.text.empty() && item.text.size() <= kLongest &&
-          item.text.front() != ' ' && item.text.back() != ' ' &&
-          std::all_of(item.text.begin(), item.text.end(), [](char c) { return c == ' ' || is_name_character(c); });
-      if (!is_name)
+    std::set<std::string> different;  // with '_' for a space, as in names of columns
+    for (const YamlNode& item : node->items) {
+      const std::string path = fmt::format("{}.{}", path_of(key), values.size()), &name = item.text;
+      const auto is_allowed = [](char c) { return c == ' ' || is_name_character(c); };
+      if (item.kind != YamlNode::Kind::kScalar || name.empty() || name.size() > kLongest || name.front() == ' ' ||
+          name.back() == ' ' || !std::all_of(name.begin(), name.end(), is_allowed))
         fail(item, path, fmt::format("must be 1 to {} letters, digits, '_', '-' or spaces within", kLongest));
-      std::string word = item.text;
+      std::string word = name;
       std::replace(word.begin(), word.end(), ' ', '_');
-      if (std::find(one_word.begin(), one_word.end(), word) != one_word.end())
-        fail(item, path, "must differ from the others, also with '_' for a space");
-      one_word.push_back(std::move(word));
-      values.push_back(item.text);
+      if (!different.insert(word).second) fail(item, path, "must differ from the others, also with '_' for a space");
+      values.push_back(name);
     }
   }
 

@@ -111,6 +111,7 @@ def test_samples_are_those_of_the_data_set(data_set):
     assert np.array_equal(sample.range_m, data.range_m) and np.array_equal(sample.velocity_mps, data.velocity_mps)
     assert sample.echo.shape[0] == len(sample.hop_code) == len(sample.carrier_hz) == 256
     assert sample.centres.shape[1] == 3 and sample.centres[0, 2] == sample.centres[:, 2].max()
+    assert data.classes == ["array", "ship"]
     ships = data.where(label=1)
     assert len(ships) == 20 and np.array_equal(data.maps(ships)[3], data[ships[3]])
 

@@ -39,6 +39,11 @@ def require_own_manifest(merged, manifest):
         sys.exit(f"{merged}: is of another manifest than {manifest}; merge again")
 
 
+def class_names(directory):
+    """The names of the classes by label."""
+    return json.loads((directory / "manifest.json").read_text()).get("classes", ["array", "ship"])
+
+
 def read_columns(files):
     """The rows of all samples: {column: values}, in the order of the files."""
     columns = {}
@@ -72,7 +77,7 @@ def split_by_group(group, fraction, seed=0):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("data", type=pathlib.Path, help="directory of the data set, or the merged file in it")
-    parser.add_argument("--label", type=int, default=1, help="1 = ship, 0 = corner-reflector array")
+    parser.add_argument("--label", type=int, default=1, help="by default 1 = ship, 0 = corner-reflector array; names in manifest.json")
     arguments = parser.parse_args()
 
     directory = arguments.data if arguments.data.is_dir() else arguments.data.parent
@@ -95,7 +100,8 @@ def main():
         velocity = data["axes/velocity_mps"][:]
     spread = np.sqrt(np.einsum("nvr,v->n", power, velocity**2))
 
-    print(f"{rows.size} of {columns['label'].size} maps have label {arguments.label}; {maps.shape[1]} velocities, "
+    name = class_names(directory)[arguments.label]
+    print(f"{rows.size} of {columns['label'].size} maps have label {arguments.label} ({name}); {maps.shape[1]} velocities, "
           f"{maps.shape[2]} ranges")
     print("part   maps  groups  peak_m (mean)  velocity spread (mean, m/s)")
     for name, part in (("train", train), ("test", ~train)):

@@ -5,14 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <vector>
 
 #include "radar/waveform/pulse_train.h"
 #include "tools/page/html.h"
 #include "tools/pipeline/metrics.h"
+#include "tools/report/class_text.h"
 #include "tools/report/probe_text.h"
 
 namespace seaglint {
@@ -82,34 +81,6 @@ std::string pooled_splits(int repeats) {
       "there "
       "may be more predictions than maps. A test sea counts once.</p>\n",
       repeats);
-}
-
-std::size_t confused(const ordered_json& scores, std::size_t classes, std::size_t truth, std::size_t decision) {
-  return std::next(scores.at("confusion").begin(), static_cast<std::ptrdiff_t>(truth * classes + decision))
-      ->get<std::size_t>();
-}
-
-// Decisions of the fused features on unseen seas by truth.
-std::string confusion_table(const ordered_json& metrics, const ClassNames& classes) {
-  Rows rows{{"truth"}};
-  for (const std::string& name : classes) rows.front().push_back("declared " + escape_html(name));
-  for (std::size_t truth = 0; truth < classes.size(); ++truth) {
-    rows.push_back({escape_html(classes[truth])});
-    for (std::size_t decision = 0; decision < classes.size(); ++decision)
-      rows.back().push_back(
-          fmt::format("{}", confused(metrics.at("fused").at("group"), classes.size(), truth, decision)));
-  }
-  return "<h3>Decisions by class, fused features, split by sea</h3>\n" + html_table(rows);
-}
-
-// "0.1 (ship) and 0.2 (array)", from the last label to the first.
-std::string by_class(const ClassNames& classes, const std::function<std::string(int label)>& value) {
-  std::string text;
-  for (int label = static_cast<int>(classes.size()) - 1; label >= 0; --label) {
-    text += text.empty() ? "" : label > 0 ? ", " : " and ";
-    text += fmt::format("{} ({})", value(label), escape_html(classes[static_cast<std::size_t>(label)]));
-  }
-  return text;
 }
 
 std::string item(const std::string& text) { return "<li>" + text + "</li>\n"; }

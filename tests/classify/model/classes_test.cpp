@@ -34,7 +34,7 @@ std::vector<Prediction> five_rows() {
           row(2, {0.1, 0.2, 0.7}, 3), row(2, {0.1, 0.5, 0.4}, 4)};
 }
 
-TEST(Scores, OfThreeClassesAreThoseOfASmallExampleByHand) {
+TEST(ScoresOfClasses, AreThoseOfASmallExampleByHand) {
   const Scores scores = score(five_rows(), 100, 1, 0);
   EXPECT_DOUBLE_EQ(scores.accuracy, 3.0 / 5);
   EXPECT_THAT(scores.confusion, ElementsAre(ElementsAre(1, 1, 0), ElementsAre(0, 1, 0), ElementsAre(0, 1, 1)));
@@ -47,7 +47,7 @@ TEST(Scores, OfThreeClassesAreThoseOfASmallExampleByHand) {
 }
 
 // Rows of two of three classes, whose third probability is 0: the same pair, area and decisions.
-TEST(Scores, OfAClassWithoutRowsAreThoseOfTheOtherTwo) {
+TEST(ScoresOfClasses, OfAClassWithoutRowsAreThoseOfTheOtherTwo) {
   std::vector<Prediction> two, three;
   for (std::int64_t i = 0; i < 200; ++i) {
     Random random({3, Stream::kTest, static_cast<std::uint64_t>(i)});
@@ -67,7 +67,7 @@ TEST(Scores, OfAClassWithoutRowsAreThoseOfTheOtherTwo) {
   EXPECT_TRUE(std::isnan(score(std::vector{row(1, {0, 1, 0})}, 10, 1, 0).auc));
 }
 
-TEST(Roc, OfThreeClassesIsOneOfEachAgainstTheRest) {
+TEST(RocOfClasses, IsOneOfEachAgainstTheRest) {
   const auto curves = roc_curves(five_rows());
   ASSERT_EQ(curves.size(), 3u);
   // P(guarded ship): 0.7 and 0.4 of its own rows above all others.
@@ -78,7 +78,7 @@ TEST(Roc, OfThreeClassesIsOneOfEachAgainstTheRest) {
 }
 
 // Largest probabilities 0.6 right; 0.7 wrong and 0.7 right; 0.5 right and 0.5 wrong.
-TEST(Calibration, OfThreeClassesIsThatOfTheLargestProbability) {
+TEST(CalibrationOfClasses, IsThatOfTheLargestProbability) {
   const Calibration result = calibration(five_rows());
   EXPECT_EQ(result.bins[5].rows, 2u);
   EXPECT_DOUBLE_EQ(result.bins[5].fraction, 0.5);
@@ -109,7 +109,7 @@ FeatureMatrix three_intervals(std::vector<int>& labels, std::uint64_t rows) {
   return features;
 }
 
-TEST(Booster, SeparatesThreeClassesAndReloads) {
+TEST(BoosterOfClasses, SeparatesThreeClassesAndReloads) {
   std::vector<int> labels;
   const FeatureMatrix features = three_intervals(labels, 300);
   const Booster booster = Booster::train(features, labels, LearningSpec{}, nullptr, 3);

@@ -142,6 +142,10 @@ TEST(Benchmark, EveryShippedOneIsAScenarioAtBothSizes) {
       const Scenario scenario = read_benchmark(name, small, {});
       EXPECT_EQ(scenario.name, name);
       EXPECT_NO_THROW(check_learnable(scenario, SamplePlan(scenario))) << name;
+      std::vector<int> labels(scenario.dataset.classes.size());
+      for (const TargetSpec& target : scenario.targets)
+        if (target.role == TargetRole::kClass) ++labels[static_cast<std::size_t>(target.label)];
+      EXPECT_EQ(labels, std::vector<int>(labels.size(), 1)) << name;
     }
   }
 }

@@ -103,6 +103,8 @@ def main():
     if not os.path.exists(os.path.join(given.data, "manifest.json")):
         generate(given.data, given.scenario, given.set)
     data = seaglint.Dataset(given.data)
+    if len(data.classes) != 2:
+        raise SystemExit(f"train_on_maps: {given.data}: {len(data.classes)} classes: this example has one output, for two")
     maps = data.torch_dataset("label", normalised)  # items: ([1, velocity, range] float32, 1 = ship or 0 = decoys)
     fold = folds_of_seas(data.columns, given.folds, given.seed)
     seas = len(np.unique(data.columns["group"]))

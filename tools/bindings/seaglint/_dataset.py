@@ -94,6 +94,11 @@ class Dataset:
         """(velocity cells, range cells)."""
         return self._shape
 
+    @property
+    def classes(self) -> list[str]:
+        """Names of the classes by label: columns["label"] counts them from 0."""
+        return list(self.manifest.get("classes", ["array", "ship"]))
+
     def _require_open(self):
         if self._closed:
             raise InputError(f"{self.folder}: the data set is closed")

@@ -228,8 +228,10 @@ TEST_F(ModelOnOtherData, OfAnotherVersionClassesOrTrainingIsRefused) {
   const Words words{"evaluate", path("changed"), path("other")};
   changed("program_version", "0.0.9");
   expect_refusal(words, "model.json: program_version 0.0.9; this program applies models of ");
-  changed("classes", {"decoy", "raft", "ship"});
-  expect_refusal(words, "model.json: classes decoy, raft, ship");
+  changed("classes", {"ship", "ship"});
+  expect_refusal(words, "model.json: classes ship, ship: must be 2 to 10 different names");
+  changed("classes", {"decoy", "raft", "ship"});  // without their quantiles
+  expect_refusal(words, "model.json: ");
   changed("format", "seaglint model 9");
   expect_refusal(words, "model.json: format");
   changed("features", 3);
