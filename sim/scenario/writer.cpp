@@ -148,17 +148,21 @@ class Writer : public ValueVisitor {
   int depth_;
 };
 
-// The values of one section by their keys.
+// The values of one section by their keys; those of a section within it as "split.by".
 class SectionValues : public ValueVisitor {
  public:
   SectionValues(const std::vector<Variation>& variations, const std::string& section)
       : ValueVisitor(variations, section), section_(section) {}
 
   void section(const char* key, const Fields& fields) override {
-    if (key != section_) return;
+    if (!inside_ && key != section_) return;
+    const bool is_outer = !inside_;
+    const std::string before = prefix_;
+    if (!is_outer) prefix_ += std::string(key) + ".";
     inside_ = true;
     fields(*this);
-    inside_ = false;
+    inside_ = !is_outer;
+    prefix_ = before;
   }
   void list(const char*, std::size_t, std::size_t, const std::function<void(std::size_t)>&,
             const std::function<void(std::size_t, FieldVisitor&)>&) override {}
@@ -170,10 +174,11 @@ class SectionValues : public ValueVisitor {
 
  private:
   void write(const char* key, const std::string& value) override {
-    if (inside_) values.emplace_back(key, value);
+    if (inside_) values.emplace_back(prefix_ + key, value);
   }
 
   std::string section_;
+  std::string prefix_;  // of the keys, within the section
   bool inside_ = false;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "classify/model/study_text.h"
@@ -41,7 +42,10 @@ DivisionOptions division_options(const Arguments& arguments) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos || equals == 0)
       throw InputError(fmt::format("--hold-out {}: must be COLUMN=VALUE or COLUMN=LOW:HIGH", text));
-    options.hold_out.push_back({text.substr(0, equals), text.substr(equals + 1)});
+    const std::string column = text.substr(0, equals);
+    auto held = std::ranges::find(options.hold_out, column, &HoldOutSpec::column);
+    if (held == options.hold_out.end()) held = options.hold_out.insert(held, {column, {}});
+    held->values.push_back(text.substr(equals + 1));
   }
   return options;
 }

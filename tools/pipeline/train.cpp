@@ -140,8 +140,9 @@ std::vector<RowGroup> common_seas(std::span<const DataRow> rows, std::span<const
   return result;
 }
 
-// Divides the rows as requested; by sea alone needs no column.
-void divide_rows(LearningData& data, const Scenario& scenario, const DivisionRequest& request) {
+// Divides the rows as the scenario states; by sea alone needs no column.
+void divide_rows(LearningData& data, const Scenario& scenario) {
+  const DivisionRequest request = division_request(scenario.learning.split);
   LearningTable& table = data.table;
   if (!request.is_default()) table.other_division = make_division(data.rows, table.groups, table.labels, request);
   if (!request.is_default() || data.manifests.size() > 1) require_classes(table.division(), table.labels, scenario);
@@ -203,7 +204,7 @@ TrainedModel train_model(const DatasetReader& data, const Scenario& scenario, co
   LearningData learning;
   read_data(learning, data, scenario, stop, use);
   require_learnable(learning.table, data.directory().string());
-  divide_rows(learning, scenario, division_request(scenario.learning.split));
+  divide_rows(learning, scenario);
   return train_on(learning, scenario, model_directory, threads, stop);
 }
 
@@ -212,7 +213,10 @@ TrainedModel train_model(const std::vector<fs::path>& data_sets, const fs::path&
                          const StopFlag* stop) {
   SEAGLINT_CHECK(!data_sets.empty(), "no data set");
   require_own_directory(model_directory);
-  const Scenario scenario = read_scenario(data_sets.front() / kScenarioFile, overrides);
+  Scenario scenario = read_scenario(data_sets.front() / kScenarioFile, overrides);
+  SplitSpec& split = scenario.learning.split;
+  if (division.by) split.by = *division.by;
+  if (!division.hold_out.empty()) split.hold_out = division.hold_out;
   LearningData learning;
   std::map<std::string, fs::path> scenarios;
   for (const fs::path& data_set : data_sets) {
@@ -238,10 +242,7 @@ TrainedModel train_model(const std::vector<fs::path>& data_sets, const fs::path&
   LearningTable& table = learning.table;
   require_learnable(table, joined(data_sets));
   if (data_sets.size() > 1) table.groups = common_seas(learning.rows, table.groups);
-  DivisionRequest request = division_request(scenario.learning.split);
-  if (division.by) request.by = *division.by;
-  if (!division.hold_out.empty()) request.hold_out = division.hold_out;
-  divide_rows(learning, scenario, request);
+  divide_rows(learning, scenario);
   return train_on(learning, scenario, model_directory, threads, stop);
 }
 

@@ -32,7 +32,7 @@ struct TrainedModel {
 // Options in place of learning.split of the scenario.
 struct DivisionOptions {
   std::optional<std::string> by;
-  std::vector<HoldOut> hold_out;  // empty: those of the scenario
+  std::vector<HoldOutSpec> hold_out;  // empty: those of the scenario
 };
 
 // Trains and evaluates with the learning section of the data set's scenario; every shard is read once and passed to

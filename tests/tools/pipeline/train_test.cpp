@@ -106,6 +106,7 @@ TEST_F(Training, RecordsItsSettings) {
                                         {"learning.fusion", "in_sample"},
                                         {"learning.map_floor_db", "-50"},
                                         {"learning.learning_rate", "0.002"},
+                                        {"learning.split.hold_out", "{azimuth_deg: 80}"},
                                         {"dataset.split", "5:3"}};
   train_model(folder_ / "data", folder_ / "other", overrides, 1);
   const nlohmann::json metrics = nlohmann::json::parse(read_file(folder_ / "other" / kMetricsFile));
@@ -114,6 +115,7 @@ TEST_F(Training, RecordsItsSettings) {
   EXPECT_EQ(learning.at("fusion"), "in_sample");
   EXPECT_EQ(learning.at("map_floor_db"), -50);
   EXPECT_EQ(learning.at("learning_rate"), 0.002);
+  EXPECT_EQ(learning.at("split.by"), "sea");
 
   // The recorded settings are sufficient to set every key again.
   std::vector<Override> again{{"dataset.split", metrics.at("dataset").at("split")}};
@@ -136,8 +138,8 @@ TEST_F(Training, DividesAsItsScenarioStatesUnlessOptionsReplaceIt) {
                                           {"learning.split.hold_out", "{azimuth_deg: 80}"}};
   const std::string stated = split(of_scenario, {});
   EXPECT_EQ(stated.substr(0, stated.find('\n')), "tested on azimuth_deg=80 only; split by interval");
-  EXPECT_EQ(stated, split({}, {"interval", {{"azimuth_deg", "80"}}}));
-  EXPECT_EQ(split(of_scenario, {"sea", {{"azimuth_deg", "30"}}}), split({}, {"sea", {{"azimuth_deg", "30"}}}));
+  EXPECT_EQ(stated, split({}, {"interval", {{"azimuth_deg", {"80"}}}}));
+  EXPECT_EQ(split(of_scenario, {"sea", {{"azimuth_deg", {"30"}}}}), split({}, {"sea", {{"azimuth_deg", {"30"}}}}));
   EXPECT_EQ(split({{"learning.split.by", "interval"}}, {"sea", {}}), split({}, {}));
 
   // A run, which has read its scenario, divides likewise.
