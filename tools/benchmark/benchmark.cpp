@@ -13,6 +13,7 @@
 #include "sim/core/text/suggestion.h"
 #include "sim/scenario/sample_plan.h"
 #include "tools/benchmark/benchmark_result.h"
+#include "tools/report/benchmark_section.h"
 
 namespace seaglint {
 

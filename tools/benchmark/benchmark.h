@@ -15,8 +15,6 @@
 
 namespace seaglint {
 
-inline constexpr const char* kBenchmarkFile = "benchmark.json";
-
 // Names of the benchmarks that come with the program.
 std::vector<std::string> benchmark_names();
 

@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
+#include <string_view>
 #include <utility>
 
 #include "sim/core/process/error.h"
@@ -18,6 +20,7 @@
 #include "tools/pipeline/scene.h"
 #include "tools/pipeline/train.h"
 #include "tools/pipeline/warnings.h"
+#include "tools/report/benchmark_section.h"
 #include "tools/report/hot_spots.h"
 #include "tools/report/probe_text.h"
 #include "tools/report/report_figures.h"
@@ -125,8 +128,32 @@ std::string explorer(const ReportData& data) {
                      explorer_json(records, data.maps, data.axes, azimuth_deg, data.shown_wave_height_m));
 }
 
+// The benchmarks in folders of the run's directory, by name.
+std::string benchmarks(const fs::path& run) {
+  std::vector<fs::path> files;
+  for (const fs::directory_entry& entry : fs::directory_iterator(run)) {
+    std::error_code error;
+    if (fs::exists(entry.path() / kBenchmarkFile, error)) files.push_back(entry.path() / kBenchmarkFile);
+  }
+  std::sort(files.begin(), files.end());
+  std::string html;
+  for (const fs::path& file : files) {
+    constexpr std::string_view kPlain =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.";  // in an address as in a name
+    const std::string folder = file.parent_path().filename();
+    const bool is_linked = folder.find_first_not_of(kPlain) == std::string::npos;
+    try {
+      html += benchmark_section(read_object(file), is_linked ? folder + "/" + kReportFile : "");
+    } catch (const nlohmann::json::exception& error) {
+      throw InputError(fmt::format("{}: {}", file.string(), json_problem(error)));
+    }
+  }
+  return html;
+}
+
 std::string page(const ordered_json& metrics, const ReportData& data, const Scenario& scenario,
-                 const std::vector<ReportFigure>& all, const HotSpots& spots, const std::string& missing) {
+                 const std::vector<ReportFigure>& all, const HotSpots& spots, const std::string& missing,
+                 const std::string& benchmarks) {
   const std::string name = escape_html(scenario.name);
   const ClassNames classes = class_names(scenario);
   const bool are_default = scenario.dataset.classes == default_classes();
@@ -138,7 +165,8 @@ std::string page(const ordered_json& metrics, const ReportData& data, const Scen
       escape_html(metrics.at("version").get<std::string>()));
   body +=
       "<nav><a href=\"#maps\">Maps</a><a href=\"#accuracy\">Accuracy</a><a href=\"#paper\">The paper’s claims</a><a "
-      "href=\"#features\">Features</a>"
+      "href=\"#features\">Features</a>" +
+      std::string(benchmarks.empty() ? "" : "<a href=\"#benchmarks\">Equal geometry</a>") +
       "<a href=\"#aspects\">Aspects</a><a href=\"#probes\">Probes</a><a href=\"#notes\">What to notice</a><a "
       "href=\"#sea\">Sea and motion</a>"
       "<a href=\"#targets\">Targets</a><a href=\"#run\">Run</a><a href=\"#scenario\">Scenario</a></nav>\n";
@@ -158,6 +186,7 @@ std::string page(const ordered_json& metrics, const ReportData& data, const Scen
                       "<p>Whatever comes out is printed; nothing was tuned towards the paper. It used CST for the "
                       "echoes and DualSPHysics for the motion, "
                       "gives neither peak period nor wave direction, and tests on random rows.</p>\n");
+  if (!benchmarks.empty()) body += section("benchmarks", "Classes with equal geometry", benchmarks);
   body += section("features", "Hand-made and learned features",
                   "<div id=\"scatter\"></div>\n" + figures(all, "scatter", true) + figures(all, "features") +
                       feature_table(metrics, classes));
@@ -175,7 +204,8 @@ std::string page(const ordered_json& metrics, const ReportData& data, const Scen
                   "<details><summary>Every key with its value</summary>\n<pre>" +
                       escape_html(effective_yaml(scenario)) + "</pre></details>\n");
   body +=
-      "<footer>Made by seaglint. Every number of this page is in metrics.json, every figure a PNG (plots also SVG) "
+      "<footer>Made by seaglint. Every number of this page is in metrics.json or a benchmark.json, every figure a PNG "
+      "(plots also SVG) "
       "beside it. Simulated data; nothing here was measured.</footer>\n";
   return html_page("seaglint: " + scenario.name, body, std::string(report_script()) + std::string(hot_spots_script()));
 }
@@ -193,9 +223,10 @@ double draw_and_write(const fs::path& directory, const Scenario& scenario, const
   const HotSpots spots = hot_spots(scenario, plan, targets, thread_count(threads), stop);
   const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   metrics["run"]["seconds"]["report"] = seconds;
+  const std::string beside = benchmarks(directory);
   std::string html;
   try {
-    html = page(metrics, results.data, scenario, all, spots, missing);
+    html = page(metrics, results.data, scenario, all, spots, missing, beside);
   } catch (const nlohmann::json::exception& error) {
     throw InputError(fmt::format("{}: {}", (directory / kMetricsFile).string(), json_problem(error)));
   }

@@ -66,6 +66,15 @@ TEST(SmallBenchmark, HasAccuraciesInTheirIntervalsThatMotionAloneExplains) {
     EXPECT_FALSE(claim.at("claim").get<std::string>().empty() || claim.at("why").get<std::string>().empty()) << claim;
   }
 
+  // A run shows the benchmarks in its folders: here, as the benchmark is a run, its own copy.
+  fs::create_directory(folder.path() / "one" / "copy");
+  fs::copy_file(folder.path() / "one" / "benchmark.json", folder.path() / "one" / "copy" / "benchmark.json");
+  const ProgramResult report = run_program({"report", folder.path() / "one"});
+  ASSERT_EQ(report.code, 0) << report.err;
+  const std::string page = read_file(folder.path() / "one" / "report.html");
+  EXPECT_THAT(page, HasSubstr("Benchmark <b>rigid_twin</b> at its small size"));
+  EXPECT_THAT(page, HasSubstr("href=\"copy/report.html\""));
+
   const ProgramResult two = run("two", "2");
   ASSERT_EQ(two.code, 0) << two.err;
   EXPECT_EQ(read_file(folder.path() / "two" / "benchmark.json"), text);
