@@ -26,17 +26,16 @@ std::string with_interval(const ordered_json& entry) {
                      100 * interval.at(1).get<double>());
 }
 
-std::string accuracies(const ordered_json& benchmark) {
-  std::vector<std::vector<std::string>> rows{{"features", "all"}};
+// A row per entry of `member`: in total and by wave height.
+std::string accuracies(const ordered_json& benchmark, const char* member, const char* title) {
+  std::vector<std::vector<std::string>> rows{{title, "all"}};
   for (const auto& [height, entry] : benchmark.at("baselines").at("handmade").at("by").items())
     rows.front().push_back("Hs " + escape_html(height) + " m");
-  const auto add = [&](const std::string& name, const ordered_json& entry) {
-    rows.push_back({escape_html(name), with_interval(entry)});
+  for (const auto& [name, entry] : benchmark.at(member).items()) {
+    const bool leaks = entry.contains("leaks") && entry.at("leaks").get<bool>();
+    rows.push_back({escape_html(name) + (leaks ? " *" : ""), with_interval(entry)});
     for (const auto& of_height : entry.at("by")) rows.back().push_back(percent(of_height.at("accuracy")));
-  };
-  for (const auto& [name, entry] : benchmark.at("baselines").items()) add(name, entry);
-  for (const auto& [name, entry] : benchmark.at("floor").items())
-    add(name + " alone" + (entry.at("leaks").get<bool>() ? " *" : ""), entry);
+  }
   return html_table(rows);
 }
 
@@ -58,14 +57,16 @@ std::string claims(const ordered_json& benchmark) {
 std::string benchmark_section(const ordered_json& benchmark, const std::string& report) {
   const std::string name = escape_html(benchmark.at("benchmark").get<std::string>());
   std::string html = fmt::format(
-      "<p>Benchmark <b>{}</b>{}: {} maps in {} seas; {}. Accuracy in %, in brackets the 95 % interval; of the "
-      "quantities without motion, which stand alone, an interval for all of them at once, and * where one differs from "
-      "chance.{}</p>\n",
+      "<p>Benchmark <b>{}</b>{}: {} maps in {} seas; {}. Accuracy in %, in brackets the 95 % interval. Each "
+      "quantity without motion is classified by itself; their intervals are for all of them at once, * marks those "
+      "that "
+      "differ from chance.{}</p>\n",
       name, benchmark.at("small").get<bool>() ? " at its small size, whose figures say little" : "",
       benchmark.at("maps").get<std::uint64_t>(), benchmark.at("seas").get<std::uint64_t>(),
       escape_html(benchmark.at("division").get<std::string>()),
       report.empty() ? "" : fmt::format(" <a href=\"{}\">Its own report</a>.", escape_html(report)));
-  return html + accuracies(benchmark) + claims(benchmark);
+  return html + accuracies(benchmark, "baselines", "features") + accuracies(benchmark, "floor", "without motion") +
+         claims(benchmark);
 }
 
 }  // namespace seaglint
