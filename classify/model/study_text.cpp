@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "sim/core/process/error.h"
 #include "sim/core/text/json_number.h"
 
 namespace seaglint {
@@ -68,6 +69,8 @@ ordered_json to_object(const Scores& scores, const std::vector<std::string>& cla
   json["accuracy_95"] = {number_or_null(scores.accuracy_95.low), number_or_null(scores.accuracy_95.high)};
   json["auc"] = number_or_null(scores.auc);
   json["log_loss"] = number_or_null(scores.log_loss);
+  SEAGLINT_CHECK(scores.confusion.size() == classes.size(),
+                 fmt::format("scores of {} classes, {} names", scores.confusion.size(), classes.size()));
   for (std::size_t truth = 0; truth < classes.size(); ++truth) {
     for (std::size_t decision = 0; decision < classes.size(); ++decision) {
       const std::string name = fmt::format("{}_as_{}", one_word(classes[truth]), one_word(classes[decision]));

@@ -228,7 +228,7 @@ bool DatasetWriter::complete(std::size_t shard) {
     const SampleRecord planned = planned_record(scenario_, plan_, range.first + i);
     if (!record_mismatches(content.samples[i].record, planned).empty()) return false;
   }
-  if (axes_ && *axes_ != content.axes) return false;
+  if (content.classes != scenario_.dataset.classes || (axes_ && *axes_ != content.axes)) return false;
   const bool is_recorded = shard < earlier_.shards.size();
   if (is_recorded ? earlier_.shards[shard].sha256 != loaded.sha256
                   : !is_as_written(loaded, content, scenario_.features.max_centres))

@@ -103,6 +103,13 @@ TEST_F(ThreeClasses, AreScoredAndReported) {
   EXPECT_EQ(run_program({"report", path("run")}).code, 0);
 }
 
+TEST_F(ThreeClasses, HaveOneModelForAnyNumberOfThreads) {
+  ASSERT_EQ(run_.code, 0) << run_.err;
+  ASSERT_EQ(run_program({"train", path("run/data"), "-o", path("again"), "--threads", "1"}).code, 0);
+  for (const char* file : {"network.bin", "fused.json", "metrics.json", "model.json", "embeddings.csv"})
+    EXPECT_EQ(read_file(path("again") + "/" + file), read_file(path("run/model/") + file)) << file;
+}
+
 TEST_F(ThreeClasses, AreEvaluatedAndClassifiedWithAProbabilityEach) {
   ASSERT_EQ(run_.code, 0) << run_.err;
   const ProgramResult evaluated =
