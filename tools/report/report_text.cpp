@@ -11,7 +11,7 @@
 #include "radar/waveform/pulse_train.h"
 #include "tools/page/html.h"
 #include "tools/pipeline/metrics.h"
-#include "tools/report/class_text.h"
+#include "tools/report/class_names.h"
 #include "tools/report/probe_text.h"
 
 namespace seaglint {

@@ -25,7 +25,7 @@ void move_layout(TargetSpec& target, const Vec2& by);
 
 // Rest positions on the water of the bodies, in T, m; without a layout one body at the origin.
 //   line    equally spaced along x about the centre
-//   ring    an ellipse with the area's axes, the first body ahead, equal steps of its eccentric anomaly
+//   ring    an ellipse with the area's axes, the first body ahead, at equal distances along it
 //   grid    rows along x, filled one after the other, of round(sqrt(count length / width)) bodies each, from border to
 //           border; the last row, with the rest, is centred
 //   random  uniform over the area, one after the other, again where a body comes nearer than min_distance_m to another

@@ -49,13 +49,21 @@ TEST(AreaLayout, LineIsThatOfEqualSpacings) {
   EXPECT_EQ(layout_positions(target_of({LayoutShape::kLine, 1, 120, 40, 0, 3, -2})), std::vector<Vec2>{Vec2(3, -2)});
 }
 
-// x^2 / (L/2)^2 + y^2 / (W/2)^2 = 1; a ring of a circle has equal distances 2 r sin(pi / n).
-TEST(AreaLayout, RingIsAnEllipse) {
+// x^2 / (L/2)^2 + y^2 / (W/2)^2 = 1, to the sagitta of the polygon; a circle has equal chords 2 r sin(pi / n), and the
+// quarters of an ellipse equal arcs.
+TEST(AreaLayout, RingIsAnEllipseWithEqualArcs) {
   for (const Vec2& place : layout_positions(target_of({LayoutShape::kRing, 7, 120, 40})))
-    EXPECT_NEAR(std::hypot(place.x() / 60, place.y() / 20), 1, 1e-12);
+    EXPECT_NEAR(std::hypot(place.x() / 60, place.y() / 20), 1, 1e-7);
   const std::vector<Vec2> circle = layout_positions(target_of({LayoutShape::kRing, 5, 30, 30}));
   for (std::size_t i = 0; i < 5; ++i)
-    EXPECT_NEAR((circle[i] - circle[(i + 1) % 5]).norm(), 30 * std::sin(kPi / 5), 1e-12);
+    EXPECT_NEAR((circle[i] - circle[(i + 1) % 5]).norm(), 30 * std::sin(kPi / 5), 1e-5);
+  const std::vector<Vec2> four = layout_positions(target_of({LayoutShape::kRing, 4, 120, 40}));
+  EXPECT_LT((four[0] - Vec2(60, 0)).norm() + (four[1] - Vec2(0, 20)).norm(), 1e-9);
+  EXPECT_LT((four[2] - Vec2(-60, 0)).norm() + (four[3] - Vec2(0, -20)).norm(), 1e-9);
+  // A narrow ring is a line there and back: steps of 2 L / n.
+  const std::vector<Vec2> narrow = layout_positions(target_of({LayoutShape::kRing, 12, 120, 1e-9}));
+  EXPECT_NEAR((narrow[1] - narrow[0]).norm(), 20, 1e-5);
+  EXPECT_NEAR((narrow[2] - narrow[1]).norm(), 20, 1e-5);
 }
 
 TEST(AreaLayout, GridReachesTheBordersAndIsCentred) {
