@@ -18,11 +18,13 @@ constexpr std::uint64_t kIndependentSeas = std::uint64_t{1} << 48;
 }  // namespace
 
 Vec3 raft_origin(const TargetSpec& target) {
-  const Vec2 centre = layout_centre(target);
+  const Vec2 centre = layout_centre(target.layout);
   return {centre.x(), centre.y(), 0};
 }
 
-bool is_moving_raft(const TargetSpec& target) { return is_raft(target) && target.motion.model != MotionModel::kFixed; }
+bool is_moving_raft(const TargetSpec& target) {
+  return is_raft(target.layout) && target.motion.model != MotionModel::kFixed;
+}
 
 double rest_height_m(const TargetSpec& target) {
   return is_moving_raft(target) ? target.motion.origin_above_waterline_m : rest_position(target.motion, 0, 0).z();
@@ -30,8 +32,8 @@ double rest_height_m(const TargetSpec& target) {
 
 std::vector<Vec3> rest_positions(const TargetSpec& target) {
   std::vector<Vec3> positions;
-  const std::vector<double> heights_m = body_heights_m(target);
-  for (const Vec2& place : layout_positions(target))
+  const std::vector<double> heights_m = body_heights_m(target.layout);
+  for (const Vec2& place : layout_positions(target.layout))
     positions.emplace_back(place.x(), place.y(), rest_height_m(target) + heights_m[positions.size()]);
   return positions;
 }
@@ -51,9 +53,9 @@ std::vector<Trajectory> simulate_target(const TargetSpec& target, const Body& bo
     return simulate_motion(body, rest, realise_sea(state, seed, kIndependentSeas + index), duration_s, seed, index);
   };
   const std::vector<Vec3> rests = rest_positions(target);
-  const std::vector<double> heights_m = body_heights_m(target), headings = body_headings_rad(target);
+  const std::vector<double> heights_m = body_heights_m(target.layout), headings = body_headings_rad(target.layout);
   std::vector<Trajectory> trajectories(rests.size());
-  if (is_raft(target)) {
+  if (is_raft(target.layout)) {
     const Vec3 origin = raft_origin(target);
     const Trajectory raft = moved(origin, first_body);
     for (std::size_t i = 0; i < rests.size(); ++i)

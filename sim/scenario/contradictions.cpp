@@ -256,7 +256,7 @@ void check_layout(const TargetSpec& target, const ScenarioDocument& document) {
   ordered(target.layout->heights_m, ".heights.lowest_m");
   ordered(target.layout->headings_deg, ".headings.lowest_deg");
   try {
-    layout_positions(target);
+    layout_positions(target.layout);
   } catch (const InputError& error) {
     document.fail_at(path + ".area", error.what());
   }

@@ -4,32 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <string_view>
 
 #include "sim/core/process/error.h"
-#include "sim/scenario/layout/layout_fields.h"
 
 namespace seaglint {
-
-bool Bound::holds(double value) const {
-  if (or_zero && value == 0) return true;
-  const bool low = without_lowest ? value > lowest : value >= lowest;
-  const bool high = without_highest ? value < highest : value <= highest;
-  return low && high;
-}
-
-std::string Bound::text() const {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  if (!without_lowest && !without_highest && lowest > -kInfinity && highest < kInfinity) {
-    return fmt::format("within {} and {}", lowest, highest);
-  }
-  std::string low;
-  std::string high;
-  if (lowest > -kInfinity) low = fmt::format("{} {}", without_lowest ? "greater than" : "at least", lowest);
-  if (highest < kInfinity) high = fmt::format("{} {}", without_highest ? "less than" : "at most", highest);
-  return low + (low.empty() || high.empty() ? "" : " and ") + high;
-}
 
 namespace {
 
@@ -154,6 +133,50 @@ void visit(SeaReflectionSpec& spec, FieldVisitor& v) {
   visit_choice(v, "paths", spec.paths, {"all", "direct_only", "multipath_only"});
 }
 
+void visit(LineLayout& layout, FieldVisitor& v) {
+  v.integer("count", layout.count, within(1, kMostBodies));
+  v.number("spacing_m", layout.spacing_m, above_up_to(0, 10000));
+  v.number("centre_x_m", layout.centre_x_m, within(-1e5, 1e5));
+  v.number("centre_y_m", layout.centre_y_m, within(-1e5, 1e5));
+}
+
+void visit(AreaLayout& layout, FieldVisitor& v) {
+  visit_choice(v, "shape", layout.shape, kLayoutShapeNames);
+  v.integer("count", layout.count, within(1, kMostBodies));
+  v.number("length_m", layout.length_m, within(0, 10000));
+  v.number("width_m", layout.width_m, within(0, 10000));
+  v.number("min_distance_m", layout.min_distance_m, within(0, 10000));
+  v.number("centre_x_m", layout.centre_x_m, within(-1e5, 1e5));
+  v.number("centre_y_m", layout.centre_y_m, within(-1e5, 1e5));
+}
+
+void visit_range(FieldVisitor& v, const char* key, std::optional<BodyRange>& range, const char* lowest,
+                 const char* highest, const Bound& bound) {
+  if (!v.optional(key, range.has_value())) return;
+  if (!range) range.emplace();
+  v.section(key, [&](FieldVisitor& ends) {
+    ends.number(lowest, range->lowest, bound);
+    ends.number(highest, range->highest, bound);
+  });
+}
+
+void visit(LayoutSpec& spec, FieldVisitor& v) {
+  const bool has_area = v.optional("area", spec.area.has_value());
+  if (!has_area) v.require("line");
+  if (v.optional("line", spec.line.has_value())) {
+    if (!spec.line) spec.line.emplace();
+    v.section("line", [&](FieldVisitor& line) { visit(*spec.line, line); });
+  }
+  if (has_area) {
+    if (!spec.area) spec.area.emplace();
+    v.section("area", [&](FieldVisitor& area) { visit(*spec.area, area); });
+  }
+  visit_choice(v, "bodies", spec.bodies, {"independent", "rigid"});
+  visit_range(v, "heights", spec.heights_m, "lowest_m", "highest_m", within(-10, 100));
+  visit_range(v, "headings", spec.headings_deg, "lowest_deg", "highest_deg", within(-360, 360));
+  if (v.optional("seed", spec.seed != 0)) v.natural("seed", spec.seed);
+}
+
 void visit(MotionSpec& spec, FieldVisitor& v) {
   visit_choice(v, "model", spec.model, {"fixed", "ship", "float", "series", "rao"});
   v.flag("translations", spec.translations);
@@ -248,7 +271,7 @@ void visit(TargetSpec& spec, FieldVisitor& v) {
     v.number("sheet_thickness_mm", spec.sheet_thickness_mm, within(0, 1000));
   if (v.optional("layout", spec.layout.has_value())) {
     if (!spec.layout) spec.layout.emplace();
-    v.section("layout", [&](FieldVisitor& layout) { visit_layout(*spec.layout, layout); });
+    v.section("layout", [&](FieldVisitor& layout) { visit(*spec.layout, layout); });
   }
   if (v.optional("motion", is_mesh)) v.section("motion", [&](FieldVisitor& motion) { visit(spec.motion, motion); });
   if (v.optional("solver", is_mesh)) v.section("solver", [&](FieldVisitor& solver) { visit(spec.solver, solver); });

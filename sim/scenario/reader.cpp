@@ -14,7 +14,7 @@
 #include "sim/core/text/shown.h"
 #include "sim/core/text/suggestion.h"
 #include "sim/scenario/fields.h"
-#include "sim/scenario/files/key_collector.h"
+#include "sim/scenario/files/node_values.h"
 #include "sim/scenario/renamed_keys.h"
 
 namespace seaglint {
@@ -23,23 +23,39 @@ namespace {
 
 constexpr std::size_t kMaxSweepValues = 10000;
 
-// A value as shown in error messages.
-std::string value_text(const YamlNode& node) {
-  switch (node.kind) {
-    case YamlNode::Kind::kNull: return "no value";
-    case YamlNode::Kind::kList: return "a list";
-    case YamlNode::Kind::kMap: return "a map";
-    case YamlNode::Kind::kScalar: break;
-  }
-  std::string text = node.text;
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
-  return "value " + in_quotes(text);
-}
+// The keys a map may have.
+class KeyCollector : public FieldVisitor {
+ public:
+  std::vector<std::string> keys;
 
-bool is_name_character(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
-}
+  void number(const char* key, double&, const Bound&) override { keys.emplace_back(key); }
+  void number_or_auto(const char* key, std::optional<double>&, const Bound&) override { keys.emplace_back(key); }
+  void integer(const char* key, int&, const Bound&) override { keys.emplace_back(key); }
+  void natural(const char* key, std::uint64_t&) override { keys.emplace_back(key); }
+  void flag(const char* key, bool&) override { keys.emplace_back(key); }
+  void text(const char* key, std::string&) override { keys.emplace_back(key); }
+  void choice(const char* key, std::size_t&, Names) override { keys.emplace_back(key); }
+  void triple(const char* key, std::array<double, 3>&, const Bound&) override { keys.emplace_back(key); }
+  void ratio(const char* key, double&) override { keys.emplace_back(key); }
+  void sweep(const char* key, Sweep&, const Bound&, Names, std::size_t*) override { keys.emplace_back(key); }
+  void hold_outs(const char* key, std::vector<HoldOutSpec>&) override { keys.emplace_back(key); }
+  void section(const char* key, const Fields&) override { keys.emplace_back(key); }
+  void list(const char* key, std::size_t, std::size_t, const std::function<void(std::size_t)>&,
+            const std::function<void(std::size_t, FieldVisitor&)>&) override {
+    keys.emplace_back(key);
+  }
+  void words(const char* key, std::vector<std::string>&, std::size_t, std::size_t) override { keys.emplace_back(key); }
+  void dictionary(const char* key, const std::vector<std::string>&, std::size_t,
+                  const std::function<void(const std::vector<std::string>&)>&,
+                  const std::function<void(std::size_t, FieldVisitor&)>&) override {
+    keys.emplace_back(key);
+  }
+  void require(const char*) override {}
+  bool optional(const char* key, bool) override {
+    keys.emplace_back(key);
+    return false;
+  }
+};
 
 // Reads the fields of one map. Fields without a key in the map keep their defaults.
 class Reader : public FieldVisitor {
@@ -267,8 +283,6 @@ class Reader : public FieldVisitor {
     if (const auto now = renamed_value(path, node.text)) fail(node, path, fmt::format("renamed to '{}'", *now));
   }
 
-  static bool is_plain(const YamlNode& node) { return node.kind == YamlNode::Kind::kScalar && !node.quoted; }
-
   void expect_map(const YamlNode& node, const std::string& path) const {
     if (node.kind != YamlNode::Kind::kMap) fail(node, path, "must be a map of key: value");
   }
@@ -324,10 +338,6 @@ class Reader : public FieldVisitor {
     if (!value || !bound.holds(*value))
       fail(node, path, fmt::format("must be {}{} {}", bound.or_zero ? "0 or " : "", what, bound.text()));
     return *value;
-  }
-
-  static std::optional<std::int64_t> integer_of(const YamlNode& node) {
-    return is_plain(node) ? parse_integer(node.text) : std::nullopt;
   }
 
   Sweep list_sweep(const YamlNode& list, const std::string& path, const Bound& bound) const {

@@ -92,8 +92,8 @@ void visit_ends(const ScenarioDocument& document, const Scenario& scenario,
       try {
         visit(read_values(with_values(document, scenario.variations, values), &scenario));
       } catch (const InputError& error) {
-        throw InputError(fmt::format("{}; where {}, drawn by {}, is {}", error.what(), variation.key_path,
-                                     variation.text(), end));
+        throw InputError(
+            fmt::format("{}; where {}, drawn by {}, is {}", error.what(), variation.key_path, variation.text(), end));
       }
     }
   }

@@ -120,8 +120,9 @@ void add_features(CommandOptions& program, CommandContext& context) {
   command.add_flag("--resume", arguments->resume, "Keep the sound shards that are there; also starts a new directory");
   add_threads_option(command, context);
   command.footer(
-      "Example:\n  seaglint generate scenarios/points.yaml --set dataset.echoes=true -o build/points\n"
-      "  seaglint features build/points --set clutter.scr_db=10 --set features.max_centres=32 -o build/points_10");
+      "Example:\n  seaglint features build/points --set clutter.scr_db=10 --set features.max_centres=32 -o "
+      "build/points_10\n"
+      "of a data set that was made with --set dataset.echoes=true");
   command.callback(
       [arguments, &context] { context.work = [arguments, &context] { make_features(*arguments, context); }; });
 }

@@ -50,7 +50,7 @@ struct ModelEvaluation {
   std::vector<TrainingUse> uses;                  // [row]
   std::vector<std::vector<std::string>> outside;  // [row]: names of features and conditions outside the training range
   std::vector<std::size_t> evaluated;             // rows, ascending
-  std::array<Scores, kModels> scores;                   // of the evaluated rows, as are the following
+  std::array<Scores, kModels> scores;             // of the evaluated rows, as are the following
   std::array<std::vector<std::vector<RocPoint>>, kModels> roc;  // roc_curves(); empty curves when a class is missing
   std::array<Calibration, kModels> calibrations;
   std::vector<ColumnScores> by;

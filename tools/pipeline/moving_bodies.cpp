@@ -55,7 +55,7 @@ MovingBodies simulate_bodies(const Scenario& scenario, const SeaChoice& choice, 
     const std::vector<Trajectory> all = simulate_target(target, body, scene.sea.state, scene.sea.field, duration_s,
                                                         scenario.seed, key, first_body, threads);
     first_body += all.size();
-    if (is_raft(target)) {
+    if (is_raft(target.layout)) {
       scene.bodies.push_back({target.name, all.front(), mesh, mean_speed(body)});
       continue;
     }

@@ -47,11 +47,11 @@ double reach_m(const Target& target, double interval_s) {
     reach = std::max({reach, position.norm(), (position + velocity * interval_s).norm()});
   }
   const double radius = radius_m(target.mesh);
-  const std::vector<double> heights_m = body_heights_m(target.spec);
+  const std::vector<double> heights_m = body_heights_m(target.spec.layout);
   for (std::size_t i = 0; i < target.rest_positions.size(); ++i) {
     const Vec3& rest = target.rest_positions[i];
     // A reflector of a raft turns about the raft's origin with an arm, any other body about its place on the water.
-    const Vec3 pivot = is_raft(target.spec) ? raft_origin(target.spec) : Vec3(rest - Vec3(0, 0, heights_m[i]));
+    const Vec3 pivot = is_raft(target.spec.layout) ? raft_origin(target.spec) : Vec3(rest - Vec3(0, 0, heights_m[i]));
     const double arm = (rest - pivot).norm() + radius;
     reach = std::max({reach, pivot.norm() + arm, (pivot + target.relative_velocity_mps * interval_s).norm() + arm});
   }
@@ -81,7 +81,9 @@ TargetSource source_of(const Scenario& scenario, const TargetSpec& spec) {
 }
 
 // Lowest rest height of a body's mesh origin above the water, m.
-double lowest_height_m(const TargetSpec& spec) { return rest_height_m(spec) + std::ranges::min(body_heights_m(spec)); }
+double lowest_height_m(const TargetSpec& spec) {
+  return rest_height_m(spec) + std::ranges::min(body_heights_m(spec.layout));
+}
 
 ScattererSettings scatterer_settings(const Scenario& scenario, const TargetSpec& spec) {
   ScattererSettings settings{
@@ -149,7 +151,8 @@ void check_above_water(const Scenario& scenario, const TargetSpec& spec, const T
 
 Body load_body(const Scenario& scenario, const TargetSpec& spec, const TriangleMesh& mesh) {
   try {
-    return make_body(spec.motion, is_raft(spec) ? BodyShape{.box = {}, .hull = {}, .is_raft = true} : shape_of(mesh),
+    return make_body(spec.motion,
+                     is_raft(spec.layout) ? BodyShape{.box = {}, .hull = {}, .is_raft = true} : shape_of(mesh),
                      scenario.folder);
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", place_of(scenario, "targets." + spec.name), error.what()));
@@ -192,7 +195,7 @@ Target moved(const Target& original, const TargetSpec& host, const CompanionSpec
     point.position_m[1] += companion.y_m;
     point.velocity_mps[0] += target.relative_velocity_mps.x();
   }
-  move_layout(target.spec, {companion.x_m, companion.y_m});
+  move_layout(target.spec.layout, {companion.x_m, companion.y_m});
   return target;
 }
 

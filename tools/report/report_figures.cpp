@@ -318,7 +318,7 @@ void add_sea(FigureList& list, const Scenario& scenario, const SamplePlan& plan,
            "Elevation of the sea against time");
   for (std::size_t t = 0; t < targets.size(); ++t) {
     if (scene.bodies[t].empty()) continue;
-    const bool is_one_of_many = scene.bodies[t].size() > 1 && !is_raft(targets[t].spec);
+    const bool is_one_of_many = scene.bodies[t].size() > 1 && !is_raft(targets[t].spec.layout);
     const std::string who = targets[t].spec.name + (is_one_of_many ? ", first body" : "");
     list.add("sea", fmt::format("motion_{}", file_word(targets[t].spec.name)),
              angle_plot(fmt::format("Motion of {}", who), scene.bodies[t].front(), times), {640, 330},
@@ -342,7 +342,7 @@ void add_targets(FigureList& list, const std::vector<Target>& targets) {
         fmt::format("<b>{}</b> ({}): {:.1f} × {:.1f} × {:.1f} m, {} triangles{}.", escape_html(spec.name),
                     spec.role == TargetRole::kPart ? "part of others" : fmt::format("label {}", spec.label), size.x(),
                     size.y(), size.z(), target.mesh.triangles.size(),
-                    body_count(spec) > 1 ? "; one of the bodies" + layout_text(spec) : std::string()),
+                    body_count(spec.layout) > 1 ? "; one of the bodies" + layout_text(spec.layout) : std::string()),
         fmt::format("Picture of {}", target.spec.name));
   }
 }

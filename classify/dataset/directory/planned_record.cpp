@@ -44,7 +44,7 @@ SampleRecord planned_record(const Scenario& scenario, const SamplePlan& plan, st
   for (const int t : plan.classes()) {
     if (t == at.target) break;
     const TargetSpec& before = drawn.targets[static_cast<std::size_t>(t)];
-    if (before.points.empty()) first_body += body_count(before);
+    if (before.points.empty()) first_body += body_count(before.layout);
   }
 
   SampleRecord record;
@@ -52,8 +52,8 @@ SampleRecord planned_record(const Scenario& scenario, const SamplePlan& plan, st
   record.label = target.label;
   record.target = at.target;
   record.target_name = target.name;
-  record.layout = layout_name(target);
-  record.bodies = static_cast<std::int64_t>(body_count(target));
+  record.layout = layout_name(target.layout);
+  record.bodies = static_cast<std::int64_t>(body_count(target.layout));
   record.group = plan.group(at);
   record.sea_state = at.sea_state;
   record.significant_wave_height_m = state.significant_wave_height_m;

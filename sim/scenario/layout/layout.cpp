@@ -110,81 +110,81 @@ void require_distances(const std::vector<Vec2>& places, double min_distance_m) {
   }
 }
 
-std::vector<double> drawn_between(const TargetSpec& target, const std::optional<BodyRange> LayoutSpec::*range,
+std::vector<double> drawn_between(const OptionalLayout& layout, const std::optional<BodyRange> LayoutSpec::*range,
                                   Drawn what) {
-  std::vector<double> values(body_count(target), 0.0);
-  if (!target.layout || !((*target.layout).*range)) return values;
-  const BodyRange ends = *((*target.layout).*range);
-  Random random = random_of(*target.layout, what);
+  std::vector<double> values(body_count(layout), 0.0);
+  if (!layout || !((*layout).*range)) return values;
+  const BodyRange ends = *((*layout).*range);
+  Random random = random_of(*layout, what);
   for (double& value : values) value = ends.lowest + (ends.highest - ends.lowest) * random.uniform();
   return values;
 }
 
 }  // namespace
 
-std::size_t body_count(const TargetSpec& target) {
-  if (!target.layout) return 1;
-  return static_cast<std::size_t>(target.layout->area ? target.layout->area->count : target.layout->line->count);
+std::size_t body_count(const OptionalLayout& layout) {
+  if (!layout) return 1;
+  return static_cast<std::size_t>(layout->area ? layout->area->count : layout->line->count);
 }
 
-bool is_raft(const TargetSpec& target) { return target.layout && target.layout->bodies == LayoutBodies::kRigid; }
+bool is_raft(const OptionalLayout& layout) { return layout && layout->bodies == LayoutBodies::kRigid; }
 
-Vec2 layout_centre(const TargetSpec& target) {
-  if (!target.layout) return Vec2::Zero();
-  if (target.layout->area) return {target.layout->area->centre_x_m, target.layout->area->centre_y_m};
-  return {target.layout->line->centre_x_m, target.layout->line->centre_y_m};
+Vec2 layout_centre(const OptionalLayout& layout) {
+  if (!layout) return Vec2::Zero();
+  if (layout->area) return {layout->area->centre_x_m, layout->area->centre_y_m};
+  return {layout->line->centre_x_m, layout->line->centre_y_m};
 }
 
-void move_layout(TargetSpec& target, const Vec2& by) {
-  if (!target.layout) target.layout = LayoutSpec{.line = LineLayout{}};
-  const auto move = [&](auto& layout) {
-    layout.centre_x_m += by.x();
-    layout.centre_y_m += by.y();
+void move_layout(OptionalLayout& layout, const Vec2& by) {
+  if (!layout) layout = LayoutSpec{.line = LineLayout{}};
+  const auto move = [&](auto& places) {
+    places.centre_x_m += by.x();
+    places.centre_y_m += by.y();
   };
-  target.layout->area ? move(*target.layout->area) : move(*target.layout->line);
+  layout->area ? move(*layout->area) : move(*layout->line);
 }
 
-std::vector<Vec2> layout_positions(const TargetSpec& target) {
-  if (!target.layout) return {Vec2::Zero()};
-  const Vec2 centre = layout_centre(target);
+std::vector<Vec2> layout_positions(const OptionalLayout& layout) {
+  if (!layout) return {Vec2::Zero()};
+  const Vec2 centre = layout_centre(layout);
   std::vector<Vec2> places;
-  if (target.layout->area) {
-    places = places_in(*target.layout);
-    require_distances(places, target.layout->area->min_distance_m);
+  if (layout->area) {
+    places = places_in(*layout);
+    require_distances(places, layout->area->min_distance_m);
     for (Vec2& place : places) place += centre;
     return places;
   }
-  const LineLayout& line = *target.layout->line;
+  const LineLayout& line = *layout->line;
   for (int i = 0; i < line.count; ++i)
     places.emplace_back(line.centre_x_m + (i - 0.5 * (line.count - 1)) * line.spacing_m, line.centre_y_m);
   return places;
 }
 
-std::vector<double> body_heights_m(const TargetSpec& target) {
-  return drawn_between(target, &LayoutSpec::heights_m, kHeights);
+std::vector<double> body_heights_m(const OptionalLayout& layout) {
+  return drawn_between(layout, &LayoutSpec::heights_m, kHeights);
 }
 
-std::vector<double> body_headings_rad(const TargetSpec& target) {
-  std::vector<double> headings = drawn_between(target, &LayoutSpec::headings_deg, kHeadings);
+std::vector<double> body_headings_rad(const OptionalLayout& layout) {
+  std::vector<double> headings = drawn_between(layout, &LayoutSpec::headings_deg, kHeadings);
   for (double& heading : headings) heading = radians(heading);
   return headings;
 }
 
-std::string layout_name(const TargetSpec& target) {
-  if (!target.layout) return "single";
-  return target.layout->area ? kLayoutShapeNames[static_cast<std::size_t>(target.layout->area->shape)] : "line";
+std::string layout_name(const OptionalLayout& layout) {
+  if (!layout) return "single";
+  return layout->area ? kLayoutShapeNames[static_cast<std::size_t>(layout->area->shape)] : "line";
 }
 
-std::string layout_text(const TargetSpec& target) {
-  if (!target.layout) return "";
-  const std::string raft = is_raft(target) ? ", on one rigid raft" : "";
-  if (target.layout->line) {
-    const LineLayout& line = *target.layout->line;
+std::string layout_text(const OptionalLayout& layout) {
+  if (!layout) return "";
+  const std::string raft = is_raft(layout) ? ", on one rigid raft" : "";
+  if (layout->line) {
+    const LineLayout& line = *layout->line;
     return fmt::format(", {} in line, {:g} m apart{}", line.count, line.spacing_m, raft);
   }
-  const AreaLayout& area = *target.layout->area;
+  const AreaLayout& area = *layout->area;
   return fmt::format(", {} in {} of {:g} by {:g} m{}", area.count,
-                     area.shape == LayoutShape::kRandom ? "random places" : "a " + layout_name(target), area.length_m,
+                     area.shape == LayoutShape::kRandom ? "random places" : "a " + layout_name(layout), area.length_m,
                      area.width_m, raft);
 }
 

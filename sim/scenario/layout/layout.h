@@ -1,27 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Places, heights and headings of the bodies of a target's layout.
+// Places, heights and headings of the bodies of a target's layout. A target without one is one body at the origin.
 
 #include <string>
 #include <vector>
 
 #include "sim/core/numbers/linear.h"
-#include "sim/scenario/target_spec.h"
+#include "sim/scenario/layout/layout_spec.h"
 
 namespace seaglint {
 
+using OptionalLayout = std::optional<LayoutSpec>;
+
 // Number of bodies: 1 without a layout.
-std::size_t body_count(const TargetSpec& target);
+std::size_t body_count(const OptionalLayout& layout);
 
 // Bodies that move as one rigid raft.
-bool is_raft(const TargetSpec& target);
+bool is_raft(const OptionalLayout& layout);
 
 // Centre of the layout on the water, in T.
-Vec2 layout_centre(const TargetSpec& target);
+Vec2 layout_centre(const OptionalLayout& layout);
 
 // The layout moved by this vector in the plane of the water; a target without one gets a line of one body.
-void move_layout(TargetSpec& target, const Vec2& by);
+void move_layout(OptionalLayout& layout, const Vec2& by);
 
 // Rest positions on the water of the bodies, in T, m; without a layout one body at the origin.
 //   line    equally spaced along x about the centre
@@ -30,16 +32,16 @@ void move_layout(TargetSpec& target, const Vec2& by);
 //           border; the last row, with the rest, is centred
 //   random  uniform over the area, one after the other, again where a body comes nearer than min_distance_m to another
 // Depends on the layout alone. Throws InputError, without a place, when two bodies are nearer than min_distance_m.
-std::vector<Vec2> layout_positions(const TargetSpec& target);
+std::vector<Vec2> layout_positions(const OptionalLayout& layout);
 
 // Heights above the waterline's rest_height_m() and headings (rad, about z) of the bodies; zero where none are given.
-std::vector<double> body_heights_m(const TargetSpec& target);
-std::vector<double> body_headings_rad(const TargetSpec& target);
+std::vector<double> body_heights_m(const OptionalLayout& layout);
+std::vector<double> body_headings_rad(const OptionalLayout& layout);
 
 // "line", "ring", "grid", "random"; "single" without a layout.
-std::string layout_name(const TargetSpec& target);
+std::string layout_name(const OptionalLayout& layout);
 
 // ", 4 in line, 40 m apart, on one rigid raft"; empty without a layout.
-std::string layout_text(const TargetSpec& target);
+std::string layout_text(const OptionalLayout& layout);
 
 }  // namespace seaglint

@@ -28,11 +28,11 @@ SeaState state_of(double height, double period) {
 }
 
 TEST(LayoutPositions, AreCentredOnTheOriginAlongX) {
-  const std::vector<Vec2> places = layout_positions(array_of(4));
+  const std::vector<Vec2> places = layout_positions(array_of(4).layout);
   ASSERT_EQ(places.size(), 4u);
   EXPECT_EQ(places[0], Vec2(-60, 0));
   EXPECT_EQ(places[3], Vec2(60, 0));
-  EXPECT_EQ(layout_positions(TargetSpec{}), std::vector<Vec2>{Vec2(0, 0)});
+  EXPECT_EQ(layout_positions(TargetSpec{}.layout), std::vector<Vec2>{Vec2(0, 0)});
 }
 
 TEST(SimulateTarget, MovesEachBodyAtItsOwnPlaceInTheSameSea) {
@@ -112,7 +112,7 @@ TEST(SimulateTarget, CarriesAFreeBodyAtItsHeightAndHeading) {
   target.layout->heights_m = BodyRange{5, 19};
   target.layout->headings_deg = BodyRange{30, 60};
   const std::vector<Trajectory> high = simulate_target(target, body, state, sea, 3, 42, 7);
-  const std::vector<double> heights_m = body_heights_m(target), headings = body_headings_rad(target);
+  const std::vector<double> heights_m = body_heights_m(target.layout), headings = body_headings_rad(target.layout);
   const std::vector<Vec3> rests = rest_positions(target);
   for (std::size_t i = 0; i < 3; ++i) {
     const Pose foot = low[i].pose(2.5), top = high[i].pose(2.5);

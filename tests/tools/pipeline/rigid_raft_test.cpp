@@ -173,7 +173,7 @@ TEST_F(RigidRaft, IsOneInTheSeasThatDrawRigidBodies) {
   for (int realisation = 0; realisation < 8; ++realisation) {
     const auto scene = pipeline.scene(0, realisation);
     const std::vector<Trajectory>& bodies = scene->bodies[0];
-    const bool rigid = is_raft((*scene->targets)[0].spec);
+    const bool rigid = is_raft((*scene->targets)[0].spec.layout);
     EXPECT_EQ(bodies[0].sample(5).angles == bodies[1].sample(5).angles, rigid);
     // The centre of flotation of a float is below its reflector, that of a raft between them.
     const Vec3 centre = rigid ? Vec3(20, 0, -0.75) : Vec3(0, 0, -0.75);

@@ -42,38 +42,39 @@ Vec2 mean(const std::vector<Vec2>& places) {
 TEST(AreaLayout, LineIsThatOfEqualSpacings) {
   TargetSpec spaced;
   spaced.layout = LayoutSpec{.line = LineLayout{4, 40, 3, -2}};
-  const std::vector<Vec2> places = layout_positions(target_of({LayoutShape::kLine, 4, 120, 40, 0, 3, -2})),
-                          wanted = layout_positions(spaced);
+  const std::vector<Vec2> places = layout_positions(target_of({LayoutShape::kLine, 4, 120, 40, 0, 3, -2}).layout),
+                          wanted = layout_positions(spaced.layout);
   ASSERT_EQ(places.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) EXPECT_LT((places[i] - wanted[i]).norm(), 1e-12);
-  EXPECT_EQ(layout_positions(target_of({LayoutShape::kLine, 1, 120, 40, 0, 3, -2})), std::vector<Vec2>{Vec2(3, -2)});
+  EXPECT_EQ(layout_positions(target_of({LayoutShape::kLine, 1, 120, 40, 0, 3, -2}).layout),
+            std::vector<Vec2>{Vec2(3, -2)});
 }
 
 // x^2 / (L/2)^2 + y^2 / (W/2)^2 = 1, to the sagitta of the polygon; a circle has equal chords 2 r sin(pi / n), and the
 // quarters of an ellipse equal arcs.
 TEST(AreaLayout, RingIsAnEllipseWithEqualArcs) {
-  for (const Vec2& place : layout_positions(target_of({LayoutShape::kRing, 7, 120, 40})))
+  for (const Vec2& place : layout_positions(target_of({LayoutShape::kRing, 7, 120, 40}).layout))
     EXPECT_NEAR(std::hypot(place.x() / 60, place.y() / 20), 1, 1e-7);
-  const std::vector<Vec2> circle = layout_positions(target_of({LayoutShape::kRing, 5, 30, 30}));
+  const std::vector<Vec2> circle = layout_positions(target_of({LayoutShape::kRing, 5, 30, 30}).layout);
   for (std::size_t i = 0; i < 5; ++i)
     EXPECT_NEAR((circle[i] - circle[(i + 1) % 5]).norm(), 30 * std::sin(kPi / 5), 1e-5);
-  const std::vector<Vec2> four = layout_positions(target_of({LayoutShape::kRing, 4, 120, 40}));
+  const std::vector<Vec2> four = layout_positions(target_of({LayoutShape::kRing, 4, 120, 40}).layout);
   EXPECT_LT((four[0] - Vec2(60, 0)).norm() + (four[1] - Vec2(0, 20)).norm(), 1e-9);
   EXPECT_LT((four[2] - Vec2(-60, 0)).norm() + (four[3] - Vec2(0, -20)).norm(), 1e-9);
   // A narrow ring is a line there and back: steps of 2 L / n.
-  const std::vector<Vec2> narrow = layout_positions(target_of({LayoutShape::kRing, 12, 120, 1e-9}));
+  const std::vector<Vec2> narrow = layout_positions(target_of({LayoutShape::kRing, 12, 120, 1e-9}).layout);
   EXPECT_NEAR((narrow[1] - narrow[0]).norm(), 20, 1e-5);
   EXPECT_NEAR((narrow[2] - narrow[1]).norm(), 20, 1e-5);
 }
 
 TEST(AreaLayout, GridReachesTheBordersAndIsCentred) {
-  const std::vector<Vec2> places = layout_positions(target_of({LayoutShape::kGrid, 12, 120, 40}));
+  const std::vector<Vec2> places = layout_positions(target_of({LayoutShape::kGrid, 12, 120, 40}).layout);
   EXPECT_NEAR(places.front().x(), -60, 1e-12);
   EXPECT_NEAR(places.back().y(), 20, 1e-12);
   EXPECT_LT(mean(places).norm(), 1e-12);
   EXPECT_NEAR(least_distance(places), 24, 1e-12);  // 6 columns, 2 rows
   for (int count = 1; count <= 40; ++count) {
-    const std::vector<Vec2> grid = layout_positions(target_of({LayoutShape::kGrid, count, 90, 40}));
+    const std::vector<Vec2> grid = layout_positions(target_of({LayoutShape::kGrid, count, 90, 40}).layout);
     ASSERT_EQ(grid.size(), static_cast<std::size_t>(count));
     if (count > 1) {
       EXPECT_GT(least_distance(grid), 1);
@@ -86,12 +87,12 @@ TEST(AreaLayout, GridReachesTheBordersAndIsCentred) {
 TEST(AreaLayout, RandomPlacesAreUniformAndApart) {
   Vec2 sum = Vec2::Zero(), squares = Vec2::Zero();
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
-    const std::vector<Vec2> places = layout_positions(target_of({LayoutShape::kRandom, 10, 100, 30}, seed));
+    const std::vector<Vec2> places = layout_positions(target_of({LayoutShape::kRandom, 10, 100, 30}, seed).layout);
     for (const Vec2& place : places) {
       sum += place;
       squares += place.cwiseProduct(place);
     }
-    EXPECT_GE(least_distance(layout_positions(target_of({LayoutShape::kRandom, 20, 100, 30, 6}, seed))), 6);
+    EXPECT_GE(least_distance(layout_positions(target_of({LayoutShape::kRandom, 20, 100, 30, 6}, seed).layout)), 6);
   }
   EXPECT_LT(std::abs(sum.x() / 4000), 5 * 100 / std::sqrt(12 * 4000.0));
   EXPECT_LT(std::abs(sum.y() / 4000), 5 * 30 / std::sqrt(12 * 4000.0));
@@ -101,16 +102,16 @@ TEST(AreaLayout, RandomPlacesAreUniformAndApart) {
 
 TEST(AreaLayout, DependsOnTheSeedAlone) {
   const AreaLayout area{LayoutShape::kRandom, 8, 100, 30};
-  EXPECT_EQ(layout_positions(target_of(area, 5)), layout_positions(target_of(area, 5)));
-  EXPECT_NE(layout_positions(target_of(area, 5)), layout_positions(target_of(area, 6)));
+  EXPECT_EQ(layout_positions(target_of(area, 5).layout), layout_positions(target_of(area, 5).layout));
+  EXPECT_NE(layout_positions(target_of(area, 5).layout), layout_positions(target_of(area, 6).layout));
 }
 
 TEST(Layout, HeightsAndHeadingsAreWithinTheirRanges) {
   TargetSpec target = target_of({LayoutShape::kRing, 500, 1000, 1000});
-  EXPECT_EQ(body_heights_m(target), std::vector<double>(500, 0.0));
+  EXPECT_EQ(body_heights_m(target.layout), std::vector<double>(500, 0.0));
   target.layout->heights_m = BodyRange{1, 20};
   target.layout->headings_deg = BodyRange{-90, 90};
-  const std::vector<double> heights = body_heights_m(target), headings = body_headings_rad(target);
+  const std::vector<double> heights = body_heights_m(target.layout), headings = body_headings_rad(target.layout);
   EXPECT_GT(std::ranges::min(heights), 1);
   EXPECT_LT(std::ranges::max(heights), 20);
   double product = 0;  // of the deviations: heights and headings are independent, to five standard errors
@@ -121,13 +122,13 @@ TEST(Layout, HeightsAndHeadingsAreWithinTheirRanges) {
 
 TEST(Layout, MovesAsAWhole) {
   TargetSpec target = target_of({LayoutShape::kRandom, 8, 100, 30, 2}, 3);
-  const std::vector<Vec2> before = layout_positions(target);
-  move_layout(target, {70, -5});
-  const std::vector<Vec2> after = layout_positions(target);
+  const std::vector<Vec2> before = layout_positions(target.layout);
+  move_layout(target.layout, {70, -5});
+  const std::vector<Vec2> after = layout_positions(target.layout);
   for (std::size_t i = 0; i < 8; ++i) EXPECT_LT((after[i] - before[i] - Vec2(70, -5)).norm(), 1e-12);
   TargetSpec single;
-  move_layout(single, {70, -5});
-  EXPECT_EQ(layout_positions(single), std::vector<Vec2>{Vec2(70, -5)});
+  move_layout(single.layout, {70, -5});
+  EXPECT_EQ(layout_positions(single.layout), std::vector<Vec2>{Vec2(70, -5)});
 }
 
 TEST(Layout, IsReadAndWritten) {
@@ -138,9 +139,9 @@ TEST(Layout, IsReadAndWritten) {
   EXPECT_EQ(layout.area->shape, LayoutShape::kGrid);
   EXPECT_EQ(layout.heights_m->highest, 3);
   EXPECT_EQ(layout.seed, 7u);
-  EXPECT_EQ(layout_name(scenario.targets[1]), "grid");
-  EXPECT_EQ(layout_text(scenario.targets[1]), ", 9 in a grid of 120 by 40 m");
-  EXPECT_EQ(layout_name(scenario.targets[0]), "single");
+  EXPECT_EQ(layout_name(scenario.targets[1].layout), "grid");
+  EXPECT_EQ(layout_text(scenario.targets[1].layout), ", 9 in a grid of 120 by 40 m");
+  EXPECT_EQ(layout_name(scenario.targets[0].layout), "single");
   EXPECT_THAT(effective_yaml(parse(kShort)), Not(HasSubstr("seed: 0, ")));
 }
 

@@ -25,7 +25,7 @@ clutter: {scr_db: 10}
 dataset: {maps_per_case: 6, realisations_per_case: 2, maps_per_interval: 3, maps_per_shard: 8}
 )yaml";
 
-class Features : public testing::Test {
+class StoredEchoFeatures : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = new TemporaryFolder;
@@ -56,14 +56,14 @@ class Features : public testing::Test {
   static inline TemporaryFolder* folder_ = nullptr;
 };
 
-TEST_F(Features, OfTheSameSettingsGiveTheSameBytes) {
+TEST_F(StoredEchoFeatures, OfTheSameSettingsGiveTheSameBytes) {
   const ProgramResult result = features(place(), {"--threads", "2"});
   ASSERT_EQ(result.code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("24 maps made from stored echoes in "));
   expect_equal(data(), place());
 }
 
-TEST_F(Features, OfOtherSettingsGiveTheBytesOfADataSetMadeAnew) {
+TEST_F(StoredEchoFeatures, OfOtherSettingsGiveTheBytesOfADataSetMadeAnew) {
   const std::vector<std::string> other{"--set", "clutter.scr_db=25",           "--set", "features.max_centres=20",
                                        "--set", "map.velocity_oversampling=2", "--set", "dataset.echoes=true"};
   const ProgramResult result = features(place(), other);
@@ -72,7 +72,7 @@ TEST_F(Features, OfOtherSettingsGiveTheBytesOfADataSetMadeAnew) {
   expect_equal(folder_->path() / "anew", place());
 }
 
-TEST_F(Features, AreMadeWithoutEchoesOfTheirOwnOnRequest) {
+TEST_F(StoredEchoFeatures, AreMadeWithoutEchoesOfTheirOwnOnRequest) {
   const ProgramResult result = features(place(), {"--set", "dataset.echoes=false"});
   ASSERT_EQ(result.code, 0) << result.err;
   make(folder_->path() / "without", {});
@@ -83,7 +83,7 @@ TEST_F(Features, AreMadeWithoutEchoesOfTheirOwnOnRequest) {
   EXPECT_FALSE(fs::exists(folder_->path() / "none"));
 }
 
-TEST_F(Features, RefuseWhatNeedsOtherEchoes) {
+TEST_F(StoredEchoFeatures, RefuseWhatNeedsOtherEchoes) {
   const auto complaint = [](const char* set) {
     const ProgramResult result = features(place(), {"--set", set});
     EXPECT_EQ(result.code, 2) << set;
