@@ -25,7 +25,7 @@ std::uint64_t hash_of(std::string_view path, std::uint64_t number) {
   return hash;
 }
 
-constexpr const char* kOtherKey = "must name another key that is drawn as often from a distribution";
+constexpr const char* kOtherKey = "must name another key that is written here, drawn as often if it is drawn";
 
 constexpr std::array<const char*, 3> kPerSea{"sea", "sea_reflection", "targets"};
 constexpr std::array<const char*, 3> kOfRadar{"radar.hop_code", "radar.pri_jitter_us", "radar.polarisation"};
@@ -89,6 +89,15 @@ void find(const ScenarioDocument& document, const YamlNode& node, const std::str
   }
 }
 
+// The scalar at a path through maps; null where there is none.
+const YamlNode* scalar_at(const YamlNode& root, const std::string& path) {
+  const YamlNode* node = &root;
+  for (const std::string& key : split_path(path)) {
+    if (node != nullptr) node = node->find(key);
+  }
+  return node != nullptr && node->kind == YamlNode::Kind::kScalar ? node : nullptr;
+}
+
 // The scalar at a path through maps and lists.
 YamlNode& node_at(YamlNode& root, const std::string& path) {
   YamlNode* node = &root;
@@ -110,6 +119,10 @@ std::vector<Variation> find_variations(const ScenarioDocument& document) {
   for (Variation& variation : found) {
     if (variation.drawn_as == variation.key_path) continue;
     const auto other = std::ranges::find(found, variation.drawn_as, &Variation::key_path);
+    if (const YamlNode* fixed = other == found.end() ? scalar_at(document.root, variation.drawn_as) : nullptr) {
+      variation.distribution = {DistributionKind::kChoice, {fixed->text}, {}};
+      continue;
+    }
     if (other == found.end() || other->drawn_as != other->key_path || other->per != variation.per) {
       document.fail_at(variation.key_path, kOtherKey);
     }

@@ -181,13 +181,24 @@ TEST(Variation, SameHasTheDrawsOfAnotherKey) {
   EXPECT_EQ(effective_yaml(parse(effective_yaml(scenario))), effective_yaml(scenario));
 }
 
+// As after --set of the key that a twin follows.
+TEST(Variation, SameHasTheValueOfAKeyThatIsNotDrawn) {
+  const std::string twin =
+      "  twin: {label: 1, mesh: b.glb, layout: {line: {count: 5, spacing_m: "
+      "same(targets.array.layout.line.spacing_m)}}}\n";
+  const Scenario scenario = parse(replaced(kDrawn, "dataset:", twin + "dataset:"));
+  EXPECT_EQ(scenario.targets[2].layout->line->spacing_m, 20);
+  EXPECT_EQ(drawn(scenario, 3).targets[2].layout->line->spacing_m, 20);
+  EXPECT_THAT(effective_yaml(scenario), HasSubstr("spacing_m: same(targets.array.layout.line.spacing_m)\n"));
+}
+
 TEST(Variation, SameNamesAnotherDrawnKey) {
   const auto complaint = [](const std::string& key) {
     return complaint_about(replaced(kDrawn, "spacing_m: 20", "spacing_m: same(" + key + ")"));
   };
   for (const char* key : {"targets.array.layout.line.spacing_m", "sea.gamma", "clutter.scr_db", ""}) {
     EXPECT_THAT(complaint(key), AllOf(HasSubstr("file.yaml:10:"), HasSubstr("targets.array.layout.line.spacing_m"),
-                                      HasSubstr("must name another key that is drawn as often")))
+                                      HasSubstr("must name another key that is written here")))
         << key;
   }
 }
