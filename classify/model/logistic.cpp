@@ -35,6 +35,21 @@ Rows standardised(const FeatureMatrix& features, std::span<const double> means, 
   return z;
 }
 
+// Moves w against a direction of Newton's method, by a half, a quarter, ... of it where the whole does not lower the
+// objective, whose value at w is `value`. False, with w unchanged, when none does.
+template <class Objective, class Weights>
+bool descend(const Objective& objective, const Weights& direction, Weights& w, double& value) {
+  double length = 1, next = objective(w - direction);
+  while (!(next <= value) && length > 1e-6) {
+    length /= 2;
+    next = objective(w - length * direction);
+  }
+  if (!(next <= value)) return false;
+  w -= length * direction;
+  value = next;
+  return true;
+}
+
 // Weights of the columns of z, the last that of the offset.
 Eigen::VectorXd binary_weights(const Rows& z, std::span<const int> labels) {
   const std::size_t rows = labels.size();
@@ -57,14 +72,7 @@ Eigen::VectorXd binary_weights(const Rows& z, std::span<const int> labels) {
     Eigen::MatrixXd hessian = z.transpose() * curvature.asDiagonal() * z;
     hessian.diagonal() += penalty;
     const Eigen::VectorXd direction = hessian.ldlt().solve(gradient);
-    double length = 1, next = objective(w - direction);
-    while (!(next <= value) && length > 1e-6) {
-      length /= 2;
-      next = objective(w - length * direction);
-    }
-    if (!(next <= value)) break;
-    w -= length * direction;
-    value = next;
+    if (!descend(objective, direction, w, value)) break;
   }
   return w;
 }
@@ -109,14 +117,7 @@ Eigen::MatrixXd multinomial_weights(const Rows& z, std::span<const int> labels, 
     }
     const Eigen::VectorXd solved = hessian.ldlt().solve(gradient.reshaped());
     const Eigen::MatrixXd direction = solved.reshaped(columns, count);
-    double length = 1, next = objective(w - direction);
-    while (!(next <= value) && length > 1e-6) {
-      length /= 2;
-      next = objective(w - length * direction);
-    }
-    if (!(next <= value)) break;
-    w -= length * direction;
-    value = next;
+    if (!descend(objective, direction, w, value)) break;
   }
   return w;
 }
