@@ -109,6 +109,7 @@ Scenario parse_scenario(const std::string& yaml, const std::string& file_name, c
   const auto read = std::make_shared<ScenarioDocument>(ScenarioDocument{file_name, {}, parse_yaml(yaml, file_name)});
   ScenarioDocument& document = *read;
   for (const Override& override_value : overrides) apply_override(document, override_value);
+  copy_fixed_values(document);
   std::vector<Variation> variations = find_variations(document);
   Scenario scenario = read_values(with_values(document, variations, middles(variations)));
   scenario.document = read;

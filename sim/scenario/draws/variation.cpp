@@ -112,6 +112,19 @@ std::string Variation::text() const {
   return drawn_as == key_path ? distribution.text() : fmt::format("same({})", drawn_as);
 }
 
+void copy_fixed_values(ScenarioDocument& document) {
+  std::vector<Variation> found;
+  find(document, document.root, "", found);
+  for (const Variation& variation : found) {
+    const bool is_drawn = std::ranges::find(found, variation.drawn_as, &Variation::key_path) != found.end();
+    const YamlNode* fixed = is_drawn ? nullptr : scalar_at(document.root, variation.drawn_as);
+    if (fixed == nullptr) continue;
+    YamlNode& node = node_at(document.root, variation.key_path);
+    node.text = fixed->text;
+    node.quoted = fixed->quoted;
+  }
+}
+
 std::vector<Variation> find_variations(const ScenarioDocument& document) {
   std::vector<Variation> found;
   find(document, document.root, "", found);
@@ -119,10 +132,6 @@ std::vector<Variation> find_variations(const ScenarioDocument& document) {
   for (Variation& variation : found) {
     if (variation.drawn_as == variation.key_path) continue;
     const auto other = std::ranges::find(found, variation.drawn_as, &Variation::key_path);
-    if (const YamlNode* fixed = other == found.end() ? scalar_at(document.root, variation.drawn_as) : nullptr) {
-      variation.distribution = {DistributionKind::kChoice, {fixed->text}, {}};
-      continue;
-    }
     if (other == found.end() || other->drawn_as != other->key_path || other->per != variation.per) {
       document.fail_at(variation.key_path, kOtherKey);
     }
