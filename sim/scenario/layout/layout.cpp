@@ -14,7 +14,7 @@ namespace seaglint {
 
 namespace {
 
-constexpr int kMostTrials = 100000;  // of the place of one body
+constexpr int kMostTrials = 100;  // of random places, on average of the bodies of a layout
 
 // Indices of the layout's random numbers.
 enum Drawn : std::uint64_t { kPlaces, kHeights, kHeadings };
@@ -70,18 +70,13 @@ bool is_free(const std::vector<Vec2>& places, const Vec2& place, double min_dist
 
 std::vector<Vec2> at_random(const AreaLayout& area, Random random) {
   std::vector<Vec2> places;
-  while (places.size() < static_cast<std::size_t>(area.count)) {
-    int trials = 0;
-    Vec2 place;
-    do {
-      if (++trials > kMostTrials) {
-        throw InputError(fmt::format("{} bodies find no places {} m apart in {} by {} m", area.count,
-                                     area.min_distance_m, area.length_m, area.width_m));
-      }
-      const double x = area.length_m * (random.uniform() - 0.5), y = area.width_m * (random.uniform() - 0.5);
-      place = {x, y};
-    } while (!is_free(places, place, area.min_distance_m));
-    places.push_back(place);
+  for (int trials = kMostTrials * area.count; places.size() < static_cast<std::size_t>(area.count); --trials) {
+    if (trials == 0) {
+      throw InputError(fmt::format("{} bodies find no places {} m apart in {} by {} m", area.count, area.min_distance_m,
+                                   area.length_m, area.width_m));
+    }
+    const double x = area.length_m * (random.uniform() - 0.5), y = area.width_m * (random.uniform() - 0.5);
+    if (is_free(places, {x, y}, area.min_distance_m)) places.emplace_back(x, y);
   }
   return places;
 }
