@@ -85,6 +85,7 @@ void make_features(const FeaturesArguments& arguments, const CommandContext& con
   require_same_inputs(reader.directory(), stored);
   const Pipeline pipeline(read_scenario(file, read_overrides(arguments.set)));
   require_same_echoes(pipeline, stored);
+  check_division(pipeline.scenario(), pipeline.plan());
   GenerateOptions options;
   options.resume = arguments.resume;
   options.threads = context.threads;

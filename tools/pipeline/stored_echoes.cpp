@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <utility>
 
 #include "sim/core/process/error.h"
+#include "sim/core/text/text_difference.h"
 #include "sim/scenario/writer.h"
 
 namespace seaglint {
@@ -27,18 +27,6 @@ std::string echo_yaml(Scenario scenario) {
   scenario.dataset.complex_maps = scenario.dataset.echoes = false;
   scenario.dataset.maps_per_shard = standard.maps_per_shard;
   return effective_yaml(scenario);
-}
-
-// The first lines that differ, without indentation.
-std::pair<std::string, std::string> first_difference(const std::string& a, const std::string& b) {
-  const auto [in_a, in_b] = std::ranges::mismatch(a, b);
-  const auto line_at = [](const std::string& text, std::string::const_iterator at) {
-    const auto offset = static_cast<std::size_t>(at - text.begin());
-    const std::size_t line_feed = offset == 0 ? std::string::npos : text.rfind('\n', offset - 1);
-    const std::size_t begin = text.find_first_not_of(' ', line_feed == std::string::npos ? 0 : line_feed + 1);
-    return begin == std::string::npos ? std::string() : text.substr(begin, text.find('\n', begin) - begin);
-  };
-  return {line_at(a, in_a), line_at(b, in_b)};
 }
 
 }  // namespace
@@ -74,19 +62,16 @@ BodyResponse StoredEchoes::response(std::size_t sample, const PulseTrain& train)
 }
 
 void require_same_echoes(const Pipeline& pipeline, const Scenario& stored) {
-  const auto [wanted, there] = first_difference(echo_yaml(pipeline.scenario()), echo_yaml(stored));
-  if (wanted != there) {
+  const std::string there = echo_yaml(stored), here = echo_yaml(pipeline.scenario());
+  if (there != here) {
     throw InputError(fmt::format(
-        "{}: the stored echoes are those of {}; only clutter, map, features and learning can be set, other keys need "
-        "another data set",
-        wanted, there));
+        "--set: only clutter, map, features and learning can be set, the stored echoes depend on the rest: {}",
+        first_difference(there, here)));
   }
   const double before_m = range_window_m(stored, SamplePlan(stored), pipeline.targets());
   if (before_m != pipeline.window_m()) {
     throw InputError(
-        fmt::format("map.range_span_m: the stored echoes are those of a range window of {:.6g} m, here {:.6g} m: "
-                    "another span needs "
-                    "another data set",
+        fmt::format("map.range_span_m: the stored echoes are those of a range window of {:.6g} m, here {:.6g} m",
                     before_m, pipeline.window_m()));
   }
 }
