@@ -86,6 +86,7 @@ ordered_json to_object(const std::vector<std::vector<RocPoint>>& curves, const s
   for (std::size_t label = 0; label < curves.size(); ++label) json[one_word(classes[label])] = to_object(curves[label]);
   return json;
 }
+
 ordered_json to_json(const Study& study, const LearningSpec& spec) {
   ordered_json json;
   const Fusion other = spec.fusion == Fusion::kSplit ? Fusion::kInSample : Fusion::kSplit;

@@ -34,11 +34,6 @@ GeneratedSample made_sample(const Pipeline& pipeline, std::size_t sample, const 
 
 }  // namespace
 
-GenerateResult generate_dataset(const Scenario& scenario, const std::filesystem::path& directory,
-                                const GenerateOptions& options, const StopFlag* stop) {
-  return generate_dataset(Pipeline(scenario), directory, options, stop);
-}
-
 GenerateResult generate_dataset(const Pipeline& pipeline, const std::filesystem::path& directory,
                                 const GenerateOptions& options, const StopFlag* stop) {
   // FFTW ends the process when it has no memory.

@@ -32,7 +32,5 @@ struct GenerateResult {
 // Interrupted is thrown.
 GenerateResult generate_dataset(const Pipeline& pipeline, const std::filesystem::path& directory,
                                 const GenerateOptions& options, const StopFlag* stop = nullptr);
-GenerateResult generate_dataset(const Scenario& scenario, const std::filesystem::path& directory,
-                                const GenerateOptions& options, const StopFlag* stop = nullptr);
 
 }  // namespace seaglint

@@ -59,8 +59,7 @@ std::string benchmark_section(const ordered_json& benchmark, const std::string& 
   std::string html = fmt::format(
       "<p>Benchmark <b>{}</b>{}: {} maps in {} seas; {}. Accuracy in %, in brackets the 95 % interval. Each "
       "quantity without motion is classified by itself; their intervals are for all of them at once, * marks those "
-      "that "
-      "differ from chance.{}</p>\n",
+      "that differ from chance.{}</p>\n",
       name, benchmark.at("small").get<bool>() ? " at its small size, whose figures say little" : "",
       benchmark.at("maps").get<std::uint64_t>(), benchmark.at("seas").get<std::uint64_t>(),
       escape_html(benchmark.at("division").get<std::string>()),

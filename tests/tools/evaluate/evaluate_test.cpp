@@ -33,7 +33,7 @@ void generate(const fs::path& data, const std::string& seed, int seas) {
                                            {"dataset.maps_per_case", std::to_string(2 * seas)},
                                            {"dataset.realisations_per_case", std::to_string(seas)},
                                            {"radar.pulses", "32"}});
-  generate_dataset(scenario, data, {1, 1, false, 1});
+  generate_dataset(Pipeline(scenario), data, {1, 1, false, 1});
 }
 
 // Changes all samples, shard by shard.

@@ -35,7 +35,7 @@ class Training : public testing::Test {
     const Scenario scenario = read_scenario(
         SEAGLINT_SOURCE_DIR "/scenarios/points.yaml",
         {{"dataset.maps_per_case", "24"}, {"dataset.realisations_per_case", "4"}, {"radar.pulses", "64"}});
-    generate_dataset(scenario, folder_ / "data", {1, 1, false, 1});
+    generate_dataset(Pipeline(scenario), folder_ / "data", {1, 1, false, 1});
     train({});
   }
   static void TearDownTestSuite() { fs::remove_all(folder_); }
