@@ -8,7 +8,7 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/scattering/beams/bistatic_geometry.h"
-#include "sim/scattering/response/body_response.h"
+#include "sim/scattering/interval/body_response.h"
 #include "sim/scattering/target/prepare_target.h"
 
 namespace seaglint {

@@ -109,7 +109,7 @@ BodyResponse Pipeline::target_response(std::size_t index, const Observation& see
     const Trajectory carried =
         relative_velocity_mps.isZero(0) ? body : body.with_drift(relative_velocity_mps, sampling.pulse_time_s.front());
     const BodyResponse term = body_response(*target.scatterer, carried, r_hat, scenario.radar.polarisation, sampling,
-                                            spec.solver, 1, sea, stop);
+                                            spec.solver, 1, sea, stop, target.traces.get());
     sum.traces += term.traces;
     if (sum.response.values.empty()) {
       sum.response = term.response;

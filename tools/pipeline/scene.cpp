@@ -161,7 +161,8 @@ Body load_body(const Scenario& scenario, const TargetSpec& spec, const TriangleM
 
 namespace {
 
-Target load_target(const Scenario& scenario, const SamplePlan& plan, const TargetSpec& spec) {
+Target load_target(const Scenario& scenario, const SamplePlan& plan, const TargetSpec& spec,
+                   const std::shared_ptr<TraceMemory>& memory) {
   Target target;
   target.spec = spec;
   if (spec.mesh.empty()) return target;
@@ -173,6 +174,7 @@ Target load_target(const Scenario& scenario, const SamplePlan& plan, const Targe
   target.mesh = std::move(prepared.mesh);
   target.warnings = std::move(prepared.warnings);
   target.scatterer = std::move(prepared.scatterer);
+  target.traces = std::make_shared<SharedTraces>(memory);
   return target;
 }
 
@@ -285,7 +287,7 @@ Target LoadedTargets::get(const Scenario& scenario, const SamplePlan& plan, cons
     std::rotate(known, known + 1, targets_.end());
   } else {
     if (targets_.size() == kKept) targets_.erase(targets_.begin());
-    targets_.emplace_back(fields, load_target(scenario, plan, spec));
+    targets_.emplace_back(fields, load_target(scenario, plan, spec, memory_));
   }
   Target target = targets_.back().second;
   target.spec = spec;
@@ -293,9 +295,9 @@ Target LoadedTargets::get(const Scenario& scenario, const SamplePlan& plan, cons
 }
 
 std::vector<Target> load_targets(const Scenario& scenario, const SamplePlan& plan, LoadedTargets* loaded) {
-  return placed_targets(scenario, [&](const TargetSpec& spec) {
-    return loaded ? loaded->get(scenario, plan, spec) : load_target(scenario, plan, spec);
-  });
+  LoadedTargets own;
+  LoadedTargets& known = loaded != nullptr ? *loaded : own;
+  return placed_targets(scenario, [&](const TargetSpec& spec) { return known.get(scenario, plan, spec); });
 }
 
 double range_window_m(const Scenario& scenario, const SamplePlan& plan, const std::vector<Target>& targets) {

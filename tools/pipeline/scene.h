@@ -12,6 +12,7 @@
 #include "sim/geometry/mesh/triangle_mesh.h"
 #include "sim/motion/body.h"
 #include "sim/motion/kinematics/trajectory.h"
+#include "sim/scattering/interval/shared_traces.h"
 #include "sim/scattering/target/scatterer.h"
 #include "sim/scenario/sample_plan.h"
 #include "sim/scenario/scenario.h"
@@ -25,6 +26,7 @@ struct Target {
   TriangleMesh mesh;                           // empty for points
   std::vector<std::string> warnings;           // about the mesh, a sentence each
   std::shared_ptr<const Scatterer> scatterer;  // of the mesh; null for points
+  std::shared_ptr<SharedTraces> traces;        // of the scatterer, for solver.shared_traces; null for points
   Body body;                                   // motion model; unused for points
   std::vector<Vec3> rest_positions;            // of the bodies' origins, target frame; empty for points and parts
   std::size_t first_body = 0;                  // bodies are numbered over all targets but parts, in order
@@ -45,6 +47,7 @@ class LoadedTargets {
 
  private:
   static constexpr std::size_t kKept = 16;
+  std::shared_ptr<TraceMemory> memory_ = std::make_shared<TraceMemory>();
   std::mutex mutex_;
   std::vector<std::pair<std::string, Target>> targets_;  // by the fields that determine them; last used last
 };

@@ -10,7 +10,7 @@
 
 #include "classify/dataset/directory/dataset_reader.h"
 #include "radar/waveform/pulse_train.h"
-#include "sim/scattering/response/body_response.h"
+#include "sim/scattering/interval/body_response.h"
 #include "sim/scenario/scenario.h"
 #include "tools/pipeline/pipeline.h"
 #include "tools/pipeline/shared_results.h"

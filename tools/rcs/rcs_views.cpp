@@ -12,7 +12,7 @@
 #include "sim/core/process/error.h"
 #include "sim/core/process/progress.h"
 #include "sim/scattering/beams/bistatic_geometry.h"
-#include "sim/scattering/response/body_response.h"
+#include "sim/scattering/interval/body_response.h"
 #include "sim/scattering/response/reciprocity.h"
 #include "sim/scattering/response/scattering_matrix.h"
 #include "sim/scattering/response/sea_reflection.h"

@@ -11,7 +11,7 @@
 #include "sim/core/numbers/dbsm.h"
 #include "sim/field_tables/field_table.h"
 #include "sim/scattering/beams/bistatic_geometry.h"
-#include "sim/scattering/response/body_response.h"
+#include "sim/scattering/interval/body_response.h"
 #include "sim/scattering/response/scattering_matrix.h"
 #include "tools/page/html.h"
 #include "tools/page/plot_json.h"

@@ -13,7 +13,7 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
 #include "sim/geometry/files/mesh_io.h"
-#include "sim/scattering/response/body_response.h"
+#include "sim/scattering/interval/body_response.h"
 #include "tests/sim/cavity/guide.h"
 
 namespace seaglint {

@@ -16,7 +16,7 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/random.h"
 #include "sim/geometry/shapes/generators.h"
-#include "sim/scattering/response/body_response.h"
+#include "sim/scattering/interval/body_response.h"
 #include "sim/scattering/response/scattering_matrix.h"
 
 namespace seaglint::testing_echoes {

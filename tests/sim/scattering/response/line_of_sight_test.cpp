@@ -11,7 +11,7 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/geometry/shapes/generators.h"
 #include "sim/scattering/beams/bistatic_geometry.h"
-#include "sim/scattering/response/body_response.h"
+#include "sim/scattering/interval/body_response.h"
 #include "sim/scattering/response/point_response.h"
 #include "tests/measured.h"
 

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/geometry/shapes/generators.h"
-#include "sim/scattering/response/body_response.h"
+#include "sim/scattering/interval/body_response.h"
 #include "sim/scattering/response/scattering_matrix.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 

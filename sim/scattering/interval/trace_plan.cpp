@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/scattering/response/trace_plan.h"
+#include "sim/scattering/interval/trace_plan.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,52 +1,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/scattering/response/body_response.h"
+#include "sim/scattering/interval/body_response.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
+#include <memory>
 #include <optional>
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/parallel.h"
-#include "sim/scattering/edges/edge_decomposition.h"
+#include "sim/scattering/interval/path_points.h"
+#include "sim/scattering/interval/response_grid.h"
+#include "sim/scattering/interval/trace_plan.h"
 #include "sim/scattering/response/aspect_trace.h"
 #include "sim/scattering/response/reciprocity.h"
-#include "sim/scattering/response/response_grid.h"
 #include "sim/scattering/response/scattering_matrix.h"
-#include "sim/scattering/response/trace_plan.h"
-#include "sim/scattering/surfaces/finite_range.h"
-#include "sim/scattering/surfaces/point_contributions.h"
 
 namespace seaglint {
 namespace {
 
-// Cross-track path rate of body-fixed points is at most this, m, for a track tangent of unit length. Contributions of
-// shadow boundaries that exceed it are weak.
-double cross_track_limit(const Scatterer& scatterer) { return std::numbers::sqrt2 * scatterer.radius(); }
-
-// Points of one chunk of panels or edges, aligned to cache lines: threads fill neighbouring chunks concurrently.
-struct alignas(64) ChunkPoints {
-  std::vector<GridPoint> points;
-  double fastest = 0;  // largest |u|, m
-};
-
 // Points of the contributions of one propagation path, with their rates along its look-direction path.
 class PathPoints {
  public:
-  PathPoints(const Scatterer& scatterer, const PlannedPath& path, double kc, double half_band, double faint,
-             int channel, double range_m, std::size_t slots)
-      : path_(path.look_path),
-        split_{kc, path_.max_change + direction_spread(scatterer, {range_m})},
-        half_band_(half_band),
-        faint_(faint),
-        channel_(channel),
-        range_m_(range_m),
-        limit_(8 * scatterer.radius()),
-        points_(slots) {}
+  PathPoints(const LookDirectionPath& path, const PointSelection& selection, std::size_t slots)
+      : path_(path), selection_(selection), chunks_(slots) {}
 
   // Contributions of one trace to the path, into one slot.
   struct Source {
@@ -55,68 +35,27 @@ class PathPoints {
     bool is_exchanged;
     double weight;
   };
-  void add(const Source& source, std::span<const Footprint> footprints) {
-    std::vector<PointContribution> contributions;
-    for (const Footprint& footprint : footprints) {
-      contributions.clear();
-      decompose_over_band(range_m_ > 0 ? at_any_slope_rate(footprint) : footprint, source.traced.transmit, split_,
-                          half_band_, contributions);
-      keep(source, contributions);
-    }
-  }
-  void add(const Source& source, std::span<const EdgeContribution> edges) {
-    std::vector<PointContribution> contributions;
-    for (const EdgeContribution& contribution : edges) {
-      contributions.clear();
-      decompose(contribution, split_, contributions);
-      keep(source, contributions);
-    }
+  template <class Contributions>
+  void add(const Source& source, const Contributions& contributions) {
+    for_each_point(contributions, source.traced, selection_, [&](PointContribution& point) {
+      if (source.is_exchanged) exchange_antennas(point);
+      const Complex amplitude = source.weight * selection_.amplitude(point, source.traced.monostatic);
+      if (selection_.is_faint(amplitude)) return;
+      const double cut = selection_.limit(point.gradient);
+      chunks_[source.slot].points.push_back({amplitude, point.psi, cut * path_.along_track.path_rate(point.gradient),
+                                             cut * path_.cross_track.path_rate(point.gradient)});
+    });
   }
 
   // Their sum over the band and the look directions of the path.
-  ResponseGrid grid(const WavenumberGrid& wavenumbers, double beside, int threads) const {
-    double fastest = 0;
-    for (const ChunkPoints& chunk : points_) fastest = std::max(fastest, chunk.fastest);
-    const GridLimits limits{fastest, path_.s_limit, beside, path_.q_limit};
-    // Four grids for any number of threads, each for every fourth chunk; they are added in order.
-    constexpr std::size_t kGrids = 4;
-    std::vector<ResponseGrid> grids(kGrids, ResponseGrid(wavenumbers, limits));
-    parallel_for(kGrids, threads, [&](std::size_t g) {
-      for (std::size_t chunk = g; chunk < points_.size(); chunk += kGrids) grids[g].spread(points_[chunk].points);
-    });
-    ResponseGrid sum = std::move(grids[0]);
-    for (std::size_t g = 1; g < kGrids; ++g) sum.add(grids[g]);
-    sum.transform();
-    return sum;
+  ResponseGrid grid(const WavenumberGrid& wavenumbers, double beside_m, int threads) const {
+    return grid_of_points(chunks_, path_, wavenumbers, beside_m, threads);
   }
 
  private:
-  // At a finite range the wavefront is curved about the body's centre, from which the look directions are measured.
-  void keep(const Source& source, std::span<PointContribution> contributions) {
-    if (range_m_ > 0) apply_wavefront_curvature(contributions, source.traced, {range_m_});
-    for (PointContribution& c : contributions) {
-      if (source.is_exchanged) exchange_antennas(c);
-      const auto pattern = source.traced.monostatic ? reciprocal_mean(c.pattern, c.pattern) : c.pattern;
-      const Complex amplitude = source.weight * c.amplitude * Complex(pattern[channel_]);
-      if (std::norm(amplitude) < faint_ * faint_) continue;
-      const double cut = std::min(1.0, limit_ / c.gradient.sum().norm());
-      const double u = cut * path_.along_track.path_rate(c.gradient), v = cut * path_.cross_track.path_rate(c.gradient);
-      ChunkPoints& points = points_[source.slot];
-      points.points.push_back({amplitude, c.psi, u, v});
-      points.fastest = std::max(points.fastest, std::abs(u));
-    }
-  }
-
   const LookDirectionPath& path_;
-  DecompositionSettings split_;
-  double half_band_;
-  double faint_;  // half of all points, mostly tapered or cancelling end points, are weaker
-  int channel_;
-  double range_m_;
-  // A shadow boundary at grazing incidence slides along its facet much faster than any point of the body. Its rate is
-  // limited to that of a point at four radii: such end points are weak and cross many velocity cells.
-  double limit_;
-  std::vector<ChunkPoints> points_;  // by slot
+  PointSelection selection_;
+  std::vector<ChunkPoints> chunks_;  // by slot
 };
 
 // Response of the body over the propagation paths of one trace.
@@ -142,7 +81,15 @@ std::vector<ResponseGrid> trace_to_grid(const Scatterer& scatterer, std::span<co
   std::vector<PathPoints> points;
   for (std::size_t path = 0; path < paths.size(); ++path) {
     const std::size_t from_exchanged = shared[path] ? trace.chunk_count(*shared[path]) : 0;
-    points.emplace_back(scatterer, paths[path], kc, half_band, faint, channel, solver.wavefront_range_m,
+    const LookDirectionPath& look = paths[path].look_path;
+    const double range_m = solver.wavefront_range_m;
+    points.emplace_back(look,
+                        PointSelection{{kc, look.max_change + direction_spread(scatterer, {range_m})},
+                                       half_band,
+                                       faint,
+                                       channel,
+                                       range_m,
+                                       slide_limit_m(scatterer)},
                         trace.chunk_count(path) + from_exchanged);
   }
   const auto add = [&](std::size_t path, std::size_t chunk, const auto& contributions) {
@@ -155,7 +102,7 @@ std::vector<ResponseGrid> trace_to_grid(const Scatterer& scatterer, std::span<co
   trace.run({add, add}, stop);
   std::vector<ResponseGrid> grids;
   for (const PathPoints& of_path : points)
-    grids.push_back(of_path.grid(wavenumbers, cross_track_limit(scatterer), threads));
+    grids.push_back(of_path.grid(wavenumbers, cross_track_limit_m(scatterer), threads));
   return grids;
 }
 
@@ -194,7 +141,7 @@ double default_aspect_change(const Scatterer& scatterer, double wavelength) {
 
 BodyResponse body_response(const Scatterer& scatterer, const Trajectory& trajectory, const Vec3& r_hat,
                            Polarisation polarisation, const IntervalSampling& sampling, const SolverSpec& solver,
-                           int threads, const SeaReflection* sea, const StopFlag* stop) {
+                           int threads, const SeaReflection* sea, const StopFlag* stop, SharedTraces* shared) {
   const int pulses = static_cast<int>(sampling.pulse_time_s.size());
   SEAGLINT_CHECK(pulses > 0 && sampling.pulse_first.size() == sampling.pulse_time_s.size(),
                  fmt::format("{} pulse times, {} bands", pulses, sampling.pulse_first.size()));
@@ -210,7 +157,7 @@ BodyResponse body_response(const Scatterer& scatterer, const Trajectory& traject
   const double served = solver.max_aspect_change_deg > 0 ? radians(solver.max_aspect_change_deg)
                                                          : default_aspect_change(scatterer, 2 * kPi / kc);
   const TracePlan plan(trajectory, sampling, r_hat, solver.wavefront_range_m, paths,
-                       {served, kMaxCrossTrackPhase / (k_last * cross_track_limit(scatterer))}, scatterer.centre());
+                       {served, kMaxCrossTrackPhase / (k_last * cross_track_limit_m(scatterer))}, scatterer.centre());
 
   // Traces in parallel before facets in parallel, which needs fewer synchronisations.
   threads = std::max(1, threads);
@@ -220,8 +167,23 @@ BodyResponse body_response(const Scatterer& scatterer, const Trajectory& traject
   parallel_for(
       traces.size(), side_by_side,
       [&](std::size_t i) {
-        returns[i] = trace_to_grid(scatterer, traces[i].paths, wavenumbers, channel, solver,
-                                   std::max(1, threads / side_by_side), stop);
+        const int inner = std::max(1, threads / side_by_side);
+        std::vector<SharedDirection> directions;
+        if (solver.shared_traces && traces[i].paths.size() == 1)
+          directions = shared_directions(traces[i].paths.front(), served, solver, polarisation);
+        if (!directions.empty()) {
+          std::vector<WeightedTrace> around;
+          for (const auto& [at, basis, weight] : directions) {
+            const SharedTraceKey key{at, kc, kc - wavenumbers.first, channel};
+            const auto make = [&] { return make_shared_trace(scatterer, basis, key, served, solver, inner, stop); };
+            around.push_back(
+                {shared != nullptr ? shared->get(key, make) : std::make_shared<const SharedTrace>(make()), weight});
+          }
+          returns[i].push_back(
+              grid_of_traces(around, traces[i].paths.front(), wavenumbers, cross_track_limit_m(scatterer), inner));
+        } else {
+          returns[i] = trace_to_grid(scatterer, traces[i].paths, wavenumbers, channel, solver, inner, stop);
+        }
       },
       stop);
 

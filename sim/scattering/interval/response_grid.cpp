@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/scattering/response/response_grid.h"
+#include "sim/scattering/interval/response_grid.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/scattering/response/look_direction_path.h"
+#include "sim/scattering/interval/look_direction_path.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/scattering/response/trace_plan.h"
+#include "sim/scattering/interval/trace_plan.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
 namespace seaglint {

@@ -7,6 +7,7 @@
 
 #include "sim/core/process/parallel.h"
 #include "sim/motion/kinematics/trajectory.h"
+#include "sim/scattering/interval/shared_traces.h"
 #include "sim/scattering/response/frequency_response.h"
 #include "sim/scattering/response/sea_reflection.h"
 #include "sim/scattering/target/scatterer.h"
@@ -31,10 +32,13 @@ double default_aspect_change(const Scatterer& scatterer, double wavelength);
 // frequency is in README.md. The polarisation basis is that of the world frame, rotated into the body at each trace.
 // With solver.wavefront_range_m > 0 the radar is at that distance from the origin of the target frame, and the body is
 // observed from its own position. The trajectory must cover the interval. `sea`: adds the specular sea reflection at z
-// = 0 of the target frame (sea_reflection.h) with one trace per propagation path; requires r_hat.z() > 0. Throws
+// = 0 of the target frame (sea_reflection.h) with one trace per propagation path; requires r_hat.z() > 0. With
+// solver.shared_traces slow intervals use the traces of a lattice of look directions (shared_traces.h), which `shared`,
+// of this scatterer and these solver settings, keeps for other intervals; the response is the same without it. Throws
 // Interrupted when *stop becomes true.
 BodyResponse body_response(const Scatterer& scatterer, const Trajectory& trajectory, const Vec3& r_hat,
                            Polarisation polarisation, const IntervalSampling& sampling, const SolverSpec& solver,
-                           int threads = 1, const SeaReflection* sea = nullptr, const StopFlag* stop = nullptr);
+                           int threads = 1, const SeaReflection* sea = nullptr, const StopFlag* stop = nullptr,
+                           SharedTraces* shared = nullptr);
 
 }  // namespace seaglint

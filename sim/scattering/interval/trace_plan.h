@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "sim/motion/kinematics/trajectory.h"
+#include "sim/scattering/interval/look_direction_path.h"
 #include "sim/scattering/response/frequency_response.h"
 #include "sim/scattering/response/illumination.h"
 #include "sim/scattering/response/line_of_sight.h"
-#include "sim/scattering/response/look_direction_path.h"
 
 namespace seaglint {
 

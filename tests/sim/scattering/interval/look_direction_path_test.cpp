@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/scattering/response/look_direction_path.h"
+#include "sim/scattering/interval/look_direction_path.h"
 #include "sim/scattering/surfaces/footprint.h"
 
 namespace seaglint {
