@@ -30,7 +30,7 @@
 
 namespace seaglint {
 
-// Points of one polarisation of a body at rest, valid within aspect_change_rad of its look direction.
+// Points of one polarisation of a body at rest in one look direction.
 struct SharedTrace {
   struct Point {
     std::complex<float> amplitude;   // without the phase e^{jk psi}, m
@@ -75,7 +75,8 @@ struct SharedTraceKey {
   auto operator<=>(const SharedTraceKey&) const = default;
 };
 
-// Points of a body in the look direction of `basis`. Throws Interrupted when *stop becomes true.
+// Points of a body in the look direction of `basis`, decomposed for an aspect change of served_rad / 2, the distance of
+// the middle of a cell of the lattice from its corners. Throws Interrupted when *stop becomes true.
 SharedTrace make_shared_trace(const Scatterer& scatterer, const RadarBasis& basis, const SharedTraceKey& key,
                               double served_rad, const SolverSpec& solver, int threads, const StopFlag* stop);
 
