@@ -43,11 +43,15 @@ std::uint64_t body_index(std::uint64_t sea_index, std::size_t body) {
   return sea_index * kMaxBodies + body;
 }
 
-std::vector<Trajectory> simulate_target(const TargetSpec& target, const Body& body, const SeaState& state,
-                                        const WaveField& sea, double duration_s, std::uint64_t seed,
-                                        std::uint64_t sea_index, std::size_t first_body, int threads) {
-  const auto moved = [&](const Vec3& rest, std::size_t number) {
-    const std::uint64_t index = body_index(sea_index, number);
+std::vector<Trajectory> simulate_target(const TargetSpec& target, std::span<const Body* const> models,
+                                        const SeaState& state, const WaveField& sea, double duration_s,
+                                        std::uint64_t seed, std::uint64_t sea_index, std::size_t first_body,
+                                        int threads) {
+  SEAGLINT_CHECK(models.size() == 1 || models.size() == body_count(target.layout),
+                 fmt::format("{} motion models of {} bodies", models.size(), body_count(target.layout)));
+  const auto moved = [&](const Vec3& rest, std::size_t i) {
+    const Body& body = *models[models.size() == 1 ? 0 : i];
+    const std::uint64_t index = body_index(sea_index, first_body + i);
     if (target.motion.waves == WaveSharing::kSameField)
       return simulate_motion(body, rest, sea, duration_s, seed, index);
     return simulate_motion(body, rest, realise_sea(state, seed, kIndependentSeas + index), duration_s, seed, index);
@@ -57,14 +61,14 @@ std::vector<Trajectory> simulate_target(const TargetSpec& target, const Body& bo
   std::vector<Trajectory> trajectories(rests.size());
   if (is_raft(target.layout)) {
     const Vec3 origin = raft_origin(target);
-    const Trajectory raft = moved(origin, first_body);
+    const Trajectory raft = moved(origin, 0);
     for (std::size_t i = 0; i < rests.size(); ++i)
       trajectories[i] = raft.of_point(rests[i] - origin).turned(headings[i]);
     return trajectories;
   }
   parallel_for(rests.size(), thread_count(threads), [&](std::size_t i) {
     const Vec3 above(0, 0, heights_m[i]);
-    trajectories[i] = moved(rests[i] - above, first_body + i).of_point(above).turned(headings[i]);
+    trajectories[i] = moved(rests[i] - above, i).of_point(above).turned(headings[i]);
   });
   return trajectories;
 }

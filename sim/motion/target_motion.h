@@ -4,6 +4,7 @@
 // Motion of all bodies of a target in one sea realisation.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "sim/motion/body.h"
@@ -32,14 +33,15 @@ std::vector<Vec3> rest_positions(const TargetSpec& target);
 // (below 65536).
 std::uint64_t body_index(std::uint64_t sea_index, std::size_t body);
 
-// One trajectory per body of the layout, from t = 0 to duration_s, all with the properties `body`, which of a rigid
-// raft (layout.bodies: rigid) are those of the raft: it moves in the waves at its origin, and each reflector with it.
-// A free body with a height of its own is that far above its float, fixed to it. Bodies are turned by their headings.
-// `sea` is realise_sea(state, seed, sea_index), common to all bodies unless the spec has `waves: independent`: then
-// each body has a realisation of its own (index body_index + 2^48). The result does not depend on `threads` (0 = all).
-// first_body: number of bodies of the targets before this one.
-std::vector<Trajectory> simulate_target(const TargetSpec& target, const Body& body, const SeaState& state,
-                                        const WaveField& sea, double duration_s, std::uint64_t seed,
-                                        std::uint64_t sea_index, std::size_t first_body = 0, int threads = 1);
+// One trajectory per body of the layout, from t = 0 to duration_s. `models`: the motion model of each body, or one for
+// all; a rigid raft (layout.bodies: rigid) has the first: it moves in the waves at its origin, and each reflector with
+// it. A free body with a height of its own is that far above its float, fixed to it. Bodies are turned by their
+// headings. `sea` is realise_sea(state, seed, sea_index), common to all bodies unless the spec has `waves:
+// independent`: then each body has a realisation of its own (index body_index + 2^48). The result does not depend on
+// `threads` (0 = all). first_body: number of bodies of the targets before this one.
+std::vector<Trajectory> simulate_target(const TargetSpec& target, std::span<const Body* const> models,
+                                        const SeaState& state, const WaveField& sea, double duration_s,
+                                        std::uint64_t seed, std::uint64_t sea_index, std::size_t first_body = 0,
+                                        int threads = 1);
 
 }  // namespace seaglint

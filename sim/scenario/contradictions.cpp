@@ -255,6 +255,7 @@ void check_layout(const TargetSpec& target, const ScenarioDocument& document) {
   };
   ordered(target.layout->heights_m, ".heights.lowest_m");
   ordered(target.layout->headings_deg, ".headings.lowest_deg");
+  ordered(target.layout->scales, ".scales.lowest");
   try {
     layout_positions(target.layout);
   } catch (const InputError& error) {
@@ -272,7 +273,8 @@ void check_target(const TargetSpec& target, const ScenarioDocument& document) {
   if (!target.mesh.empty()) document.fail_at(path, "must have a mesh or points, not both");
   // Points have velocities of their own: a motion section is an error.
   const YamlNode* node = document.root.find("targets")->find(target.name);
-  for (const char* key : {"unit", "material", "part_materials", "sheet_thickness_mm", "layout", "motion", "solver"}) {
+  for (const char* key :
+       {"unit", "scale", "material", "part_materials", "sheet_thickness_mm", "layout", "motion", "solver"}) {
     if (node->find(key) != nullptr)
       document.fail_at(fmt::format("{}.{}", path, key), "not allowed here: valid only with a mesh");
   }

@@ -152,9 +152,9 @@ void visit(AreaLayout& layout, FieldVisitor& v) {
 }
 
 void visit_range(FieldVisitor& v, const char* key, std::optional<BodyRange>& range, const char* lowest,
-                 const char* highest, const Bound& bound) {
+                 const char* highest, const Bound& bound, const BodyRange& standard = {}) {
   if (!v.optional(key, range.has_value())) return;
-  if (!range) range.emplace();
+  if (!range) range = standard;
   v.section(key, [&](FieldVisitor& ends) {
     ends.number(lowest, range->lowest, bound);
     ends.number(highest, range->highest, bound);
@@ -175,6 +175,7 @@ void visit(LayoutSpec& spec, FieldVisitor& v) {
   visit_choice(v, "bodies", spec.bodies, {"independent", "rigid"});
   visit_range(v, "heights", spec.heights_m, "lowest_m", "highest_m", within(-10, 100));
   visit_range(v, "headings", spec.headings_deg, "lowest_deg", "highest_deg", within(-360, 360));
+  visit_range(v, "scales", spec.scales, "lowest", "highest", within(1e-3, 1e3), {1, 1});
   if (v.optional("seed", spec.seed != 0)) v.natural("seed", spec.seed);
 }
 
@@ -249,26 +250,27 @@ void visit(CompanionSpec& spec, FieldVisitor& v) {
   v.number("y_m", spec.y_m, within(-1e5, 1e5));
 }
 
+template <typename Spec>
+void visit_list(FieldVisitor& v, const char* key, std::vector<Spec>& items, std::size_t most) {
+  if (!v.optional(key, !items.empty())) return;
+  v.list(
+      key, items.size(), most, [&](std::size_t size) { items.resize(size); },
+      [&](std::size_t i, FieldVisitor& item) { visit(items[i], item); });
+}
+
 // A mesh with its motion, or ideal points; fields of a mesh are not written for points.
 void visit(TargetSpec& spec, FieldVisitor& v) {
   visit_choice(v, "role", spec.role, {"class", "part"});
   const bool is_class = spec.role == TargetRole::kClass;
   if (is_class) v.require("label");
   if (v.optional("label", is_class)) v.integer("label", spec.label, within(0, kMaxClasses - 1));
-  if (v.optional("points", !spec.points.empty())) {
-    v.list(
-        "points", spec.points.size(), 10000, [&](std::size_t size) { spec.points.resize(size); },
-        [&](std::size_t i, FieldVisitor& item) { visit(spec.points[i], item); });
-  }
+  visit_list(v, "points", spec.points, 10000);
   if (v.optional("mesh", !spec.mesh.empty())) v.text("mesh", spec.mesh);
   const bool is_mesh = spec.points.empty();
   if (v.optional("unit", is_mesh)) visit_word(v, "unit", spec.unit, {"m", "cm", "mm", "km", "in", "ft"});
+  if (v.optional("scale", is_mesh)) v.number("scale", spec.scale, within(1e-3, 1e3));
   if (v.optional("material", is_mesh)) v.text("material", spec.material);
-  if (v.optional("part_materials", !spec.part_materials.empty())) {
-    v.list(
-        "part_materials", spec.part_materials.size(), 1000, [&](std::size_t size) { spec.part_materials.resize(size); },
-        [&](std::size_t i, FieldVisitor& item) { visit(spec.part_materials[i], item); });
-  }
+  visit_list(v, "part_materials", spec.part_materials, 1000);
   if (v.optional("sheet_thickness_mm", is_mesh))
     v.number("sheet_thickness_mm", spec.sheet_thickness_mm, within(0, 1000));
   if (v.optional("layout", spec.layout.has_value())) {
@@ -277,11 +279,7 @@ void visit(TargetSpec& spec, FieldVisitor& v) {
   }
   if (v.optional("motion", is_mesh)) v.section("motion", [&](FieldVisitor& motion) { visit(spec.motion, motion); });
   if (v.optional("solver", is_mesh)) v.section("solver", [&](FieldVisitor& solver) { visit(spec.solver, solver); });
-  if (v.optional("companions", !spec.companions.empty())) {
-    v.list(
-        "companions", spec.companions.size(), 100, [&](std::size_t size) { spec.companions.resize(size); },
-        [&](std::size_t i, FieldVisitor& item) { visit(spec.companions[i], item); });
-  }
+  visit_list(v, "companions", spec.companions, 100);
 }
 
 void visit(ClutterSpec& spec, FieldVisitor& v) {

@@ -112,6 +112,7 @@ struct TargetSpec {
   int label = 0;                         // of a class: index into dataset.classes
   std::string mesh;              // path relative to the scenario's folder or the working directory; empty for points
   std::string unit = "m";        // of the mesh file: m, cm, mm, km, in, ft
+  double scale = 1;              // factor by which the mesh is enlarged about its origin, 1e-3 <= x <= 1e3
   std::string material = "pec";  // pec, a name of assets/materials, or a file
   std::vector<PartMaterialSpec> part_materials;  // later entries take precedence
   double sheet_thickness_mm = 0;                 // of open surfaces, 0 <= x <= 1000

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 
 #include "radar/rvmap/rv_map.h"
 #include "sim/core/numbers/constants.h"
@@ -34,6 +35,13 @@ struct Reach {
   Span range_m, velocity_mps;
 };
 
+// Of a mesh in range, relative to its origin, m.
+Span extent_of(const TriangleMesh& mesh, const Vec3& r_hat) {
+  Span extent;
+  for (const Vec3& vertex : mesh.vertices) extent.include(-r_hat.dot(vertex));
+  return extent;
+}
+
 void extend(Reach& reach, const Target& target, const Vec3& r_hat, double interval_s) {
   for (const PointSpec& point : target.spec.points) {
     const double range = -r_hat.dot(Vec3(point.position_m.data())),
@@ -42,10 +50,14 @@ void extend(Reach& reach, const Target& target, const Vec3& r_hat, double interv
     reach.range_m.include(range + velocity * interval_s);
     reach.velocity_mps.include(velocity);
   }
-  Span body;
-  for (const Vec3& vertex : target.mesh.vertices) body.include(-r_hat.dot(vertex));
+  std::map<const BodyModel*, Span> sizes;
+  for (const auto& model : target.models) {
+    if (!sizes.contains(model.get())) sizes[model.get()] = extent_of(model->prepared->mesh, r_hat);
+  }
   const double relative_velocity_mps = -r_hat.dot(target.relative_velocity_mps);
-  for (const Vec3& rest : target.rest_positions) {
+  for (std::size_t i = 0; i < target.rest_positions.size(); ++i) {
+    const Vec3& rest = target.rest_positions[i];
+    const Span& body = sizes[target.models[i].get()];
     for (const double passed_m : {0.0, relative_velocity_mps * interval_s}) {
       reach.range_m.include(-r_hat.dot(rest) + passed_m + body.low);
       reach.range_m.include(-r_hat.dot(rest) + passed_m + body.high);

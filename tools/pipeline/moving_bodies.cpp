@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <map>
+#include <utility>
 #include <variant>
 
 #include "sim/core/process/error.h"
@@ -13,7 +15,7 @@
 #include "sim/motion/target_motion.h"
 #include "sim/scenario/sample_plan.h"
 #include "sim/sea/realisation.h"
-#include "tools/pipeline/scene.h"
+#include "tools/target/body_model.h"
 
 namespace seaglint {
 
@@ -26,6 +28,27 @@ double mean_speed(const Body& body) {
   if (const auto* ship = std::get_if<ShipParticulars>(&body.model)) return ship->speed;
   if (const auto* table = std::get_if<RaoTable>(&body.model)) return table->speed();
   return 0;
+}
+
+// A body of one size: its mesh and its motion model.
+struct SizedBody {
+  TriangleMesh mesh;
+  Body motion;
+};
+
+// Those of a target by the factors of their sizes.
+std::map<double, SizedBody> bodies_of(const Scenario& scenario, const TargetSpec& target, const StopFlag& stop) {
+  const TriangleMesh mesh = read_mesh(find_mesh(scenario, target), target.unit);
+  std::map<double, SizedBody> sizes;
+  for (const double scale : body_scales(target.layout, target.scale)) {
+    if (sizes.contains(scale)) continue;
+    if (stop) throw Interrupted();
+    TriangleMesh large = enlarged(mesh, scale);
+    Body motion =
+        sizes.empty() || moves_by_size(target) ? load_body(scenario, target, large) : sizes.begin()->second.motion;
+    sizes.emplace(scale, SizedBody{std::move(large), std::move(motion)});
+  }
+  return sizes;
 }
 
 }  // namespace
@@ -49,19 +72,20 @@ MovingBodies simulate_bodies(const Scenario& scenario, const SeaChoice& choice, 
   for (const TargetSpec& target : scenario.targets) {
     if (target.mesh.empty() || target.role == TargetRole::kPart) continue;
     if (stop) throw Interrupted();
-    const TriangleMesh mesh = read_mesh(find_mesh(scenario, target), target.unit);
-    const Body& body = scene.targets.emplace_back(load_body(scenario, target, mesh));
-    loaded(target, body);
-    const std::vector<Trajectory> all = simulate_target(target, body, scene.sea.state, scene.sea.field, duration_s,
+    const std::map<double, SizedBody> sizes = bodies_of(scenario, target, stop);
+    const std::vector<double> scales = body_scales(target.layout, target.scale);
+    std::vector<const Body*> models;
+    for (const double scale : scales) models.push_back(&sizes.at(scale).motion);
+    const Body& first = scene.targets.emplace_back(*models.front());
+    loaded(target, first);
+    const std::vector<Trajectory> all = simulate_target(target, models, scene.sea.state, scene.sea.field, duration_s,
                                                         scenario.seed, key, first_body, threads);
     first_body += all.size();
-    if (is_raft(target.layout)) {
-      scene.bodies.push_back({target.name, all.front(), mesh, mean_speed(body)});
-      continue;
-    }
-    for (std::size_t i = 0; i < all.size(); ++i) {
+    const std::size_t moving = is_raft(target.layout) ? 1 : all.size();
+    for (std::size_t i = 0; i < moving; ++i) {
       scene.bodies.push_back(
-          {target.layout ? fmt::format("{}_{}", target.name, i + 1) : target.name, all[i], mesh, mean_speed(body)});
+          {target.layout && !is_raft(target.layout) ? fmt::format("{}_{}", target.name, i + 1) : target.name, all[i],
+           sizes.at(scales[i]).mesh, mean_speed(*models[i])});
     }
   }
   if (scene.bodies.empty()) throw InputError("targets: none of them is a mesh, so nothing moves in the waves");

@@ -31,7 +31,8 @@ struct ChosenSea {
 ChosenSea choose_sea(const Scenario& scenario, const SeaChoice& choice);
 
 // Bodies of every mesh target but parts in the order of the file, `ship`, `array_1`, `array_2`, ..., and the motion
-// model of each target. A rigid raft is one body: its first reflector, whose angles and translations are the raft's.
+// model of each target's first body. A rigid raft is one body: its first reflector, whose angles and translations are
+// the raft's.
 struct MovingBodies {
   ChosenSea sea;
   std::vector<Body> targets;

@@ -98,18 +98,20 @@ BodyResponse Pipeline::target_response(std::size_t index, const Observation& see
   const SeaReflection* sea = scenario.sea_reflection.enabled ? &mirror : nullptr;
   const TargetSpec& spec = target.spec;
   const Vec3& relative_velocity_mps = target.relative_velocity_mps;
-  if (!target.scatterer) {
+  if (target.models.empty()) {
     if (sea != nullptr)
       return {point_response_over_sea(spec.points, r_hat, sampling, scenario.radar.polarisation, *sea), 0};
     return {point_response(spec.points, r_hat, sampling), 0};
   }
   BodyResponse sum;
-  for (const Trajectory& body : scene->bodies[index]) {
+  for (std::size_t i = 0; i < target.models.size(); ++i) {
+    const Trajectory& body = scene->bodies[index][i];
     // A companion is at its given place at the start of the interval.
     const Trajectory carried =
         relative_velocity_mps.isZero(0) ? body : body.with_drift(relative_velocity_mps, sampling.pulse_time_s.front());
-    const BodyResponse term = body_response(*target.scatterer, carried, r_hat, scenario.radar.polarisation, sampling,
-                                            spec.solver, 1, sea, stop, target.traces.get());
+    const TracedTarget& model = *target.models[i]->prepared;
+    const BodyResponse term = body_response(*model.scatterer, carried, r_hat, scenario.radar.polarisation, sampling,
+                                            spec.solver, 1, sea, stop, model.traces.get());
     sum.traces += term.traces;
     if (sum.response.values.empty()) {
       sum.response = term.response;

@@ -85,7 +85,7 @@ class Pipeline {
 
   Scenario scenario_;
   SamplePlan plan_;
-  mutable LoadedTargets loaded_;
+  mutable LoadedBodies loaded_;
   std::shared_ptr<const std::vector<Target>> targets_;
   double range_window_m_ = 0;
 

@@ -34,7 +34,7 @@ Scenario by_the_other_method(Scenario scenario) {
 }
 
 bool has_solver(const Pipeline& pipeline, std::size_t target) {
-  const auto is_mesh = [&](std::size_t t) { return pipeline.targets()[t].scatterer != nullptr; };
+  const auto is_mesh = [&](std::size_t t) { return !pipeline.targets()[t].models.empty(); };
   return is_mesh(target) || std::ranges::any_of(pipeline.targets()[target].companions, is_mesh);
 }
 

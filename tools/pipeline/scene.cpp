@@ -15,21 +15,12 @@
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/motion/simulate.h"
 #include "sim/motion/target_motion.h"
-#include "sim/scattering/target/prepare_target.h"
 #include "sim/scattering/target/target_check.h"
-#include "sim/scenario/writer.h"
 #include "sim/sea/realisation.h"
 
 namespace seaglint {
 
 namespace {
-
-// Largest distance of a vertex from the mesh's origin, m.
-double radius_m(const TriangleMesh& mesh) {
-  double radius = 0;
-  for (const Vec3& vertex : mesh.vertices) radius = std::max(radius, vertex.norm());
-  return radius;
-}
 
 double interval_length_s(const RadarSpec& radar) { return radar.pulses * radar.pri_us * 1e-6; }
 
@@ -46,56 +37,15 @@ double reach_m(const Target& target, double interval_s) {
     const Vec3 velocity(point.velocity_mps[0], point.velocity_mps[1], point.velocity_mps[2]);
     reach = std::max({reach, position.norm(), (position + velocity * interval_s).norm()});
   }
-  const double radius = radius_m(target.mesh);
   const std::vector<double> heights_m = body_heights_m(target.spec.layout);
   for (std::size_t i = 0; i < target.rest_positions.size(); ++i) {
     const Vec3& rest = target.rest_positions[i];
     // A reflector of a raft turns about the raft's origin with an arm, any other body about its place on the water.
     const Vec3 pivot = is_raft(target.spec.layout) ? raft_origin(target.spec) : Vec3(rest - Vec3(0, 0, heights_m[i]));
-    const double arm = (rest - pivot).norm() + radius;
+    const double arm = (rest - pivot).norm() + target.radii_m[i];
     reach = std::max({reach, pivot.norm() + arm, (pivot + target.relative_velocity_mps * interval_s).norm() + arm});
   }
   return reach;
-}
-
-// Mesh and materials of a target, with their keys for error messages.
-TargetSource source_of(const Scenario& scenario, const TargetSpec& spec) {
-  const std::string path = "targets." + spec.name;
-  TargetSource source{.mesh = find_mesh(scenario, spec),
-                      .unit = spec.unit,
-                      .loaded = nullptr,
-                      .materials = {},
-                      .material_folder = scenario.folder,
-                      .lowest_hz = 1e9 * lowest_ghz(scenario.radar),
-                      .highest_hz = 1e9 * highest_ghz(scenario.radar),
-                      .materials_place = place_of(scenario, path),
-                      .frequencies_place = place_of(scenario, path),
-                      .mesh_place = place_of(scenario, path + ".mesh")};
-  for (std::size_t i = 0; i < spec.part_materials.size(); ++i) {
-    const PartMaterialSpec& part = spec.part_materials[i];
-    source.materials.push_back(
-        {part.part, part.material, place_of(scenario, fmt::format("{}.part_materials.{}.material", path, i))});
-  }
-  source.materials.push_back({std::nullopt, spec.material, place_of(scenario, path + ".material")});
-  return source;
-}
-
-// Lowest rest height of a body's mesh origin above the water, m.
-double lowest_height_m(const TargetSpec& spec) {
-  return rest_height_m(spec) + std::ranges::min(body_heights_m(spec.layout));
-}
-
-ScattererSettings scatterer_settings(const Scenario& scenario, const TargetSpec& spec) {
-  ScattererSettings settings{
-      .waterline_m = std::nullopt,
-      .crease_rad = spec.solver.crease_deg ? std::optional(radians(*spec.solver.crease_deg)) : std::nullopt,
-      .sheet_thickness_m = 1e-3 * spec.sheet_thickness_mm,
-      .edges = spec.solver.edges,
-      .lowest_hz = 1e9 * lowest_ghz(scenario.radar),
-      .highest_hz = 1e9 * highest_ghz(scenario.radar)};
-  // The radar's image illuminates the hull from below. Bodies at several heights are above the water.
-  if (scenario.sea_reflection.enabled) settings.waterline_m = -lowest_height_m(spec);
-  return settings;
 }
 
 // Throws InputError unless the radar is far from all bodies of one map, including those far from the reference point.
@@ -125,56 +75,13 @@ void check_series(const Scenario& scenario, const SamplePlan& plan, const Target
   }
 }
 
-// Throws InputError for a target that is entirely under water, if the sea reflects.
-void check_above_water(const Scenario& scenario, const TargetSpec& spec, const TriangleMesh& mesh) {
-  if (!scenario.sea_reflection.enabled) return;
-  const double top_m = bounds(mesh).upper.z(), bottom_m = bounds(mesh).lower.z(), height_m = lowest_height_m(spec);
-  if (spec.layout && spec.layout->heights_m && bottom_m + height_m < 0) {
-    throw InputError(fmt::format(
-        "{}: its lowest body reaches {:.6g} m below the water: with sea_reflection bodies at several heights must be "
-        "above it",
-        place_of(scenario, fmt::format("targets.{}.layout.heights", spec.name)), -(bottom_m + height_m)));
-  }
-  if (top_m + height_m > 0) return;
-  if (spec.motion.model == MotionModel::kFloat || is_moving_raft(spec)) {
-    throw InputError(fmt::format(
-        "{}: value {}: must be greater than {:.6g} with sea_reflection, else the whole target is under water",
-        place_of(scenario, fmt::format("targets.{}.motion.origin_above_waterline_m", spec.name)), height_m, -top_m));
-  }
-  throw InputError(
-      fmt::format("{}: its highest point is at z = {:.6g} m: must be above 0, the water, with sea_reflection, else the "
-                  "whole target is under water",
-                  place_of(scenario, fmt::format("targets.{}.mesh", spec.name)), top_m));
-}
-
-}  // namespace
-
-Body load_body(const Scenario& scenario, const TargetSpec& spec, const TriangleMesh& mesh) {
-  try {
-    return make_body(spec.motion,
-                     is_raft(spec.layout) ? BodyShape{.box = {}, .hull = {}, .is_raft = true} : shape_of(mesh),
-                     scenario.folder);
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}", place_of(scenario, "targets." + spec.name), error.what()));
-  }
-}
-
-namespace {
-
-Target load_target(const Scenario& scenario, const SamplePlan& plan, const TargetSpec& spec,
-                   const std::shared_ptr<TraceMemory>& memory) {
+Target load_target(const Scenario& scenario, const SamplePlan& plan, const TargetSpec& spec, LoadedBodies& loaded) {
   Target target;
   target.spec = spec;
   if (spec.mesh.empty()) return target;
-  SolverMesh whole = load_solver_mesh(source_of(scenario, spec));
-  target.body = load_body(scenario, spec, whole.mesh);
-  check_series(scenario, plan, spec, target.body);
-  check_above_water(scenario, spec, whole.mesh);
-  PreparedTarget prepared = prepare_target(std::move(whole), scatterer_settings(scenario, spec));
-  target.mesh = std::move(prepared.mesh);
-  target.warnings = std::move(prepared.warnings);
-  target.scatterer = std::move(prepared.scatterer);
-  target.traces = std::make_shared<SharedTraces>(memory);
+  target.models = loaded.models(scenario, spec);
+  for (const auto& model : target.models) target.radii_m.push_back(model->radius_m);
+  check_series(scenario, plan, spec, *target.models.front()->motion);
   return target;
 }
 
@@ -226,18 +133,6 @@ std::vector<Target> placed_targets(const Scenario& scenario, const std::function
   return targets;
 }
 
-// The fields of a target that determine its mesh, scatterer and motion model, as text.
-std::string fields_of(const Scenario& scenario, const TargetSpec& spec) {
-  Scenario alone = scenario;
-  alone.targets = {spec};
-  if (spec.layout) {  // a raft has another motion model than its bodies, and heights are above the waterline
-    LayoutSpec& layout = *alone.targets[0].layout;
-    layout = {.line = LineLayout{}, .bodies = layout.bodies, .heights_m = layout.heights_m};
-  }
-  alone.targets[0].companions.clear();
-  return effective_yaml(alone);
-}
-
 // Largest reach of the targets and of their companions, m; a part is only where it accompanies others.
 double reach_of_all_m(const Scenario& scenario, const std::vector<Target>& targets) {
   double reach = 0;
@@ -251,7 +146,7 @@ double reach_of_all_m(const Scenario& scenario, const std::vector<Target>& targe
 
 // Largest reach of any target with the values drawn in any sea, by meshes as they are in their files.
 double largest_reach_m(const Scenario& scenario, const SamplePlan& plan) {
-  std::map<std::string, TriangleMesh> meshes;
+  std::map<std::string, double> radii_m;  // by unit and mesh
   double reach = 0;
   for (std::size_t state = 0; state < plan.sea_states().size(); ++state) {
     for (int realisation = 0; realisation < scenario.dataset.realisations_per_case; ++realisation) {
@@ -260,9 +155,9 @@ double largest_reach_m(const Scenario& scenario, const SamplePlan& plan) {
         Target target;
         target.spec = spec;
         if (spec.mesh.empty()) return target;
-        TriangleMesh& mesh = meshes[spec.unit + " " + spec.mesh];
-        if (mesh.vertices.empty()) mesh = read_mesh(find_mesh(drawn, spec), spec.unit);
-        target.mesh = mesh;
+        const std::string mesh = spec.unit + " " + spec.mesh;
+        if (!radii_m.contains(mesh)) radii_m[mesh] = radius_m(read_mesh(find_mesh(drawn, spec), spec.unit));
+        for (const double scale : body_scales(spec.layout, spec.scale)) target.radii_m.push_back(scale * radii_m[mesh]);
         return target;
       });
       reach = std::max(reach, reach_of_all_m(drawn, targets));
@@ -278,26 +173,10 @@ bool draws_targets(const Scenario& scenario) {
 
 }  // namespace
 
-Target LoadedTargets::get(const Scenario& scenario, const SamplePlan& plan, const TargetSpec& spec) {
-  const std::lock_guard lock(mutex_);
-  const std::string fields = fields_of(scenario, spec);
-  const auto known =
-      std::find_if(targets_.begin(), targets_.end(), [&](const auto& entry) { return entry.first == fields; });
-  if (known != targets_.end()) {
-    std::rotate(known, known + 1, targets_.end());
-  } else {
-    if (targets_.size() == kKept) targets_.erase(targets_.begin());
-    targets_.emplace_back(fields, load_target(scenario, plan, spec, memory_));
-  }
-  Target target = targets_.back().second;
-  target.spec = spec;
-  return target;
-}
-
-std::vector<Target> load_targets(const Scenario& scenario, const SamplePlan& plan, LoadedTargets* loaded) {
-  LoadedTargets own;
-  LoadedTargets& known = loaded != nullptr ? *loaded : own;
-  return placed_targets(scenario, [&](const TargetSpec& spec) { return known.get(scenario, plan, spec); });
+std::vector<Target> load_targets(const Scenario& scenario, const SamplePlan& plan, LoadedBodies* loaded) {
+  LoadedBodies alone;
+  return placed_targets(
+      scenario, [&](const TargetSpec& spec) { return load_target(scenario, plan, spec, loaded ? *loaded : alone); });
 }
 
 double range_window_m(const Scenario& scenario, const SamplePlan& plan, const std::vector<Target>& targets) {
@@ -324,10 +203,12 @@ Scene make_scene(const Scenario& scenario, const SamplePlan& plan, const std::ve
 
   Scene scene{realise_sea(state, scenario.seed, key), {}, {}};
   for (const Target& target : targets) {
+    std::vector<const Body*> motions;
+    for (const auto& model : target.models) motions.push_back(model->motion.get());
     scene.bodies.push_back(target.rest_positions.empty()
                                ? std::vector<Trajectory>{}
-                               : simulate_target(target.spec, target.body, state, scene.sea, duration_s, scenario.seed,
-                                                 key, target.first_body));
+                               : simulate_target(target.spec, motions, state, scene.sea, duration_s, scenario.seed, key,
+                                                 target.first_body));
   }
   return scene;
 }

@@ -4,58 +4,32 @@
 // The bodies of a scenario and their motion in one sea realisation.
 
 #include <memory>
-#include <mutex>
-#include <string>
-#include <utility>
 #include <vector>
 
-#include "sim/geometry/mesh/triangle_mesh.h"
-#include "sim/motion/body.h"
 #include "sim/motion/kinematics/trajectory.h"
-#include "sim/scattering/interval/shared_traces.h"
-#include "sim/scattering/target/scatterer.h"
 #include "sim/scenario/sample_plan.h"
 #include "sim/scenario/scenario.h"
 #include "sim/sea/wave_field.h"
+#include "tools/target/body_model.h"
 
 namespace seaglint {
 
-// A target as loaded: one mesh shared by its bodies, or ideal points.
+// A target as loaded: bodies of one mesh, or ideal points.
 struct Target {
   TargetSpec spec;
-  TriangleMesh mesh;                           // empty for points
-  std::vector<std::string> warnings;           // about the mesh, a sentence each
-  std::shared_ptr<const Scatterer> scatterer;  // of the mesh; null for points
-  std::shared_ptr<SharedTraces> traces;        // of the scatterer, for solver.shared_traces; null for points
-  Body body;                                   // motion model; unused for points
-  std::vector<Vec3> rest_positions;            // of the bodies' origins, target frame; empty for points and parts
-  std::size_t first_body = 0;                  // bodies are numbered over all targets but parts, in order
-  std::vector<std::size_t> companions;         // indices of its companions, which follow the targets of the scenario
+  std::vector<std::shared_ptr<const BodyModel>> models;  // of each body; empty for points
+  std::vector<double> radii_m;          // largest distance of each body's vertices from its origin; empty for points
+  std::vector<Vec3> rest_positions;     // of the bodies' origins, target frame; empty for points and parts
+  std::size_t first_body = 0;           // bodies are numbered over all targets but parts, in order
+  std::vector<std::size_t> companions;  // indices of its companions, which follow the targets of the scenario
   // of a companion, in the frame of the target that it accompanies, which may be under way
   Vec3 relative_velocity_mps = Vec3::Zero();
-};
-
-// Motion model of a target from its mesh, of a rigid raft from the keys alone, and the files that its `motion` names.
-// Throws InputError naming the target.
-Body load_body(const Scenario& scenario, const TargetSpec& spec, const TriangleMesh& mesh);
-
-// Targets that were loaded last, so that seas whose draws leave a target as it is share it. Any thread may use it.
-class LoadedTargets {
- public:
-  // Mesh, motion model and scatterer of a target, without its bodies' places.
-  Target get(const Scenario& scenario, const SamplePlan& plan, const TargetSpec& spec);
-
- private:
-  static constexpr std::size_t kKept = 16;
-  std::shared_ptr<TraceMemory> memory_ = std::make_shared<TraceMemory>();
-  std::mutex mutex_;
-  std::vector<std::pair<std::string, Target>> targets_;  // by the fields that determine them; last used last
 };
 
 // Loads the targets of a scenario without variations in its order, then one more target per companion, moved to its
 // place. Throws InputError for a mesh that is missing or invalid, and for a material that is missing, invalid or not
 // defined at the radar's frequencies.
-std::vector<Target> load_targets(const Scenario& scenario, const SamplePlan& plan, LoadedTargets* loaded = nullptr);
+std::vector<Target> load_targets(const Scenario& scenario, const SamplePlan& plan, LoadedBodies* loaded = nullptr);
 
 // Full width, m, of the range window that contains the response of every target of the scenario at every aspect, with
 // all values that its plan draws. It is one number for all samples: a window fitted to the target would reveal its

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <variant>
 
@@ -32,14 +33,28 @@ void add_doubt(std::vector<std::string>& lines, const char* key, int components,
       key, components, sea.peak_period_s, sea.width, std::ceil(components * sea.width / kMaxStratumWidth)));
 }
 
+// Those of a target's smallest and largest body.
+void add_mesh_warnings(std::vector<std::string>& lines, const Target& target) {
+  if (target.models.empty()) return;
+  const auto [smallest, largest] =
+      std::ranges::minmax(target.models, {}, [](const auto& model) { return model->scale; });
+  const std::vector<std::string>& of_smallest = smallest->prepared->warnings;
+  for (const std::string& warning : of_smallest)
+    lines.push_back(fmt::format("targets.{}.mesh: {}", target.spec.name, warning));
+  for (const std::string& warning : largest->prepared->warnings) {
+    if (std::ranges::find(of_smallest, warning) == of_smallest.end())
+      lines.push_back(
+          fmt::format("targets.{}.mesh, {:.6g} times as large: {}", target.spec.name, largest->scale, warning));
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> mesh_warnings(const Pipeline& pipeline) {
   std::vector<std::string> lines;
   // no companions
   for (const Target& target : std::span(pipeline.targets()).first(pipeline.scenario().targets.size())) {
-    for (const std::string& warning : target.warnings)
-      lines.push_back(fmt::format("targets.{}.mesh: {}", target.spec.name, warning));
+    add_mesh_warnings(lines, target);
   }
   return lines;
 }
@@ -47,7 +62,8 @@ std::vector<std::string> mesh_warnings(const Pipeline& pipeline) {
 std::vector<std::string> motion_warnings(const Pipeline& pipeline) {
   std::vector<std::string> lines;
   for (const Target& target : std::span(pipeline.targets()).first(pipeline.scenario().targets.size())) {
-    const auto* series = std::get_if<AttitudeSeries>(&target.body.model);
+    const auto* series =
+        target.models.empty() ? nullptr : std::get_if<AttitudeSeries>(&target.models.front()->motion->model);
     if (series == nullptr || series->grid != TimeGrid::kIrregular) continue;
     lines.push_back(fmt::format("targets.{}.motion.file: the times of {} are not uniform: resampled by a spline",
                                 target.spec.name, series->source));
@@ -67,7 +83,7 @@ void report_motion_file(const TargetSpec& target, const Body& body) {
 
 void report_motion_files(const Pipeline& pipeline) {
   for (const Target& target : std::span(pipeline.targets()).first(pipeline.scenario().targets.size()))
-    report_motion_file(target.spec, target.body);
+    if (!target.models.empty()) report_motion_file(target.spec, *target.models.front()->motion);
 }
 
 std::vector<std::string> sea_warnings(const Scenario& scenario, std::span<const SeaState> states) {

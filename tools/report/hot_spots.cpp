@@ -52,7 +52,7 @@ std::string packed_triangles(const TriangleMesh& mesh) {
 
 ordered_json json_of(const Target& target, const Scenario& scenario, const std::vector<View>& views, int threads,
                      const StopFlag* stop) {
-  const Scatterer& scatterer = *target.scatterer;
+  const Scatterer& scatterer = *target.models.front()->prepared->scatterer;
   const double wavelength = kSpeedOfLight / (1e9 * centre_ghz(scenario.radar)), k = 2 * kPi / wavelength;
   const SolverSpec& solver = target.spec.solver;
   std::vector<FacetLevels> levels;
@@ -97,15 +97,16 @@ HotSpots hot_spots(const Scenario& scenario, const SamplePlan& plan, const std::
   std::size_t facets = 0;
   for (std::size_t t = 0; t < std::min(targets.size(), scenario.targets.size()); ++t) {  // no companions
     const Target& target = targets[t];
-    if (!target.scatterer) continue;
-    if (facets + target.scatterer->facets().size() > kHotSpotFacets) {
+    if (target.models.empty()) continue;
+    const std::size_t of_body = target.models.front()->prepared->scatterer->facets().size();
+    if (facets + of_body > kHotSpotFacets) {
       left_out += fmt::format(
           " {} has {} facets, more than a page can contain: <code>seaglint rcs "
           "--export-hot-spots FILE.glb</code> colours it.",
-          escape_html(target.spec.name), target.scatterer->facets().size());
+          escape_html(target.spec.name), of_body);
       continue;
     }
-    facets += target.scatterer->facets().size();
+    facets += of_body;
     list.push_back(json_of(target, scenario, views, threads, stop));
   }
   if (list.empty()) return {"", left_out};

@@ -330,18 +330,17 @@ void add_sea(FigureList& list, const Scenario& scenario, const SamplePlan& plan,
 
 void add_targets(FigureList& list, const std::vector<Target>& targets) {
   for (const Target& target : targets) {
-    if (target.mesh.triangles.empty()) continue;
+    if (target.models.empty()) continue;
+    const TriangleMesh& mesh = target.models.front()->prepared->mesh;
     const TargetSpec& spec = target.spec;
-    const Bounds box = bounds(target.mesh);
+    const Bounds box = bounds(mesh);
     const Vec3 size = box.upper - box.lower;
     list.add_picture(
         "targets", fmt::format("target_{}", file_word(target.spec.name)),
-        [&target](const fs::path& file) {
-          write_file(file, png_bytes(picture_of(target.mesh, PictureView{.width = 1000})));
-        },
+        [&mesh](const fs::path& file) { write_file(file, png_bytes(picture_of(mesh, PictureView{.width = 1000}))); },
         fmt::format("<b>{}</b> ({}): {:.1f} × {:.1f} × {:.1f} m, {} triangles{}.", escape_html(spec.name),
                     spec.role == TargetRole::kPart ? "part of others" : fmt::format("label {}", spec.label), size.x(),
-                    size.y(), size.z(), target.mesh.triangles.size(),
+                    size.y(), size.z(), mesh.triangles.size(),
                     body_count(spec.layout) > 1 ? "; one of the bodies" + layout_text(spec.layout) : std::string()),
         fmt::format("Picture of {}", target.spec.name));
   }

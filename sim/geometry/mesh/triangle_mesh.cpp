@@ -125,6 +125,11 @@ TriangleMesh transformed(const TriangleMesh& mesh, const Mat3& rotation, const V
   return moved;
 }
 
+TriangleMesh enlarged(TriangleMesh mesh, double factor) {
+  for (Vec3& vertex : mesh.vertices) vertex *= factor;
+  return mesh;
+}
+
 std::vector<std::uint32_t> first_at_position(std::span<const Vec3> vertices) {
   // Hash table with linear probing, at most half full.
   std::vector<std::uint32_t> table(std::bit_ceil(2 * vertices.size() + 1), kUnused), first(vertices.size());

@@ -63,6 +63,9 @@ double enclosed_volume(const TriangleMesh& mesh);
 // The mesh moved by p -> R p + t, R a rotation.
 TriangleMesh transformed(const TriangleMesh& mesh, const Mat3& rotation, const Vec3& translation);
 
+// The mesh enlarged about its origin: p -> factor p, factor > 0.
+TriangleMesh enlarged(TriangleMesh mesh, double factor);
+
 // Index of the first vertex at the same position, for every vertex; -0 and +0 are one coordinate.
 std::vector<std::uint32_t> first_at_position(std::span<const Vec3> vertices);
 

@@ -17,7 +17,7 @@ namespace {
 constexpr int kMostTrials = 100;  // of random places, on average of the bodies of a layout
 
 // Indices of the layout's random numbers.
-enum Drawn : std::uint64_t { kPlaces, kHeights, kHeadings };
+enum Drawn : std::uint64_t { kPlaces, kHeights, kHeadings, kScales };
 
 Random random_of(const LayoutSpec& layout, Drawn what) { return Random({layout.seed, Stream::kLayout, what}); }
 
@@ -106,8 +106,8 @@ void require_distances(const std::vector<Vec2>& places, double min_distance_m) {
 }
 
 std::vector<double> drawn_between(const OptionalLayout& layout, const std::optional<BodyRange> LayoutSpec::*range,
-                                  Drawn what) {
-  std::vector<double> values(body_count(layout), 0.0);
+                                  Drawn what, double otherwise = 0) {
+  std::vector<double> values(body_count(layout), otherwise);
   if (!layout || !((*layout).*range)) return values;
   const BodyRange ends = *((*layout).*range);
   Random random = random_of(*layout, what);
@@ -165,6 +165,12 @@ std::vector<double> body_headings_rad(const OptionalLayout& layout) {
   return headings;
 }
 
+std::vector<double> body_scales(const OptionalLayout& layout, double target_scale) {
+  std::vector<double> scales = drawn_between(layout, &LayoutSpec::scales, kScales, 1);
+  for (double& scale : scales) scale *= target_scale;
+  return scales;
+}
+
 std::string layout_name(const OptionalLayout& layout) {
   if (!layout) return "single";
   return layout->area ? kLayoutShapeNames[static_cast<std::size_t>(layout->area->shape)] : "line";
@@ -172,15 +178,17 @@ std::string layout_name(const OptionalLayout& layout) {
 
 std::string layout_text(const OptionalLayout& layout) {
   if (!layout) return "";
-  const std::string raft = is_raft(layout) ? ", on one rigid raft" : "";
+  std::string more = is_raft(layout) ? ", on one rigid raft" : "";
+  if (layout->scales)
+    more += fmt::format(", {:g} to {:g} times as large", layout->scales->lowest, layout->scales->highest);
   if (layout->line) {
     const LineLayout& line = *layout->line;
-    return fmt::format(", {} in line, {:g} m apart{}", line.count, line.spacing_m, raft);
+    return fmt::format(", {} in line, {:g} m apart{}", line.count, line.spacing_m, more);
   }
   const AreaLayout& area = *layout->area;
   return fmt::format(", {} in {} of {:g} by {:g} m{}", area.count,
                      area.shape == LayoutShape::kRandom ? "random places" : "a " + layout_name(layout), area.length_m,
-                     area.width_m, raft);
+                     area.width_m, more);
 }
 
 }  // namespace seaglint

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Places, heights and headings of the bodies of a target's layout. A target without one is one body at the origin.
+// Places, heights, headings and sizes of the bodies of a target's layout. A target without one is one body at the
+// origin.
 
 #include <string>
 #include <vector>
@@ -38,10 +39,13 @@ std::vector<Vec2> layout_positions(const OptionalLayout& layout);
 std::vector<double> body_heights_m(const OptionalLayout& layout);
 std::vector<double> body_headings_rad(const OptionalLayout& layout);
 
+// Factors by which the bodies enlarge the mesh of a target: its `scale` times that of each body, 1 where none is given.
+std::vector<double> body_scales(const OptionalLayout& layout, double target_scale);
+
 // "line", "ring", "grid", "random"; "single" without a layout.
 std::string layout_name(const OptionalLayout& layout);
 
-// ", 4 in line, 40 m apart, on one rigid raft"; empty without a layout.
+// ", 4 in line, 40 m apart, on one rigid raft, 0.5 to 2 times as large"; empty without a layout.
 std::string layout_text(const OptionalLayout& layout);
 
 }  // namespace seaglint

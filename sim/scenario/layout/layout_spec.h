@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The `layout` of a target: how many equal bodies it consists of, their places on the water, and what differs between
-// them.
+// The `layout` of a target: how many bodies of one mesh it consists of, their places on the water, and what differs
+// between them.
 
 #include <cstdint>
 #include <optional>
@@ -47,7 +47,8 @@ struct LayoutSpec {
   LayoutBodies bodies = LayoutBodies::kIndependent;  // each body moves by itself, or all move as one rigid raft
   std::optional<BodyRange> heights_m = {};     // above the height of motion.origin_above_waterline_m, -10 <= x <= 100
   std::optional<BodyRange> headings_deg = {};  // of the bodies at rest, turned about z, -360 <= x <= 360
-  std::uint64_t seed = 0;                      // of random places, heights and headings
+  std::optional<BodyRange> scales = {};        // factors by which their meshes are enlarged, 1e-3 <= x <= 1e3
+  std::uint64_t seed = 0;                      // of random places, heights, headings and scales
 };
 
 }  // namespace seaglint

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "sim/sea/realisation.h"
 
 namespace seaglint {
@@ -18,6 +20,13 @@ TargetSpec array_of(int count) {
 }
 
 Body body_of(const TargetSpec& target) { return make_body(target.motion, {kReflector, {}}); }
+
+// With one motion model for all bodies.
+std::vector<Trajectory> simulate(const TargetSpec& target, const Body& body, const SeaState& state,
+                                 const WaveField& sea, double duration_s, std::uint64_t seed, std::uint64_t index,
+                                 std::size_t first_body = 0, int threads = 1) {
+  return simulate_target(target, std::array{&body}, state, sea, duration_s, seed, index, first_body, threads);
+}
 
 SeaState state_of(double height, double period) {
   SeaState state;
@@ -38,7 +47,7 @@ TEST(LayoutPositions, AreCentredOnTheOriginAlongX) {
 TEST(SimulateTarget, MovesEachBodyAtItsOwnPlaceInTheSameSea) {
   const SeaState state = state_of(1, 5);
   const WaveField sea = realise_sea(state, 42, 7);
-  const std::vector<Trajectory> bodies = simulate_target(array_of(4), body_of(array_of(4)), state, sea, 3, 42, 7, 0, 2);
+  const std::vector<Trajectory> bodies = simulate(array_of(4), body_of(array_of(4)), state, sea, 3, 42, 7, 0, 2);
   ASSERT_EQ(bodies.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) {
     const Pose pose = bodies[i].pose(2.5);
@@ -52,8 +61,8 @@ TEST(SimulateTarget, MovesEachBodyAtItsOwnPlaceInTheSameSea) {
 TEST(SimulateTarget, DoesNotDependOnThreads) {
   const SeaState state = state_of(1, 5);
   const WaveField sea = realise_sea(state, 42, 7);
-  const auto one = simulate_target(array_of(3), body_of(array_of(3)), state, sea, 2, 42, 7, 0, 1);
-  const auto two = simulate_target(array_of(3), body_of(array_of(3)), state, sea, 2, 42, 7, 0, 2);
+  const auto one = simulate(array_of(3), body_of(array_of(3)), state, sea, 2, 42, 7, 0, 1);
+  const auto two = simulate(array_of(3), body_of(array_of(3)), state, sea, 2, 42, 7, 0, 2);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(one[i].sample(1.7).angles, two[i].sample(1.7).angles);
 }
 
@@ -66,7 +75,7 @@ TEST(SimulateTarget, IndependentBodiesHaveSeparateSeas) {
   TargetSpec target = array_of(2);
   target.layout->line->spacing_m = 1;
   const auto difference = [&] {
-    const auto bodies = simulate_target(target, body_of(target), long_waves, sea, 30, 42, 7);
+    const auto bodies = simulate(target, body_of(target), long_waves, sea, 30, 42, 7);
     double sum = 0;
     for (double t = 0; t <= 30; t += 1) sum += (bodies[0].sample(t).angles - bodies[1].sample(t).angles).norm();
     double size = 0;
@@ -90,7 +99,7 @@ TEST(SimulateTarget, CarriesTheReflectorsOfARaftOnALever) {
   const SeaState state = state_of(1, 5);
   const WaveField sea = realise_sea(state, 42, 7);
   const Body raft = make_body(target.motion, {.box = {}, .hull = {}, .is_raft = true});
-  const std::vector<Trajectory> bodies = simulate_target(target, raft, state, sea, 3, 42, 7);
+  const std::vector<Trajectory> bodies = simulate(target, raft, state, sea, 3, 42, 7);
   ASSERT_EQ(bodies.size(), 3u);
   EXPECT_GT(bodies[0].sample(2.5).angles.norm(), 1e-3);
   for (int i = 0; i < 3; ++i) {
@@ -108,10 +117,10 @@ TEST(SimulateTarget, CarriesAFreeBodyAtItsHeightAndHeading) {
   const SeaState state = state_of(1, 5);
   const WaveField sea = realise_sea(state, 42, 7);
   const Body body = body_of(target);
-  const std::vector<Trajectory> low = simulate_target(target, body, state, sea, 3, 42, 7);
+  const std::vector<Trajectory> low = simulate(target, body, state, sea, 3, 42, 7);
   target.layout->heights_m = BodyRange{5, 19};
   target.layout->headings_deg = BodyRange{30, 60};
-  const std::vector<Trajectory> high = simulate_target(target, body, state, sea, 3, 42, 7);
+  const std::vector<Trajectory> high = simulate(target, body, state, sea, 3, 42, 7);
   const std::vector<double> heights_m = body_heights_m(target.layout), headings = body_headings_rad(target.layout);
   const std::vector<Vec3> rests = rest_positions(target);
   for (std::size_t i = 0; i < 3; ++i) {

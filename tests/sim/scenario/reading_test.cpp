@@ -298,7 +298,7 @@ TEST(ScenarioReading, EveryMistakeInATargetIsNamed) {
        "46: targets.t.points.0.position_m.2: value 'x': must be a number within -100000 and 100000"},
       {"  t: {label: 1, mesh: a.glb, layout: {}}", "38: targets.t.layout.line: this key is missing"},
       {"  t: {label: 1, mesh: a.glb, layout: {ring: {}}}",
-       "39: targets.t.layout.ring: unknown key: must be one of area, line, bodies, heights, headings, seed"},
+       "39: targets.t.layout.ring: unknown key: must be one of area, line, bodies, heights, headings, scales, seed"},
       {"  t: {label: 1, mesh: a.glb, unit: yd}",
        "36: targets.t.unit: value 'yd': must be one of m, cm, mm, km, in, ft"},
       {"  t: {label: 1, mesh: a.glb, motion: {roll_period_s: 0.1}}",

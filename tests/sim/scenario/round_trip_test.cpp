@@ -140,7 +140,11 @@ Scenario full_scenario() {
   TargetSpec array;
   array.name = "array";
   array.mesh = "null";
-  array.layout = LayoutSpec{.line = LineLayout{}, .heights_m = BodyRange{1, 2}, .headings_deg = BodyRange{}, .seed = 3};
+  array.layout = LayoutSpec{.line = LineLayout{},
+                            .heights_m = BodyRange{1, 2},
+                            .headings_deg = BodyRange{},
+                            .scales = BodyRange{1, 1},
+                            .seed = 3};
   TargetSpec ring = array;
   ring.name = "ring";
   ring.layout = LayoutSpec{.area = AreaLayout{}};
@@ -177,7 +181,7 @@ void make_consistent(Scenario& scenario) {
   scenario.radar.sampling_mhz = std::max(scenario.radar.bandwidth_mhz * 1.7, 8.3 / scenario.radar.pulse_width_us);
   for (TargetSpec& target : scenario.targets) {
     if (!target.layout) continue;
-    for (const auto range : {&LayoutSpec::heights_m, &LayoutSpec::headings_deg}) {
+    for (const auto range : {&LayoutSpec::heights_m, &LayoutSpec::headings_deg, &LayoutSpec::scales}) {
       std::optional<BodyRange>& ends = (*target.layout).*range;
       if (ends && ends->lowest > ends->highest) std::swap(ends->lowest, ends->highest);
     }

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <functional>
@@ -160,8 +161,8 @@ TEST_F(RigidRaft, IsTheSameForAnyNumberOfThreadsAndInEveryRun) {
   EXPECT_EQ(response_of(one, 0), response_of(other, 0));
   const Target& raft = one.targets()[0];
   const auto scene = one.scene(0, 0);
-  const auto threaded =
-      simulate_target(raft.spec, raft.body, one.plan().sea_states()[0], scene->sea, 10, scenario.seed, 0, 0, 3);
+  const auto threaded = simulate_target(raft.spec, std::array{raft.models.front()->motion.get()},
+                                        one.plan().sea_states()[0], scene->sea, 10, scenario.seed, 0, 0, 3);
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(threaded[i].pose(7.7).p, scene->bodies[0][i].pose(7.7).p);
 }
 
