@@ -11,14 +11,14 @@
 namespace seaglint {
 namespace {
 
-// Two reflectors on a line and one alone, in two sea states.
+// Two reflectors of different sizes on a line and a large one alone, in two sea states.
 Scenario floats() {
   return parse_scenario(R"(
 seaglint: 1
 sea: {significant_wave_height_m: [0.5, 1], components: 64}
 targets:
-  array: {label: 1, mesh: assets/icosahedral_reflector.glb, motion: {model: float}, layout: {line: {count: 2, spacing_m: 40}}}
-  single: {label: 0, mesh: assets/icosahedral_reflector.glb, motion: {model: float}}
+  array: {label: 1, mesh: assets/icosahedral_reflector.glb, motion: {model: float}, layout: {line: {count: 2, spacing_m: 40}, scales: {highest: 3}}}
+  single: {label: 0, mesh: assets/icosahedral_reflector.glb, scale: 2, motion: {model: float}}
 dataset: {maps_per_case: 3, realisations_per_case: 3}
 )",
                         "floats.yaml");

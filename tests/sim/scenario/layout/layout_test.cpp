@@ -120,6 +120,27 @@ TEST(Layout, HeightsAndHeadingsAreWithinTheirRanges) {
   EXPECT_NEAR(std::ranges::max(headings), kPi / 2, 0.1);
 }
 
+TEST(Layout, ScalesMultiplyThatOfTheTarget) {
+  TargetSpec target = target_of({LayoutShape::kRing, 500, 1000, 1000});
+  EXPECT_EQ(body_scales(target.layout, 3), std::vector<double>(500, 3.0));
+  EXPECT_EQ(body_scales({}, 0.5), std::vector<double>{0.5});
+  target.layout->heights_m = BodyRange{1, 20};
+  target.layout->scales = BodyRange{0.5, 2};
+  const std::vector<double> scales = body_scales(target.layout, 1), heights = body_heights_m(target.layout);
+  double sum = 0, product = 0;  // mean of a uniform distribution; heights and sizes are independent
+  for (std::size_t i = 0; i < 500; ++i) {
+    EXPECT_GT(scales[i], 0.5);
+    EXPECT_LT(scales[i], 2);
+    sum += scales[i];
+    product += (heights[i] - 10.5) / 19 * (scales[i] - 1.25) / 1.5;
+  }
+  EXPECT_NEAR(sum / 500, 1.25, 5 * 1.5 / std::sqrt(12 * 500.0));
+  EXPECT_LT(std::abs(product / 500), 5 / 12.0 / std::sqrt(500.0));
+  target.layout->seed = 1;
+  EXPECT_NE(body_scales(target.layout, 1), scales);
+  EXPECT_EQ(layout_text(target.layout), ", 500 in a ring of 1000 by 1000 m, 0.5 to 2 times as large");
+}
+
 TEST(Layout, MovesAsAWhole) {
   TargetSpec target = target_of({LayoutShape::kRandom, 8, 100, 30, 2}, 3);
   const std::vector<Vec2> before = layout_positions(target.layout);
@@ -158,6 +179,12 @@ TEST(Layout, RefusesWhatCannotBe) {
   EXPECT_THAT(complaint("area: {shape: heap}"), HasSubstr("value 'heap': must be one of line, ring, grid, random"));
   EXPECT_THAT(complaint("area: {}, heights: {lowest_m: 2, highest_m: 1}"),
               HasSubstr("targets.t.layout.heights.lowest_m: value '2': must be at most 1, the highest"));
+  EXPECT_THAT(complaint("line: {}, scales: {lowest: 3}"),
+              HasSubstr("file.yaml:4:66: targets.t.layout.scales.lowest: value '3': must be at most 1, the highest"));
+  EXPECT_THAT(complaint("line: {}, scales: {lowest: 0}"),
+              HasSubstr("targets.t.layout.scales.lowest: value '0': must be a number within 0.001 and 1000"));
+  EXPECT_THAT(complaint("line: {}, scales: [1, 2]"),
+              HasSubstr("file.yaml:4:57: targets.t.layout.scales: a list: must be a map of key: value"));
   EXPECT_THAT(complaint("line: {}, heights: {highest_m: 200}"), HasSubstr("must be a number within -10 and 100"));
 }
 
