@@ -90,7 +90,8 @@ class ValueVisitor : public FieldVisitor {
     line(key, fmt::format("[{}]", fmt::join(as_yaml, ", ")));
   }
   void require(const char*) override {}
-  bool optional(const char*, bool present) override { return present; }
+  // A key that is drawn is written even where the middle of its distribution is the default.
+  bool optional(const char* key, bool present) override { return present || variation_of(key) != nullptr; }
 
  protected:
   std::string path_of(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
@@ -99,9 +100,14 @@ class ValueVisitor : public FieldVisitor {
 
  private:
   void line(const char* key, const std::string& value) {
-    const auto drawn = std::find_if(variations_.begin(), variations_.end(),
-                                    [&](const Variation& variation) { return variation.key_path == path_of(key); });
-    write(key, drawn == variations_.end() ? value : drawn->text());
+    const Variation* drawn = variation_of(key);
+    write(key, drawn == nullptr ? value : drawn->text());
+  }
+
+  // Null for a key that is not drawn.
+  const Variation* variation_of(const char* key) const {
+    const auto drawn = std::ranges::find(variations_, path_of(key), &Variation::key_path);
+    return drawn == variations_.end() ? nullptr : &*drawn;
   }
 
   const std::vector<Variation>& variations_;

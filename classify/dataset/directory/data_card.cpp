@@ -32,6 +32,7 @@ std::string targets_table(const Scenario& scenario, const SamplePlan& plan) {
   for (const TargetSpec& target : scenario.targets) {
     std::string made_of =
         target.mesh.empty() ? fmt::format("{} ideal points", target.points.size()) : markdown_text(target.mesh);
+    if (target.scale != 1) made_of += fmt::format(", scale {:g}", target.scale);
     made_of += layout_text(target.layout);
     const bool is_part = target.role == TargetRole::kPart;
     table += fmt::format("| {} | {} | {} | {} |\n", markdown_text(target.name),

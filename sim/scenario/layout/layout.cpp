@@ -180,7 +180,7 @@ std::string layout_text(const OptionalLayout& layout) {
   if (!layout) return "";
   std::string more = is_raft(layout) ? ", on one rigid raft" : "";
   if (layout->scales)
-    more += fmt::format(", {:g} to {:g} times as large", layout->scales->lowest, layout->scales->highest);
+    more += fmt::format(", of {:g} to {:g} times the mesh's size", layout->scales->lowest, layout->scales->highest);
   if (layout->line) {
     const LineLayout& line = *layout->line;
     return fmt::format(", {} in line, {:g} m apart{}", line.count, line.spacing_m, more);

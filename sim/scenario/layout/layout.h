@@ -45,7 +45,7 @@ std::vector<double> body_scales(const OptionalLayout& layout, double target_scal
 // "line", "ring", "grid", "random"; "single" without a layout.
 std::string layout_name(const OptionalLayout& layout);
 
-// ", 4 in line, 40 m apart, on one rigid raft, 0.5 to 2 times as large"; empty without a layout.
+// ", 4 in line, 40 m apart, on one rigid raft, of 0.5 to 2 times the mesh's size"; empty without a layout.
 std::string layout_text(const OptionalLayout& layout);
 
 }  // namespace seaglint

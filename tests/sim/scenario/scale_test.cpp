@@ -55,5 +55,14 @@ TEST(ScaleOfATarget, IsDrawnOncePerSeaAndSharedByTwins) {
                         "targets.t.scale, drawn by uniform(0, 2), is 0"));
 }
 
+// The seed of a layout is written only where it is not 0, the middle of this distribution.
+TEST(ScaleOfATarget, OfALayoutIsDrawnWithItsSeed) {
+  const Scenario read = parse(kShort +
+                              "  t: {label: 1, mesh: a.glb, layout: {line: {count: 2}, scales: {highest: 2}, seed: "
+                              "integers(0 1)}}\n");
+  EXPECT_THAT(effective_yaml(read), HasSubstr("seed: integers(0, 1)"));
+  EXPECT_EQ(effective_yaml(parse(effective_yaml(read))), effective_yaml(read));
+}
+
 }  // namespace
 }  // namespace seaglint

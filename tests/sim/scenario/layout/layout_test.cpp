@@ -138,7 +138,7 @@ TEST(Layout, ScalesMultiplyThatOfTheTarget) {
   EXPECT_LT(std::abs(product / 500), 5 / 12.0 / std::sqrt(500.0));
   target.layout->seed = 1;
   EXPECT_NE(body_scales(target.layout, 1), scales);
-  EXPECT_EQ(layout_text(target.layout), ", 500 in a ring of 1000 by 1000 m, 0.5 to 2 times as large");
+  EXPECT_EQ(layout_text(target.layout), ", 500 in a ring of 1000 by 1000 m, of 0.5 to 2 times the mesh's size");
 }
 
 TEST(Layout, MovesAsAWhole) {
