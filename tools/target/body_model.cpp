@@ -83,7 +83,17 @@ void check_above_water(const Scenario& scenario, const TargetSpec& spec, const T
                   place_of(scenario, fmt::format("targets.{}.mesh", spec.name)), top_m));
 }
 
-// A target's mesh, enlarged by `scale`, as text.
+// Throws InputError for more sizes of one mesh than memory is expected to hold: up to 2 GB per million triangles.
+void check_sizes(const Scenario& scenario, const TargetSpec& spec, std::size_t sizes, const TriangleMesh& mesh) {
+  constexpr std::size_t kMostTriangles = 2'000'000;
+  if (sizes == 1 || sizes * mesh.triangles.size() <= kMostTriangles) return;
+  throw InputError(
+      fmt::format("{}: {} bodies of different sizes with {} triangles each: must have at most {} triangles in all",
+                  place_of(scenario, fmt::format("targets.{}.layout.scales", spec.name)), sizes, mesh.triangles.size(),
+                  kMostTriangles));
+}
+
+// The fields of a target that determine its mesh.
 TargetSpec enlarged_mesh(const TargetSpec& spec, double scale) {
   TargetSpec alone;
   alone.mesh = spec.mesh;
@@ -183,8 +193,10 @@ std::vector<std::shared_ptr<const BodyModel>> LoadedBodies::models(const Scenari
   }
   const std::lock_guard lock(mutex_);
   std::map<double, std::shared_ptr<const BodyModel>> by_size;
-  for (const auto& [scale, height_m] : lowest_height_m)
+  for (const auto& [scale, height_m] : lowest_height_m) {
     by_size[scale] = std::make_shared<const BodyModel>(model(scenario, spec, scale, height_m));
+    check_sizes(scenario, spec, lowest_height_m.size(), by_size[scale]->prepared->mesh);
+  }
   std::vector<std::shared_ptr<const BodyModel>> models;
   for (const double scale : scales) models.push_back(by_size.at(scale));
   return models;

@@ -44,7 +44,8 @@ class LoadedBodies {
  public:
   // The models of a target's bodies, in their order; bodies of one size share one. Throws InputError for a mesh that is
   // missing, invalid or, if the sea reflects, under water, for a material that is missing, invalid or not defined at
-  // the radar's frequencies, and for a motion file that is missing or invalid.
+  // the radar's frequencies, for a motion file that is missing or invalid, and for bodies of several sizes with more
+  // than 2 million triangles in all.
   std::vector<std::shared_ptr<const BodyModel>> models(const Scenario& scenario, const TargetSpec& spec);
 
  private:

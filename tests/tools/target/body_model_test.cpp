@@ -121,6 +121,15 @@ TEST_F(BodyModels, ReachTheWaterAsTheirSizeSays) {
               HasSubstr("must be greater than -0.25 with sea_reflection, else the whole target is under water"));
 }
 
+TEST_F(BodyModels, OfManySizesHaveFewTriangles) {
+  write_mesh(folder_.path() / "fine.stl", make_sphere(1, 4));
+  EXPECT_THAT(complaint(parse_scenario("seaglint: 1\ntargets:\n  t: {label: 1, mesh: fine.stl, layout: {line: {count: "
+                                       "1000}, scales: {highest: 2}}}\n",
+                                       (folder_.path() / "file.yaml").string())),
+              HasSubstr("file.yaml:3:71: targets.t.layout.scales: 1000 bodies of different sizes with 5120 triangles "
+                        "each: must have at most 2000000 triangles in all"));
+}
+
 // Of two layouts with the same bounds, one has a body at 0.9 m, less than the radius.
 TEST_F(BodyModels, AreCheckedAtTheHeightsOfEveryLayout) {
   const std::string sea = "sea_reflection: {enabled: true}\nview: {elevation_deg: 1}";
