@@ -27,7 +27,15 @@ void fuzz_shard(const std::string& bytes) {
 }
 
 void fuzz_npz(const std::string& bytes) {
-  is_refused([&] { read_npz_text(file_of(bytes, "data.npz"), "description.json"); });
+  const std::filesystem::path file = file_of(bytes, "data.npz");
+  is_refused([&] { read_npz_text(file, "description.json"); });
+  is_refused([&] { npz_members(file); });
+  is_refused([&] {
+    const NpzValues values = read_npz_array(file, "samples/label");
+    std::uint64_t count = 1;
+    for (const std::uint64_t length : values.shape) count *= length;
+    SEAGLINT_CHECK(values.numbers().size() == count, "an array of another size");
+  });
 }
 
 void fuzz_inputs(const std::string& bytes) {

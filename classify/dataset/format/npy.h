@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "classify/dataset/format/array_type.h"
@@ -18,6 +19,17 @@ const char* numpy_type(ArrayType element);
 // The header: magic, length, a Python dictionary, padded to a multiple of 64 bytes. `shape` is empty for a single
 // value.
 std::string npy_header(const std::string& type, std::span<const std::uint64_t> shape);
+
+// What a header states.
+struct NpyHeader {
+  std::string type;
+  std::vector<std::uint64_t> shape;
+  std::size_t bytes = 0;  // of the header itself
+};
+
+// Reads the header of a .npy file of format version 1 to 3. Throws InputError, a sentence without the file's name,
+// unless it is one in C order.
+NpyHeader read_npy_header(std::string_view file);
 
 // Bytes of the values behind the header.
 std::uint64_t npy_data_bytes(const std::string& type, std::span<const std::uint64_t> shape);

@@ -3,18 +3,23 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 #include <zip.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <exception>
 #include <memory>
+#include <optional>
+#include <system_error>
 #include <utility>
 
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
+#include "sim/core/text/shown.h"
 
 namespace seaglint {
 
@@ -184,6 +189,36 @@ void write_archive(const std::filesystem::path& file, std::vector<Member>& membe
   static_cast<void>(archive.release());  // closed
 }
 
+using ArchiveToRead = std::unique_ptr<zip_t, decltype(&zip_discard)>;
+
+// Null when the file is no archive.
+ArchiveToRead open_to_read(const std::filesystem::path& file) {
+  int code = 0;
+  return {zip_open(file.c_str(), ZIP_RDONLY, &code), &zip_discard};
+}
+
+// Bytes of a member, checked against its checksum, which the library does at the end; empty when it is damaged.
+std::optional<std::string> read_member(zip_t* archive, const std::string& name, std::uint64_t bytes) {
+  const std::unique_ptr<zip_file_t, decltype(&zip_fclose)> member(zip_fopen(archive, name.c_str(), 0), &zip_fclose);
+  if (!member) return {};
+  std::string text(bytes, '\0');
+  if (zip_fread(member.get(), text.data(), bytes) != static_cast<zip_int64_t>(bytes)) return {};
+  char beyond = 0;
+  if (zip_fread(member.get(), &beyond, 1) != 0) return {};
+  return text;
+}
+
+template <class To, class Stored>
+std::vector<To> converted(const std::string& bytes) {
+  std::vector<To> values(bytes.size() / sizeof(Stored));
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    Stored value;
+    std::memcpy(&value, bytes.data() + i * sizeof(Stored), sizeof(Stored));
+    values[i] = static_cast<To>(value);
+  }
+  return values;
+}
+
 }  // namespace
 
 NpzArray npz_array(std::string name, std::string type, std::vector<std::uint64_t> shape, std::string bytes) {
@@ -194,17 +229,85 @@ NpzArray npz_array(std::string name, std::string type, std::vector<std::uint64_t
 std::string read_npz_text(const std::filesystem::path& file, const std::string& name) {
   constexpr zip_uint64_t kMaxBytes = 16 << 20;
   const auto fail = [&] { throw InputError(fmt::format("{}: no archive with a {} inside", file.string(), name)); };
-  int code = 0;
-  const std::unique_ptr<zip_t, decltype(&zip_discard)> archive(zip_open(file.c_str(), ZIP_RDONLY, &code), &zip_discard);
+  const ArchiveToRead archive = open_to_read(file);
   if (!archive) fail();
   zip_stat_t stat;
   if (zip_stat(archive.get(), name.c_str(), 0, &stat) != 0 || !(stat.valid & ZIP_STAT_SIZE) || stat.size > kMaxBytes)
     fail();
-  const std::unique_ptr<zip_file_t, decltype(&zip_fclose)> member(zip_fopen(archive.get(), name.c_str(), 0),
-                                                                  &zip_fclose);
-  std::string text(stat.size, '\0');
-  if (!member || zip_fread(member.get(), text.data(), stat.size) != static_cast<zip_int64_t>(stat.size)) fail();
-  return text;
+  const std::optional<std::string> text = read_member(archive.get(), name, stat.size);
+  if (!text) fail();
+  return *text;
+}
+
+std::vector<std::string> npz_members(const std::filesystem::path& file) {
+  const ArchiveToRead archive = open_to_read(file);
+  if (!archive) throw InputError(fmt::format("{}: no .npz archive of NumPy, or truncated", file.string()));
+  std::vector<std::string> names;
+  for (zip_int64_t i = 0; i < zip_get_num_entries(archive.get(), 0); ++i) {
+    const char* name = zip_get_name(archive.get(), static_cast<zip_uint64_t>(i), 0);
+    if (name != nullptr) names.emplace_back(name);
+  }
+  return names;
+}
+
+std::string NpzValues::shape_text() const {
+  return fmt::format("({}{})", fmt::join(shape, ", "), shape.size() == 1 ? "," : "");
+}
+
+std::vector<double> NpzValues::numbers() const {
+  if (type == "<f4") return converted<double, float>(bytes);
+  if (type == "<f8") return converted<double, double>(bytes);
+  if (type == "<i4") return converted<double, std::int32_t>(bytes);
+  if (type == "<i8") return converted<double, std::int64_t>(bytes);
+  if (type == "<u2") return converted<double, std::uint16_t>(bytes);
+  throw InputError(fmt::format("type {}: must be <f4, <f8, <i4, <i8 or <u2", shown(type)));
+}
+
+std::vector<std::complex<double>> NpzValues::complex_numbers() const {
+  if (type == "<c8") return converted<std::complex<double>, std::complex<float>>(bytes);
+  if (type == "<c16") return converted<std::complex<double>, std::complex<double>>(bytes);
+  throw InputError(fmt::format("type {}: must be <c8 or <c16", shown(type)));
+}
+
+NpzValues read_npz_array(const std::filesystem::path& file, const std::string& name) {
+  const auto fail = [&](const std::string& why) {
+    throw InputError(fmt::format("{}: array {}: {}", file.string(), name, why));
+  };
+  const ArchiveToRead archive = open_to_read(file);
+  if (!archive) throw InputError(fmt::format("{}: no .npz archive of NumPy, or truncated", file.string()));
+  const std::string member = name + ".npy";
+  zip_stat_t stat;
+  constexpr zip_uint64_t kNeeded = ZIP_STAT_SIZE | ZIP_STAT_COMP_SIZE | ZIP_STAT_COMP_METHOD;
+  if (zip_stat(archive.get(), member.c_str(), 0, &stat) != 0 || (stat.valid & kNeeded) != kNeeded) fail("is missing");
+  if (stat.comp_method != ZIP_CM_STORE) fail("is compressed; numpy.savez writes archives that are not");
+  std::error_code error;
+  if (stat.size != stat.comp_size || stat.size > std::filesystem::file_size(file, error) || error)
+    fail("claims more bytes than the file has");
+  std::optional<std::string> bytes = read_member(archive.get(), member, stat.size);
+  if (!bytes) fail("is damaged");
+  NpzValues values;
+  try {
+    NpyHeader header = read_npy_header(*bytes);
+    bytes->erase(0, header.bytes);
+    values = {std::move(header.type), std::move(header.shape), std::move(*bytes)};
+  } catch (const InputError& wrong) {
+    fail(wrong.what());
+  }
+  // The bytes of an element, by the digits of its type; types without are no numbers.
+  std::uint64_t item = 0;
+  const char* const end = values.type.data() + values.type.size();
+  if (values.type.size() < 3 || std::from_chars(values.type.data() + 2, end, item).ptr != end || item == 0 || item > 16)
+    fail(fmt::format("type {}: no array of numbers", shown(values.type)));
+  std::uint64_t left = values.bytes.size() / item;  // elements that the bytes suffice for, at every dimension
+  bool fits = values.bytes.size() % item == 0;
+  for (const std::uint64_t length : values.shape) {
+    fits = fits && (length == 0 ? values.bytes.empty() : left % length == 0);
+    if (length > 0) left /= length;
+  }
+  const bool empty = std::ranges::find(values.shape, std::uint64_t{0}) != values.shape.end();
+  if (!fits || (!empty && left != 1))
+    fail(fmt::format("{} bytes of values for {} of {}", values.bytes.size(), values.shape_text(), values.type));
+  return values;
 }
 
 void require_npz(const std::filesystem::path& file) {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Writes arrays as NumPy's .npz: an uncompressed zip archive of one .npy file (format version 1.0) per array. The bytes
-// depend only on the arrays: all times in the archive are 1980-01-01, the earliest of the zip format. Memory holds only
-// the block being written; archives and arrays above 4 GB are zip64, which NumPy reads.
+// Reads and writes arrays as NumPy's .npz: an uncompressed zip archive of one .npy file (format version 1.0) per array.
+// The bytes depend only on the arrays: all times in the archive are 1980-01-01, the earliest of the zip format. Memory
+// holds only the block being written; archives and arrays above 4 GB are zip64, which NumPy reads.
 
+#include <complex>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -37,6 +38,27 @@ NpzArray npz_array(std::string name, std::string type, std::vector<std::uint64_t
 // Reads the text file `name` inside an archive. Throws InputError naming the archive if it has no such file of at most
 // 16 MB.
 std::string read_npz_text(const std::filesystem::path& file, const std::string& name);
+
+// Names of the files inside an archive, "time_s.npy". Throws InputError naming the file if it is no complete archive.
+std::vector<std::string> npz_members(const std::filesystem::path& file);
+
+// An array in memory: its values in C order.
+struct NpzValues {
+  std::string type;
+  std::vector<std::uint64_t> shape;
+  std::string bytes;
+
+  std::string shape_text() const;  // "(256, 1914)"
+  // Values of type f4, f8, i4, i8 or u2; of type c8 or c16. Throw InputError, a sentence without names, for other
+  // types.
+  std::vector<double> numbers() const;
+  std::vector<std::complex<double>> complex_numbers() const;
+};
+
+// Reads the array `name` of an uncompressed archive (numpy.savez), which takes no more memory than the file. Throws
+// InputError naming archive and array when there is none, it is compressed or damaged, or its bytes are not those of
+// its shape.
+NpzValues read_npz_array(const std::filesystem::path& file, const std::string& name);
 
 // Throws InputError unless the name ends in .npz, WorkError if write_npz() could not write there. An empty name passes.
 void require_npz(const std::filesystem::path& file);
