@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "sim/core/numbers/constants.h"
@@ -19,17 +20,17 @@ double whole_ratio(double numerator, double denominator) {
   return std::abs(ratio - std::round(ratio)) < kWhole * ratio ? std::round(ratio) : 0;
 }
 
-// Frequencies f_b = (b - (F - 1)/2) step and times t_k = (k - (L - 1)/2) / fs with fs = L step:
-//   f_b t_k = (b k - b (L - 1)/2 - k (F - 1)/2 + (F - 1)(L - 1)/4) / L,
-// a transform of length L between factors of b alone and of k alone.
+// Frequencies f_b = (b - (F - 1)/2) step and times t_k = (k - (L - 1)/2) / fs with fs = P step:
+//   f_b t_k = (b k - b (L - 1)/2 - k (F - 1)/2 + (F - 1)(L - 1)/4) / P,
+// a transform of length P between factors of b alone and of k alone.
 struct CentredTransform {
-  double frequencies, samples;
+  double frequencies, samples, period;
 
   Complex of_frequency(double b, double sign) const {
-    return std::polar(1.0, sign * kPi * ((frequencies - 1) / 2 - 2 * b) * (samples - 1) / (2 * samples));
+    return std::polar(1.0, sign * kPi * ((frequencies - 1) / 2 - 2 * b) * (samples - 1) / (2 * period));
   }
   Complex of_sample(double k, double sign) const {
-    return std::polar(1.0, sign * kPi * ((samples - 1) / 2 - 2 * k) * (frequencies - 1) / (2 * samples));
+    return std::polar(1.0, sign * kPi * ((samples - 1) / 2 - 2 * k) * (frequencies - 1) / (2 * period));
   }
 };
 
@@ -77,7 +78,7 @@ SampledEcho sample_echo(const std::vector<Complex>& echo, const PulseTrain& fine
   sampled.pulses = static_cast<int>(fine.pulses());
   for (double k = 0; k < length; ++k) sampled.time_s.push_back((k - (length - 1) / 2) / sampling_hz);
 
-  const CentredTransform centred{static_cast<double>(frequencies), length};
+  const CentredTransform centred{static_cast<double>(frequencies), length, length};
   const double scale = fine.baseband_step_hz / std::sqrt(fine.chirp_rate_hz_s);
   FourierBatch transform(sampled.samples(), 1, Fourier::kInverse);
   Complex* row = transform.row(0);
@@ -99,20 +100,38 @@ std::vector<Complex> spectrum_of(const SampledEcho& sampled, const PulseTrain& t
       std::fmod(refinement, 2) == 1 && static_cast<int>(train.pulses()) == sampled.pulses,
       fmt::format("{} samples at {} Hz for steps of {} Hz", length, sampled.sampling_hz, train.baseband_step_hz));
   const std::size_t frequencies = train.frequencies();
-  const CentredTransform centred{static_cast<double>(frequencies) * refinement, length};
+  // Samples apart by a period of the map's grid have the factor 1 at all of its frequencies, -1 for an even number of
+  // them, and are summed before the transform. Where that period is no whole number of samples, the middle one of the
+  // fine frequencies of each coarse cell is taken of the transform of all.
+  const double whole_period = whole_ratio(sampled.sampling_hz, train.baseband_step_hz);
+  const double period = whole_period > 0 ? whole_period : length, stride = whole_period > 0 ? 1 : refinement;
+  const double alternating = frequencies % 2 == 0 ? -1 : 1;
+  const CentredTransform centred{static_cast<double>(frequencies) * stride, length, period};
   const double scale = std::sqrt(train.chirp_rate_hz_s) / sampled.sampling_hz;
+  const auto in_period = static_cast<std::size_t>(period);
+  std::vector<Complex> of_sample, of_frequency;
+  for (std::size_t k = 0; k < in_period; ++k) of_sample.push_back(centred.of_sample(static_cast<double>(k), -1));
+  std::vector<std::size_t> place;
+  for (std::size_t b = 0; b < frequencies; ++b) {
+    const double i = stride * static_cast<double>(b) + (stride - 1) / 2;
+    place.push_back(static_cast<std::size_t>(i));
+    of_frequency.push_back(scale * centred.of_frequency(i, -1));
+  }
+
   std::vector<Complex> echo;
-  FourierBatch transform(sampled.samples(), 1, Fourier::kForward);
+  FourierBatch transform(in_period, 1, Fourier::kForward);
   Complex* row = transform.row(0);
   for (std::size_t n = 0; n < train.pulses(); ++n) {
-    for (std::size_t k = 0; k < sampled.samples(); ++k)
-      row[k] = sampled.values[n * sampled.samples() + k] * centred.of_sample(static_cast<double>(k), -1);
-    transform.execute();
-    for (std::size_t b = 0; b < frequencies; ++b) {
-      // The middle one of the fine frequencies of a coarse cell.
-      const double i = refinement * static_cast<double>(b) + (refinement - 1) / 2;
-      echo.push_back(scale * row[static_cast<std::size_t>(i)] * centred.of_frequency(i, -1));
+    const Complex* const values = &sampled.values[n * sampled.samples()];
+    std::copy(values, values + in_period, row);
+    double sign = 1;
+    for (std::size_t first = in_period; first < sampled.samples(); first += in_period) {
+      sign *= alternating;
+      for (std::size_t k = 0; k < in_period; ++k) row[k] += sign * values[first + k];
     }
+    for (std::size_t k = 0; k < in_period; ++k) row[k] *= of_sample[k];
+    transform.execute();
+    for (std::size_t b = 0; b < frequencies; ++b) echo.push_back(row[place[b]] * of_frequency[b]);
   }
   return echo;
 }
