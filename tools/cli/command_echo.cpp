@@ -4,11 +4,14 @@
 
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <type_traits>
+#include <variant>
 
 #include "classify/dataset/format/npz.h"
 #include "seaglint_version.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/standard_output.h"
+#include "sim/core/text/json_number.h"
 #include "sim/scenario/sample_plan.h"
 #include "sim/scenario/writer.h"
 #include "tools/cli/arguments.h"
@@ -34,6 +37,23 @@ NpzArray samples_over_time(const char* name, const SampledEcho& sampled) {
                    bytes_of_values(std::span<const std::complex<float>>(values)));
 }
 
+// The columns of the sample in a data set of the scenario, by name; null where undefined.
+nlohmann::ordered_json columns_json(const SampleRecord& record) {
+  nlohmann::ordered_json json;
+  for (const SampleColumn& column : sample_columns()) {
+    std::visit(
+        [&](auto member) {
+          if constexpr (std::is_same_v<decltype(member), double SampleRecord::*>) {
+            json[column.name] = number_or_null(record.*member);
+          } else {
+            json[column.name] = record.*member;
+          }
+        },
+        column.member);
+  }
+  return json;
+}
+
 void write_echo(const Arguments& arguments) {
   require_npz(arguments.output);
   const Scenario scenario = arguments.read();
@@ -56,6 +76,7 @@ void write_echo(const Arguments& arguments) {
   arrays.push_back(doubles("pulse_time_s", interval.train.time_s));
   arrays.push_back(doubles("carrier_hz", interval.train.carrier_hz));
   arrays.push_back(npz_array("hop_code", "<i8", {code.size()}, bytes_of_values(std::span<const std::int64_t>(code))));
+  arrays.push_back(doubles("frequency_hz", interval.train.baseband_hz));
   const nlohmann::ordered_json description{
       {"program", fmt::format("seaglint {}", kVersion)},
       {"scenario", scenario.name},
@@ -68,7 +89,9 @@ void write_echo(const Arguments& arguments) {
       {"time_s", "s, of the samples; 0 = the middle of the pulse returns from the reference point"},
       {"pulse_time_s", "s, middle of each pulse from the interval's start"},
       {"carrier_hz", "Hz, of each pulse"},
-      {"hop_code", "carrier number of each pulse"}};
+      {"hop_code", "carrier number of each pulse"},
+      {"frequency_hz", "Hz, of the map's frequencies from each pulse's carrier"},
+      {"columns", columns_json(interval.record)}};
   write_npz(arguments.output, arrays,
             {{"description.json", description.dump(2) + "\n"}, {"scenario.yaml", effective_yaml(scenario)}});
   print_out("{}: {} pulses of {} samples at {:g} MHz\n", arguments.output, interval.target.pulses,

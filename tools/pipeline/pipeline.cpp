@@ -156,11 +156,10 @@ BodyResponse Pipeline::response(const SampleAddress& at, const PulseTrain& train
   return sum;
 }
 
-Echo Pipeline::echo_of(std::size_t sample, const GeneratedSample& made, const BodyResponse& response,
-                       const Scene& scene) const {
-  const SampleAddress& at = made.address;
+Echo Pipeline::echo_of(std::size_t sample, const SampleAddress& at, const PulseTrain& train,
+                       const BodyResponse& response, const Scene& scene) const {
   try {
-    return synthesise_echo(made.train, response.response, scenario_of(at).clutter, scenario_.seed, sample,
+    return synthesise_echo(train, response.response, scenario_of(at).clutter, scenario_.seed, sample,
                            clutter_scene(at, scene));
   } catch (const InputError& error) {
     const TargetSpec& target = scenario_.targets[static_cast<std::size_t>(at.target)];
@@ -185,24 +184,37 @@ GeneratedSample Pipeline::generate_sample(std::size_t sample, const StopFlag* st
 
 GeneratedSample Pipeline::received_sample(std::size_t sample, const PulseTrain& train,
                                           const BodyResponse& response) const {
-  GeneratedSample made;
-  made.address = plan_.address(sample);
-  const SampleAddress& at = made.address;
-
+  const SampleAddress at = plan_.address(sample);
   // Sea and motion are common to both classes and all views; hop code, clutter and noise are specific to the sample.
   const std::shared_ptr<const Scene> moving = scene(at.sea_state, at.realisation);
-  made.train = train;
-  const Echo echo = echo_of(sample, made, response, *moving);
-  made.received = form_received_interval(echo, made.train, scenario_of(at).clutter, scenario_.map,
-                                         scenario_.radar.intra_pulse_motion);
-  CleanedMap cleaned =
-      clean_map(made.received.echo, made.train, scenario_.map, scenario_.radar.intra_pulse_motion, scenario_.features);
-  if (scenario_.map.clean) made.received.map.values = restored_map(cleaned, made.train, scenario_.map).values;
-  made.centres = std::move(cleaned.centres);
-  made.features = compute_features(made.centres, scenario_.features);
+  SampleRecord record = planned_record(scenario_, plan_, sample, at);
+  record.aspect_traces = response.traces;
+  const std::vector<Trajectory>& bodies = moving->bodies[static_cast<std::size_t>(at.target)];
+  const double middle_s = plan_.start_s(at) + 0.5 * (train.time_s.front() + train.time_s.back());
+  if (!bodies.empty()) store_motion(bodies.front(), middle_s, record);  // points have velocities only
+  GeneratedSample made = sample_of_echo(echo_of(sample, at, train, response, *moving), train, scenario_,
+                                        scenario_of(at).clutter, std::move(record));
+  made.address = at;
+  if (scenario_.dataset.echoes) {
+    for (const Complex& value : response.response.values) {
+      made.stored.echo.push_back(value.real());
+      made.stored.echo.push_back(value.imag());
+    }
+  }
+  return made;
+}
 
-  SampleRecord& record = made.stored.record;
-  record = planned_record(scenario_, plan_, sample, at);
+GeneratedSample sample_of_echo(const Echo& echo, const PulseTrain& train, const Scenario& scenario,
+                               const ClutterSpec& clutter, SampleRecord record) {
+  GeneratedSample made;
+  made.train = train;
+  const bool intra_pulse_motion = scenario.radar.intra_pulse_motion;
+  made.received = form_received_interval(echo, train, clutter, scenario.map, intra_pulse_motion);
+  CleanedMap cleaned = clean_map(made.received.echo, train, scenario.map, intra_pulse_motion, scenario.features);
+  if (scenario.map.clean) made.received.map.values = restored_map(cleaned, train, scenario.map).values;
+  made.centres = std::move(cleaned.centres);
+  made.features = compute_features(made.centres, scenario.features);
+
   record.unused_carriers = made.received.map.unused_carriers;
   record.scr_per_pulse_db = made.received.scr.per_pulse_db;
   record.scr_peak_cell_db = made.received.scr.peak_cell_db;
@@ -214,17 +226,8 @@ GeneratedSample Pipeline::received_sample(std::size_t sample, const PulseTrain& 
   record.sigma_v_mps = made.features.sigma_v;
   record.centres = made.features.centres;
   record.degenerate = made.features.degenerate ? 1 : 0;
-  record.aspect_traces = response.traces;
-  const std::vector<Trajectory>& bodies = moving->bodies[static_cast<std::size_t>(at.target)];
-  const double middle_s = plan_.start_s(at) + 0.5 * (train.time_s.front() + train.time_s.back());
-  if (!bodies.empty()) store_motion(bodies.front(), middle_s, record);  // points have velocities only
-  store_signal(made, scenario_.dataset.complex_maps, made.stored);
-  if (scenario_.dataset.echoes) {
-    for (const Complex& value : response.response.values) {
-      made.stored.echo.push_back(value.real());
-      made.stored.echo.push_back(value.imag());
-    }
-  }
+  made.stored.record = std::move(record);
+  store_signal(made, scenario.dataset.complex_maps, made.stored);
   return made;
 }
 

@@ -33,6 +33,12 @@ struct GeneratedSample {
   Sample stored;  // as the data set stores it
 };
 
+// The sample of an echo: map, measured SCR, scattering centres, features, and what the data set stores of them. Map and
+// features are those of `scenario`; `clutter` sets its level (form_received_interval()). `record`: the columns of the
+// row that are not measured in the map.
+GeneratedSample sample_of_echo(const Echo& echo, const PulseTrain& train, const Scenario& scenario,
+                               const ClutterSpec& clutter, SampleRecord record);
+
 // Generates any sample of a scenario, in any order and from any thread.
 class Pipeline {
  public:
@@ -81,7 +87,8 @@ class Pipeline {
   static BodyResponse target_response(std::size_t target, const Observation& seen, const StopFlag* stop);
 
   // The echo of a sample. Throws InputError, naming target and sample, when it has no power.
-  Echo echo_of(std::size_t sample, const GeneratedSample& made, const BodyResponse& response, const Scene& scene) const;
+  Echo echo_of(std::size_t sample, const SampleAddress& at, const PulseTrain& train, const BodyResponse& response,
+               const Scene& scene) const;
 
   Scenario scenario_;
   SamplePlan plan_;

@@ -49,6 +49,7 @@ SampledInterval sampled_interval(const Pipeline& pipeline, std::size_t sample) {
 
   SampledInterval interval;
   interval.train = train;
+  interval.record = made.stored.record;
   interval.target = sample_echo(echo.target, fine, sampling_hz);
   const double target_power = power_of_map(interval.target, train);
   const auto with_level = [&](const std::vector<Complex>& part, double ratio_db, double more) {

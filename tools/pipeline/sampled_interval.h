@@ -14,6 +14,7 @@ struct SampledInterval {
   PulseTrain train;                           // of the map
   SampledEcho target;                         // of the target with its companions
   std::optional<SampledEcho> clutter, noise;  // absent where the scenario has none
+  SampleRecord record;                        // row of the sample in a data set
 };
 
 // Throws InputError when radar.sampling_mhz fits no frequency grid, or the echo would hold more than 2^27 samples.
