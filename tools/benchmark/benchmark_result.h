@@ -30,10 +30,12 @@ struct Claim {
   std::string text;
   Verdict verdict = Verdict::kUndecided;  // undecided: the intervals of 95 % overlap
   std::string why;                        // the figures
+  std::string meaning;                    // what the verdict follows from, a sentence
 };
 
-// In this order: hand-made features above 86 %; both together no worse than either; hand-made features rise with the
-// wave height; trees no worse than logistic regression; motion alone separates the classes.
+// Intervals and differences by Student's distribution (simultaneous.h), the floor by Holm's procedure, which can reject
+// chance but not prove it. In this order: hand-made features above 86 %; both together no worse than either; hand-made
+// features rise with the wave height; trees no worse than logistic regression; motion alone separates the classes.
 std::vector<Claim> claims_of(const Study& study);
 
 // Members `baselines` and `floor` (name -> accuracy, interval, by wave height) and `claims`. Fractions; null where

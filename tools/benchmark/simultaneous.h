@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Intervals of several accuracies at once, so that with 95 % none of the true values lies outside of its interval when
-// chance alone acts.
+// Intervals of accuracies by Student's distribution: of one, of a difference, and of several at once, so that with 95 %
+// none of the true values lies outside of its interval when chance alone acts.
 
 #include <limits>
 #include <span>
@@ -20,13 +20,28 @@ struct Estimate {
 };
 
 // The estimate whose bootstrap interval of 95 % this is, with the standard error of a sample of its n seas, which is
-// that of the bootstrap times sqrt(n / (n - 1)) (Davison and Hinkley 1997, section 2.3); NaN without an interval.
+// that of the bootstrap times sqrt(n / (n - 1)) (Davison and Hinkley 1997, section 2.3), and its n - 1 degrees of
+// freedom, those of a mean of n independent values (Student 1908): seas are the independent units, maps of one sea are
+// not. NaN without an interval.
 Estimate estimate_of(const Scores& scores);
 
-// Intervals of Student's distribution, which is the normal one for many degrees of freedom, with the levels of Holm's
-// procedure (Holm 1979): of m estimates, the one that differs most from `null` in standard errors has the level 0.05 /
-// m, the next 0.05 / (m - 1), and so on. Those of Bonferroni would all have 0.05 / m. In the order of `estimates`,
-// clipped to [0, 1]; NaN for an estimate that is NaN, which does not count.
+// t of Student's distribution with P(T <= t) = probability, 0.5 <= probability < 1, within 1e-9 of t; fractional
+// degrees of freedom, >= 1, are rounded down, which gives the wider interval; infinitely many give the normal
+// distribution.
+double student_quantile(double probability, double degrees_of_freedom);
+
+// Half of the interval that misses the true value with probability `level`: the quantile at 1 - level / 2 with the
+// estimate's degrees of freedom, times its standard error.
+double half_width(const Estimate& estimate, double level = 0.05);
+
+// a - b of independent estimates. Of estimates on the same maps, which are positively correlated, the standard error is
+// too large rather than too small. Degrees of freedom by Welch and Satterthwaite (Welch 1947, Biometrika 34, 28):
+// (a^2 + b^2)^2 / (a^4 / d_a + b^4 / d_b) of the standard errors a, b; without any, infinitely many.
+Estimate difference_of(const Estimate& a, const Estimate& b);
+
+// half_width() with the levels of Holm's procedure (Holm 1979): of m estimates, the one that differs most from `null`
+// in standard errors has the level 0.05 / m, the next 0.05 / (m - 1), and so on. Those of Bonferroni would all have
+// 0.05 / m. In the order of `estimates`, clipped to [0, 1]; NaN for an estimate that is NaN, which does not count.
 std::vector<ConfidenceInterval> holm_intervals(std::span<const Estimate> estimates, double null = 0.5);
 
 // Of each, whether Holm's procedure rejects that it is `null`: its interval and those of all that differ more exclude

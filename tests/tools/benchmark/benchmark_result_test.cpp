@@ -73,6 +73,31 @@ TEST(BenchmarkClaims, FollowTheFiguresAndTheirIntervals) {
   EXPECT_EQ(verdicts(study_of({0.86, 0.86, 0.87}, {0.5, 0.5, 0.5}, {0.86, 0.86, 0.86}, {0.5, 0.5, 0.5}))[2], kOpen);
 }
 
+// A bootstrap interval of +-1.96 standard errors over 4 seas is one of +-3.182 sqrt(4/3): 2.7 % about 90 % is 5.06 %.
+TEST(BenchmarkClaims, OfFewSeasHaveTheIntervalsOfStudentsDistribution) {
+  const auto above = [](double half, std::size_t seas) {
+    Study study = study_of({0.9}, {0.9}, {0.9}, {0.9});
+    study.groups.front().outcomes[1].primary.scores = scores_of(0.9, half);
+    study.groups.front().outcomes[1].primary.scores.groups = seas;
+    return claims_of(study).front();
+  };
+  EXPECT_EQ(above(0.027, 400).verdict, kYes);
+  EXPECT_EQ(above(0.027, 4).verdict, kOpen);
+  EXPECT_THAT(above(0.027, 4).why, HasSubstr("90.0 (85-95) %"));
+  EXPECT_EQ(above(0.021, 4).verdict, kYes);
+}
+
+// A probe at 51 % is not rejected: that is what "held" says, and how far it may be from chance.
+TEST(BenchmarkClaims, OfMotionAloneSayThatNothingIsRejected) {
+  const Study study = study_of({0.9}, {0.9}, {0.9}, {0.9}, 0.51);
+  const Claim claim = claims_of(study).back();
+  EXPECT_EQ(claim.verdict, kYes);
+  EXPECT_THAT(
+      claim.why,
+      HasSubstr("chance (50.0 %) is rejected for no quantity, which does not prove it: sample order may reach 53."));
+  EXPECT_THAT(benchmark_json(study)["claims"][4]["meaning"].get<std::string>(), HasSubstr("does not prove"));
+}
+
 TEST(BenchmarkFloor, LeavesOutTheFeaturesOfMotion) {
   const std::vector<FloorEntry> floor = floor_of(study_of({0.9}, {0.9}, {0.9}, {0.9}, 0.6));
   ASSERT_EQ(floor.size(), 2u);
