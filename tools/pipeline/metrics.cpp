@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <string_view>
 #include <vector>
 
 namespace seaglint {
@@ -45,6 +46,26 @@ double probe_accuracy(const ordered_json& metrics, const std::string& name) {
     if (probe.at("name") == name) return value_or_nan(probe.at("group").at("accuracy"));
   }
   return std::nan("");
+}
+
+DivisionWords division_words(const ordered_json& metrics) {
+  std::string column = "sea";
+  if (metrics.contains("learning")) column = metrics.at("learning").value("split.by", column);
+  DivisionWords words;
+  words.by_sea = column == "sea";
+  words.by = "by " + column;
+  words.unseen = words.by_sea ? "unseen seas" : fmt::format("values of {} that were not trained on", column);
+  words.heading = words.by_sea ? "Split by sea realisation (no test sea was seen in training)"
+                               : fmt::format("Split by {0} (no value of {0} is trained and tested on)", column);
+  // Text of Division: "tested on layout=ring only; split by ..."
+  constexpr std::string_view kTested = "tested on ", kOnly = " only; split by ";
+  const std::string division = metrics.value("division", "");
+  const std::size_t end = division.rfind(kOnly);
+  if (!division.starts_with(kTested) || end == std::string::npos) return words;
+  const std::string held = division.substr(kTested.size(), end - kTested.size());
+  words.unseen = fmt::format("held-out maps ({}) of {}", held, words.unseen);
+  words.heading += fmt::format(", tested on {} only", held);
+  return words;
 }
 
 std::string Guessing::text() const {

@@ -14,8 +14,17 @@ std::string percent(double fraction);  // "93.3 %", a dash for NaN
 // "93.3 % (88–98)" in HTML, with the 95 % interval if there is one
 std::string accuracy_cell(const nlohmann::ordered_json& scores);
 
-// Accuracy of a probe on unseen seas; NaN if there is no probe of this name.
+// Accuracy of a probe under the group protocol; NaN if there is no probe of this name.
 double probe_accuracy(const nlohmann::ordered_json& metrics, const std::string& name);
+
+// The group protocol in words, plain text, from learning.split and `division` of metrics.json.
+struct DivisionWords {
+  bool by_sea = true;   // whole seas on one side
+  std::string by;       // "by sea", "by azimuth_deg"
+  std::string unseen;   // what is tested: "unseen seas", "values of azimuth_deg that were not trained on"
+  std::string heading;  // "Split by sea realisation (no test sea was seen in training)"
+};
+DivisionWords division_words(const nlohmann::ordered_json& metrics);
 
 // Accuracies reached from the class frequencies alone: from guessing in proportion to them to always naming the largest
 // class.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tools/page/html.h"
+#include "tools/pipeline/metrics.h"
 
 namespace seaglint {
 
@@ -41,7 +42,8 @@ std::string confusion_table(const nlohmann::ordered_json& metrics, const ClassNa
       rows.back().push_back(
           fmt::format("{}", confused(metrics.at("fused").at("group"), classes.size(), truth, decision)));
   }
-  return "<h3>Decisions by class, fused features, split by sea</h3>\n" + html_table(rows);
+  return fmt::format("<h3>Decisions by class, fused features, split {}</h3>\n", division_words(metrics).by) +
+         html_table(rows);
 }
 
 std::string by_class(const ClassNames& classes, const std::function<std::string(int label)>& value) {

@@ -22,7 +22,7 @@ ClassNames class_names(const Scenario& scenario);
 std::size_t confused(const nlohmann::ordered_json& scores, std::size_t classes, std::size_t truth,
                      std::size_t decision);
 
-// Decisions of the fused features on unseen seas by truth, as HTML.
+// Decisions of the fused features under the group protocol by truth, as HTML.
 std::string confusion_table(const nlohmann::ordered_json& metrics, const ClassNames& classes);
 
 // "0.1 (ship) and 0.2 (array)", from the last label to the first; names as HTML.

@@ -44,7 +44,8 @@ std::string reading(const std::string& kind, bool chance, bool level_seen) {
 }  // namespace
 
 std::string probes_table(const ordered_json& metrics, const Scenario& scenario) {
-  std::vector<std::vector<std::string>> rows{{"probe", "what it is", "random split", "split by sea", "reading"}};
+  std::vector<std::vector<std::string>> rows{
+      {"probe", "what it is", "random split", "split " + division_words(metrics).by, "reading"}};
   const bool level_seen = !not_scaled(scenario.clutter).empty();
   for (const auto& entry : metrics.at("probes")) {
     rows.push_back({escape_html(entry.at("name").get<std::string>()),
@@ -57,29 +58,30 @@ std::string probes_table(const ordered_json& metrics, const Scenario& scenario) 
 
 std::string note_of_level(const ordered_json& metrics, const Scenario& scenario) {
   const ClutterSpec& clutter = scenario.clutter;
-  const std::string absolute = not_scaled(clutter), power = percent(probe_accuracy(metrics, "total power"));
+  const std::string absolute = not_scaled(clutter), power = percent(probe_accuracy(metrics, "total power")),
+                    unseen = escape_html(division_words(metrics).unseen);
   if (!absolute.empty()) {
     return fmt::format(
         "<b>Features see the level.</b> {} not scaled to the target, which stands out the more the larger it is. Total "
         "power alone "
-        "reaches {} on unseen seas, the ratio of the target to clutter and noise {}. Centre weights are normalised and "
+        "reaches {} on {}, the ratio of the target to clutter and noise {}. Centre weights are normalised and "
         "the network’s "
         "input is divided by its energy, but which centres are found depends on that ratio: part of what features "
         "reach here may be the "
         "target’s size. Clutter and noise at given ratios to the target (<code>clutter.level: scr</code>, "
         "<code>noise_level: "
         "cnr</code> or <code>snr</code>) take it out.",
-        absolute, power, percent(probe_accuracy(metrics, "signal to clutter and noise")));
+        absolute, power, unseen, percent(probe_accuracy(metrics, "signal to clutter and noise")));
   }
   return fmt::format(
       "<b>Absolute level would settle it.</b> {}, so the level of a map is the target’s size. Total power alone "
-      "reaches {} on unseen "
-      "seas. No feature group sees it: clutter and noise follow the target, centre weights are normalised, the "
+      "reaches {} on {}. No feature group sees it: clutter and noise follow the target, centre weights are normalised, "
+      "the "
       "network’s input is "
       "divided by its energy. A pipeline with unnormalised maps would look better for the wrong reason.",
       clutter.enabled ? fmt::format("The clutter follows the target (SCR {:g} dB)", clutter.scr_db)
                       : "There is no clutter",
-      power);
+      power, unseen);
 }
 
 }  // namespace seaglint

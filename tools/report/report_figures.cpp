@@ -19,6 +19,7 @@
 #include "tools/figure/mesh_picture.h"
 #include "tools/page/html.h"
 #include "tools/page/plot_json.h"
+#include "tools/pipeline/metrics.h"
 #include "tools/pipeline/scene.h"
 #include "tools/report/class_names.h"
 #include "tools/report/explorer.h"
@@ -140,12 +141,15 @@ void add_maps(FigureList& list, const ReportData& data) {
 }
 
 void add_scores(FigureList& list, const nlohmann::ordered_json& metrics) {
+  const DivisionWords division = division_words(metrics);
+  const std::string unseen = escape_html(division.unseen);
   for (const char* protocol : {"random", "group"}) {
     list.add("accuracy", fmt::format("accuracy_{}", protocol), accuracy_plot(metrics, protocol), {640, 400},
              protocol == std::string("random") ? "Random split: the paper's protocol. Maps of the same sea lie on both "
                                                  "sides. Bars: 95 % bootstrap over seas."
-                                               : "Split by sea: no test map shares its sea with a training map. No bar "
-                                                 "where a height has one test sea only.",
+                                               : fmt::format("Split {}: tested on {}. No bar where a height has one "
+                                                             "test sea only.",
+                                                             division.by, unseen),
              fmt::format("Accuracy against wave height, {} split", protocol));
   }
   for (const char* protocol : {"random", "group"}) {
@@ -155,7 +159,7 @@ void add_scores(FigureList& list, const nlohmann::ordered_json& metrics) {
              protocol == std::string("random")
                  ? "Receiver operating characteristic over the threshold of the trees' probability, all test "
                    "predictions of the random split."
-                 : "The same for unseen seas. Maps of one sea are not independent.",
+                 : fmt::format("The same for {}. Maps of one sea are not independent.", unseen),
              fmt::format("ROC, {} split", protocol));
   }
 }

@@ -56,8 +56,8 @@ double median_at(const ordered_json& metrics, const char* list, const char* key,
   return std::nan("");
 }
 
-// Comparison of the accuracy on random rows with that on unseen seas; with overlapping 95 % intervals they are not
-// distinguished.
+// Comparison of the accuracy on random rows with that of the group protocol; with overlapping 95 % intervals they are
+// not distinguished.
 std::string compared_protocols(const ordered_json& random, const ordered_json& group) {
   const double gap = 100 * (value_or_nan(random.at("accuracy")) - value_or_nan(group.at("accuracy")));
   const auto low = [](const ordered_json& scores) { return value_or_nan(scores.at("accuracy_95")[0]); };
@@ -93,22 +93,24 @@ std::string summary_tiles(const ordered_json& metrics) {
   };
   double seconds = 0;
   for (const auto& entry : metrics.at("run").at("seconds")) seconds += value_or_nan(entry);
+  const std::string unseen = escape_html(division_words(metrics).unseen);
   std::string html = "<div class=\"tiles\">\n";
   html += tile(fmt::format("{}", metrics.at("data").at("maps").get<std::size_t>()), "range-velocity maps");
-  html += tile(percent(accuracy(metrics, "handmade", "group")), "hand-made features, unseen seas");
-  html += tile(percent(accuracy(metrics, "cnn", "group")), "CNN features, unseen seas");
-  html += tile(percent(accuracy(metrics, "fused", "group")), "fused features, unseen seas");
+  html += tile(percent(accuracy(metrics, "handmade", "group")), "hand-made features, " + unseen);
+  html += tile(percent(accuracy(metrics, "cnn", "group")), "CNN features, " + unseen);
+  html += tile(percent(accuracy(metrics, "fused", "group")), "fused features, " + unseen);
   html += tile(percent(accuracy(metrics, "fused", "random")), "fused, the paper's random split");
   html += tile(fmt::format("{:.0f} s", seconds), "run time");
   return html + "</div>\n";
 }
 
 std::string accuracy_tables(const ordered_json& metrics, const ClassNames& classes) {
+  const DivisionWords division = division_words(metrics);
   std::string html;
   for (const char* protocol : kProtocols) {
     const bool random = protocol == kProtocols[0];
     html += random ? "<h3>Random split of the maps (the paper’s protocol)</h3>\n"
-                   : "<h3>Split by sea realisation (no test sea was seen in training)</h3>\n";
+                   : fmt::format("<h3>{}</h3>\n", escape_html(division.heading));
     Rows rows{{"H<sub>s</sub> (m)", "hand-made", "CNN", "fused", "test predictions", "test seas"}};
     const auto& heights = metrics.at("handmade").at(protocol).at("by_wave_height");
     for (std::size_t i = 0; i <= heights.size(); ++i) {
@@ -150,7 +152,8 @@ std::string accuracy_tables(const ordered_json& metrics, const ClassNames& class
   for (const char* protocol : kProtocols) {
     for (int k = 0; k < 3; ++k) {
       const auto& group = metrics.at(kGroups[k]);
-      const std::string name = fmt::format("{}, {}", kGroupNames[k], protocol == kProtocols[0] ? "random" : "by sea");
+      const std::string name =
+          fmt::format("{}, {}", kGroupNames[k], protocol == kProtocols[0] ? "random" : division.by);
       if (k == 0) {
         add(name, "–", group.at(protocol));
         add(name, "rows of split", group.at("fewer_rows").at(protocol));
@@ -180,7 +183,7 @@ std::string claims_table(const ordered_json& metrics, const ClassNames& classes)
   const auto verdict = [](bool holds) { return holds ? std::string("yes") : std::string("no"); };
   const double handmade_random = accuracy(metrics, "handmade", "random"),
                handmade_group = accuracy(metrics, "handmade", "group");
-  Rows rows{{"The paper’s claim", "Random split (the paper’s)", "Split by sea", "Holds here"}};
+  Rows rows{{"The paper’s claim", "Random split (the paper’s)", "Split " + division_words(metrics).by, "Holds here"}};
   for (int k = 0; k < 3; ++k) {
     const auto& group = metrics.at(kGroups[k]);
     rows.push_back({fmt::format("Accuracy rises with wave height: {} features", kGroupNames[k]),
@@ -239,35 +242,41 @@ std::string feature_table(const ordered_json& metrics, const ClassNames& classes
 std::string note_of_seas(const ordered_json& metrics) {
   const std::size_t seas = metrics.at("handmade").at("group").at("groups");
   const int repeats = metrics.at("split_repeats");
+  const std::string by = division_words(metrics).by;
   return fmt::format(
       "<b>Few seas, wide intervals.</b> {} {} sea realisations{}. The bootstrap draws seas, not maps; with so few it "
       "is rough, and a "
       "height with one test sea has no interval at all. Differences smaller than the intervals are not findings.",
-      repeats == 1 ? "The split by sea tests on" : fmt::format("{} splits by sea, pooled, test on", repeats), seas,
-      repeats == 1 ? "" : " in all, each on a part of them");
+      repeats == 1 ? fmt::format("The split {} tests on", by)
+                   : fmt::format("{} splits {}, pooled, test on", repeats, by),
+      seas, repeats == 1 ? "" : " in all, each on a part of them");
 }
 
 std::string expert_notes(const ordered_json& metrics, const Scenario& scenario) {
   std::string html = "<ul>\n";
   const ordered_json &random = metrics.at("fused").at("random"), &group = metrics.at("fused").at("group");
+  const DivisionWords division = division_words(metrics);
+  const std::string unseen = escape_html(division.unseen);
   html += item(fmt::format(
-      "<b>Two protocols.</b> Fused features reach {} on random maps and {} on unseen seas{}. Maps of one sea, {:g} s "
-      "apart and seen "
-      "from several aspects, are not independent: the second figure is the one that would carry over to another day.",
-      percent(value_or_nan(random.at("accuracy"))), percent(value_or_nan(group.at("accuracy"))),
-      compared_protocols(random, group), scenario.dataset.interval_spacing_s));
+      "<b>Two protocols.</b> Fused features reach {} on random maps and {} on {}{}. Maps of one sea, {:g} s apart and "
+      "seen from several aspects, are not independent: {}.",
+      percent(value_or_nan(random.at("accuracy"))), percent(value_or_nan(group.at("accuracy"))), unseen,
+      compared_protocols(random, group), scenario.dataset.interval_spacing_s,
+      division.by_sea ? "the second figure is the one that would carry over to another day"
+                      : fmt::format("a split {} has them on both sides, so that neither figure is that of another day",
+                                    division.by)));
   html += item(note_of_seas(metrics));
   html += item(note_of_level(metrics, scenario));
   const auto alone = [&metrics](const char* name) { return percent(probe_accuracy(metrics, name)); };
   html +=
-      item(fmt::format("<b>Geometry or motion?</b> By itself, on unseen seas, the range spread σ<sub>r</sub> reaches "
+      item(fmt::format("<b>Geometry or motion?</b> By itself, on {}, the range spread σ<sub>r</sub> reaches "
                        "{}, the velocity spread σ<sub>v</sub> {}, MWR {}, CCF {}; the mere "
                        "number of centres {}. Range spread and number of centres follow from length, layout and "
                        "richness of the target, not from its micro-motion: one ship and one "
                        "array, always with the same layout, can be told apart by them in any sea. The network is free "
                        "to use them too. Only arrays matched to the ship in extent, "
                        "strength and number of scatterers would show what micro-motion alone is worth.",
-                       alone("sigma_r alone"), alone("sigma_v alone"), alone("MWR alone"), alone("CCF alone"),
+                       unseen, alone("sigma_r alone"), alone("sigma_v alone"), alone("MWR alone"), alone("CCF alone"),
                        alone("number of centres")));
   if (!rises(metrics.at("handmade").at("group"))) {
     html += item(
@@ -284,14 +293,14 @@ std::string expert_notes(const ordered_json& metrics, const Scenario& scenario) 
   html +=
       item(clean ? fmt::format(
                        "<b>No leak by construction.</b> Hop code and sample order, which know nothing of the target, "
-                       "stay at chance ({} on unseen seas, from the shares of the classes).",
-                       chance)
+                       "stay at chance ({} on {}, from the shares of the classes).",
+                       chance, unseen)
                  : fmt::format(
                        "<b>Look for a leak.</b> A quantity that knows nothing of the target (hop code or sample order) "
-                       "is away from chance ({} on unseen seas, from the shares of the classes) by more than its "
+                       "is away from chance ({} on {}, from the shares of the classes) by more than its "
                        "interval. With several probes and few seas this happens by chance now and then; repeat with "
                        "another seed before believing it.",
-                       chance));
+                       chance, unseen));
   // The random code's pedestal and the velocity cell determine what the features can resolve.
   const PulseTrain train = make_pulse_train(scenario.radar, scenario.map.range_span_m, scenario.seed, 0);
   const double cell = train.velocity_resolution_mps();

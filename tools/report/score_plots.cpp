@@ -16,8 +16,10 @@ namespace {
 constexpr std::pair<const char*, const char*> kGroups[3] = {
     {"handmade", "hand-made"}, {"cnn", "CNN"}, {"fused", "fused"}};
 
-std::string split_name(const std::string& protocol) {
-  return protocol == "random" ? "random split of the maps" : "split by sea realisation";
+std::string split_name(const nlohmann::ordered_json& metrics, const std::string& protocol) {
+  if (protocol == "random") return "random split of the maps";
+  const DivisionWords division = division_words(metrics);
+  return division.by_sea ? "split by sea realisation" : "split " + division.by;
 }
 
 void add_curve(Series& series, const nlohmann::ordered_json& curve) {
@@ -28,9 +30,9 @@ void add_curve(Series& series, const nlohmann::ordered_json& curve) {
 Series chance() { return {"chance", {0, 100}, {0, 100}, {}, SeriesStyle::kLines}; }
 
 // Of more than two classes: each against the rest, by the fused features.
-LinePlot rest_roc_plot(const nlohmann::ordered_json& curves, const std::string& protocol) {
+LinePlot rest_roc_plot(const nlohmann::ordered_json& curves, const std::string& split) {
   LinePlot plot;
-  plot.title = "ROC of each class against the rest, fused, " + split_name(protocol);
+  plot.title = "ROC of each class against the rest, fused, " + split;
   plot.x = {"false alarms: others declared the class (%)", AxisRange{0, 100}, false};
   plot.y = {"detections of the class (%)", AxisRange{0, 102}, false};
   for (const auto& [name, curve] : curves.items()) {
@@ -47,7 +49,7 @@ LinePlot rest_roc_plot(const nlohmann::ordered_json& curves, const std::string& 
 
 LinePlot accuracy_plot(const nlohmann::ordered_json& metrics, const std::string& protocol) {
   LinePlot plot;
-  plot.title = "Accuracy, " + split_name(protocol);
+  plot.title = "Accuracy, " + split_name(metrics, protocol);
   plot.x.label = "significant wave height (m)";
   double span = 0, lowest = 50;
   for (const auto& row : metrics.at("handmade").at(protocol).at("by_wave_height"))
@@ -75,9 +77,10 @@ LinePlot accuracy_plot(const nlohmann::ordered_json& metrics, const std::string&
 
 std::optional<LinePlot> roc_plot(const nlohmann::ordered_json& metrics, const std::string& protocol) {
   const auto& fused = metrics.at("fused").at(protocol);
-  if (fused.contains("roc") && !fused.at("roc").contains("detections")) return rest_roc_plot(fused.at("roc"), protocol);
+  if (fused.contains("roc") && !fused.at("roc").contains("detections"))
+    return rest_roc_plot(fused.at("roc"), split_name(metrics, protocol));
   LinePlot plot;
-  plot.title = "ROC, " + split_name(protocol);
+  plot.title = "ROC, " + split_name(metrics, protocol);
   plot.x = {"false alarms: label 0 declared label 1 (%)", AxisRange{0, 100}, false};
   plot.y = {"detections: label 1 declared label 1 (%)", AxisRange{0, 102}, false};
   for (const auto& [group, label] : kGroups) {

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tools/pipeline/metrics.h"
 #include "tools/report/probe_text.h"
 #include "tools/report/score_plots.h"
 
@@ -145,6 +146,30 @@ TEST(AccuracyTables, LabelPredictionsOfPooledSplits) {
   metrics["split_repeats"] = 1;
   EXPECT_THAT(accuracy_tables(metrics, {"reflectors", "line"}), HasSubstr("a test prediction is a map"));
   EXPECT_THAT(note_of_seas(metrics), HasSubstr("The split by sea tests on 8 sea realisations."));
+}
+
+// "Unseen seas" only where whole seas are on one side.
+TEST(DivisionWords, FollowTheColumnAndWhatIsHeldOut) {
+  ordered_json metrics = telling_probes();
+  EXPECT_EQ(division_words(metrics).unseen, "unseen seas");
+  metrics["learning"]["split.by"] = "azimuth_deg";
+  metrics["division"] = "split by azimuth_deg";
+  const DivisionWords words = division_words(metrics);
+  EXPECT_FALSE(words.by_sea);
+  EXPECT_EQ(words.by, "by azimuth_deg");
+  const Scenario scenario = with_clutter(ClutterLevel::kScr, NoiseLevel::kCnr);
+  const std::string note = note_of_level(metrics, scenario), table = probes_table(metrics, scenario);
+  EXPECT_THAT(note, HasSubstr("reaches 96.7 % on values of azimuth_deg that were not trained on."));
+  EXPECT_THAT(table, HasSubstr("split by azimuth_deg"));
+  for (const std::string& text : {note, table}) {
+    EXPECT_THAT(text, Not(HasSubstr("unseen")));
+    EXPECT_THAT(text, Not(HasSubstr("by sea")));
+  }
+  metrics["learning"]["split.by"] = "sea";
+  metrics["division"] = "tested on layout=ring only; split by sea realisation (no test sea was seen in training)";
+  EXPECT_EQ(division_words(metrics).unseen, "held-out maps (layout=ring) of unseen seas");
+  EXPECT_EQ(division_words(metrics).heading,
+            "Split by sea realisation (no test sea was seen in training), tested on layout=ring only");
 }
 
 TEST(ClassNames, AreThoseOfTheTargets) {
