@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "classify/cnn/layers.h"
 #include "classify/model/logistic.h"
@@ -24,6 +25,11 @@ constexpr bool kHasNetwork[kGroups] = {false, true, true, false};
 
 Fusion other_fusion(Fusion fusion) { return fusion == Fusion::kSplit ? Fusion::kInSample : Fusion::kSplit; }
 
+// Without the network the primary result uses every training row, as `in_sample` does for the trees.
+Fusion primary_fusion(std::size_t group, const LearningSpec& spec) {
+  return kHasNetwork[group] ? spec.fusion : Fusion::kInSample;
+}
+
 std::vector<int> select(const std::vector<int>& labels, const std::vector<std::size_t>& rows) {
   std::vector<int> selected;
   for (const std::size_t row : rows) selected.push_back(labels[row]);
@@ -35,6 +41,10 @@ struct Job {
   std::uint64_t repeat = 0;
   Protocol protocol = Protocol::kGroup;
   Fusion fusion = Fusion::kSplit;
+  std::array<bool, kGroups> groups{true, true, true, true};  // of features that are wanted
+
+  bool is_wanted() const { return std::ranges::find(groups, true) != groups.end(); }
+  bool has_network() const { return groups[1] || groups[2]; }
 };
 
 struct JobResult {
@@ -42,7 +52,7 @@ struct JobResult {
   std::vector<Prediction> linear[kGroups];  // of logistic regression
   std::size_t train_rows[kGroups] = {};
   std::optional<Network> network;
-  std::vector<Booster> boosters;  // of every group
+  std::optional<Booster> boosters[kGroups];
   FeatureMatrix embeddings;
   Split split;
 };
@@ -62,12 +72,16 @@ std::vector<Prediction> predict_rows(const Model& model, const FeatureMatrix& fe
   return predictions;
 }
 
-std::vector<Job> all_jobs(const LearningSpec& spec) {
+// Protocol slowest, then main and other fusion, then repeat.
+std::vector<Job> all_jobs(const LearningSpec& spec, StudyScope scope = StudyScope::kFull) {
   std::vector<Job> jobs;
   for (const Protocol protocol : kProtocols) {
     for (const Fusion fusion : {spec.fusion, other_fusion(spec.fusion)}) {
       for (int repeat = 0; repeat < spec.split_repeats; ++repeat) {
         jobs.push_back({static_cast<std::uint64_t>(repeat), protocol, fusion});
+        if (scope == StudyScope::kFull) continue;
+        for (std::size_t group = 0; group < kGroups; ++group)
+          jobs.back().groups[group] = protocol == Protocol::kGroup && fusion == primary_fusion(group, spec);
       }
     }
   }
@@ -123,12 +137,16 @@ JobResult run_job(const Job& job, const LearningTable& table, const LearningSpec
   JobResult result;
   const JobRows rows = rows_of(job, table.division(), spec, train_fraction, seed);
   result.split = rows.split;
-  result.network = train_network(job, rows, table, spec, seed, stop);
-  result.embeddings = embedding_matrix(result.network->embed(table.centres));
-
-  const FeatureMatrix fused = join_columns(table.handmade, result.embeddings);
+  if (!job.is_wanted()) return result;
+  FeatureMatrix fused;
+  if (job.has_network()) {
+    result.network = train_network(job, rows, table, spec, seed, stop);
+    result.embeddings = embedding_matrix(result.network->embed(table.centres));
+    fused = join_columns(table.handmade, result.embeddings);
+  }
   const FeatureMatrix* features[kGroups] = {&table.handmade, &result.embeddings, &fused, &table.extended};
   for (std::size_t group = 0; group < kGroups; ++group) {
+    if (!job.groups[group]) continue;
     result.train_rows[group] = rows.trees.size();
     const Booster booster = Booster::train(select_rows(*features[group], rows.trees), select(table.labels, rows.trees),
                                            spec, stop, table.classes.size());
@@ -136,7 +154,7 @@ JobResult run_job(const Job& job, const LearningTable& table, const LearningSpec
     const LogisticModel linear = LogisticModel::train(select_rows(*features[group], rows.trees),
                                                       select(table.labels, rows.trees), table.classes.size());
     result.linear[group] = predict_rows(linear, *features[group], table, result.split.test);
-    result.boosters.push_back(booster);
+    result.boosters[group] = booster;
   }
   return result;
 }
@@ -182,6 +200,8 @@ class Evaluator {
     return {score(predictions, spec_.bootstrap_samples, seed_, index),
             score_by_wave_height(predictions, spec_.bootstrap_samples, seed_, index), train_rows};
   }
+  // An evaluation that is left out keeps its block.
+  void skip() { ++next_; }
 
  private:
   const LearningSpec& spec_;
@@ -190,11 +210,16 @@ class Evaluator {
 };
 
 std::vector<ProbeResult> run_probes(const LearningTable& table, const LearningSpec& spec, double train_fraction,
-                                    std::uint64_t seed, Evaluator& evaluate, Progress& progress, const StopFlag* stop) {
+                                    std::uint64_t seed, StudyScope scope, Evaluator& evaluate, Progress& progress,
+                                    const StopFlag* stop) {
   std::vector<ProbeResult> results;
   for (const Probe& probe : table.probes) {
     ProbeResult result{probe.name, probe.kind, probe.meaning, {}};
     for (const Protocol protocol : kProtocols) {
+      if (scope == StudyScope::kPrimary && protocol != Protocol::kGroup) {
+        evaluate.skip();
+        continue;
+      }
       std::vector<Prediction> predictions;
       std::size_t train_rows = 0;
       for (int repeat = 0; repeat < spec.split_repeats; ++repeat) {
@@ -255,33 +280,45 @@ void check_splits(const Division& division, const LearningSpec& spec, double tra
 }
 
 Study run_study(const LearningTable& table, const LearningSpec& spec, double train_fraction, std::uint64_t seed,
-                int threads, const StopFlag* stop) {
+                int threads, const StopFlag* stop, StudyScope scope) {
   load_layers_library();
   // libtorch waits for ever, or ends the process, when it cannot start its threads, one per processor of 8 MB stack;
   // each of ours takes 64 MB of address space for its own memory.
   require_address_space((std::size_t{8} * thread_count(0) + std::size_t{64} * std::min(threads, 4) + 64) << 20,
                         "learning");
-  const std::vector<Job> jobs = all_jobs(spec);
+  const std::vector<Job> jobs = all_jobs(spec, scope);
   const std::size_t repeats = static_cast<std::size_t>(spec.split_repeats);
   std::vector<JobResult> done(jobs.size());
-  Progress progress("training", jobs.size() + table.probes.size() * 2 * repeats);
+  const auto wanted = static_cast<std::size_t>(std::ranges::count_if(jobs, &Job::is_wanted));
+  const std::size_t protocols = scope == StudyScope::kFull ? 2 : 1;
+  Progress progress("training", wanted + table.probes.size() * protocols * repeats);
   parallel_for(
       jobs.size(), threads,
       [&](std::size_t i) {
         done[i] = run_job(jobs[i], table, spec, train_fraction, seed, stop);
-        progress.advance();
+        if (jobs[i].is_wanted()) progress.advance();
       },
       stop);
 
-  // Job numbers: protocol slowest, then primary and alternative fusion, then repeat.
-  const auto pooled = [&](std::size_t protocol, std::size_t fusion, std::size_t group,
-                          std::vector<Prediction>(JobResult::*kind)[kGroups] = &JobResult::predictions) {
+  // Results of all repeats of a protocol, with the primary fusion of the group of features or the other one.
+  const auto first_job = [&](std::size_t protocol, std::size_t group, bool primary) {
+    const std::size_t other = (primary_fusion(group, spec) == spec.fusion) == primary ? 0 : 1;
+    return (protocol * 2 + other) * repeats;
+  };
+  const auto evaluated = [&](Evaluator& evaluate, std::size_t first, std::size_t group,
+                             std::vector<Prediction>(JobResult::*kind)[kGroups],
+                             std::vector<std::vector<RocPoint>>* roc = nullptr) -> std::optional<Evaluation> {
+    if (!jobs[first].groups[group]) {
+      evaluate.skip();
+      return {};
+    }
     std::vector<Prediction> predictions;
     for (std::size_t repeat = 0; repeat < repeats; ++repeat) {
-      const auto& more = (done[(protocol * 2 + fusion) * repeats + repeat].*kind)[group];
+      const auto& more = (done[first + repeat].*kind)[group];
       predictions.insert(predictions.end(), more.begin(), more.end());
     }
-    return predictions;
+    if (roc != nullptr) *roc = roc_curves(predictions);
+    return evaluate(predictions, done[first].train_rows[group]);
   };
 
   Study study;
@@ -293,35 +330,30 @@ Study run_study(const LearningTable& table, const LearningSpec& spec, double tra
     for (std::size_t protocol = 0; protocol < 2; ++protocol) {
       Outcome outcome;
       outcome.protocol = kProtocols[protocol];
-      // Without the network the primary result uses every training row, as `in_sample` does for the trees.
-      const bool swap = !kHasNetwork[group] && spec.fusion == Fusion::kSplit;
-      for (std::size_t place = 0; place < 2; ++place) {
-        const std::size_t fusion = swap ? 1 - place : place;
-        const std::vector<Prediction> predictions = pooled(protocol, fusion, group);
-        (place == 0 ? outcome.primary : outcome.alternative) =
-            evaluate(predictions, done[(protocol * 2 + fusion) * repeats].train_rows[group]);
-        if (place == 0) outcome.roc = roc_curves(predictions);
-        if (place == 0 && kProtocols[protocol] == Protocol::kGroup) {
-          const JobResult& first = done[(protocol * 2 + fusion) * repeats];
-          const auto& made = group == 3 ? table.extended.names : table.handmade.names;
-          if (group != 1) result.columns = made;
-          if (kHasNetwork[group])
-            result.columns.insert(result.columns.end(), first.embeddings.names.begin(), first.embeddings.names.end());
-          result.gain = first.boosters[group].gains(result.columns.size());
-          study.trees.push_back(first.boosters[group]);
-        }
+      const std::size_t place = first_job(protocol, group, true);
+      const auto primary = evaluated(evaluate, place, group, &JobResult::predictions, &outcome.roc);
+      outcome.alternative = evaluated(evaluate, first_job(protocol, group, false), group, &JobResult::predictions);
+      if (!primary) continue;
+      outcome.primary = *primary;
+      if (kProtocols[protocol] == Protocol::kGroup) {
+        const JobResult& first = done[place];
+        const auto& made = group == 3 ? table.extended.names : table.handmade.names;
+        if (group != 1) result.columns = made;
+        if (kHasNetwork[group])
+          result.columns.insert(result.columns.end(), first.embeddings.names.begin(), first.embeddings.names.end());
+        result.gain = first.boosters[group]->gains(result.columns.size());
+        study.trees.push_back(*first.boosters[group]);
       }
       result.outcomes.push_back(outcome);
     }
     study.groups.push_back(std::move(result));
   }
-  study.probes = run_probes(table, spec, train_fraction, seed, evaluate, progress, stop);
+  study.probes = run_probes(table, spec, train_fraction, seed, scope, evaluate, progress, stop);
   for (std::size_t group = 0; group < kGroups; ++group) {
-    const std::size_t fusion = !kHasNetwork[group] && spec.fusion == Fusion::kSplit ? 1 : 0;  // of the primary
+    std::size_t place = 0;
     for (std::size_t protocol = 0; protocol < 2; ++protocol) {
-      study.groups[group].outcomes[protocol].linear =
-          evaluate(pooled(protocol, fusion, group, &JobResult::linear),
-                   done[(protocol * 2 + fusion) * repeats].train_rows[group]);
+      const auto linear = evaluated(evaluate, first_job(protocol, group, true), group, &JobResult::linear);
+      if (linear) study.groups[group].outcomes[place++].linear = *linear;
     }
   }
 

@@ -29,7 +29,7 @@ struct Outcome {
   // Without the network (hand-made, extended): trees on all training rows, and on their rows of fusion `split`; with
   // it: the scenario's fusion and the other one.
   Evaluation primary;
-  Evaluation alternative;
+  std::optional<Evaluation> alternative;   // absent in StudyScope::kPrimary
   Evaluation linear;                       // logistic regression in place of the trees of the primary
   std::vector<std::vector<RocPoint>> roc;  // of the primary: roc_curves()
 };
@@ -38,15 +38,22 @@ struct FeatureGroupResult {
   std::string name;  // handmade, cnn, fused, extended
   std::vector<std::string> columns;
   std::vector<double> gain;       // fraction of the trees' gain per column, group protocol, first repeat
-  std::vector<Outcome> outcomes;  // random, then group
+  std::vector<Outcome> outcomes;  // random, then group; group alone in StudyScope::kPrimary
+
+  const Outcome& of_group() const { return outcomes.back(); }
 };
 
 struct ProbeResult {
   std::string name;
   ProbeKind kind = ProbeKind::kBlind;
   std::string meaning;
-  std::vector<Evaluation> evaluations;  // random, then group
+  std::vector<Evaluation> evaluations;  // as FeatureGroupResult::outcomes
+
+  const Evaluation& of_group() const { return evaluations.back(); }
 };
+
+// kPrimary: the primary results of the group protocol, with the same figures as in kFull, in a sixth of the time.
+enum class StudyScope { kFull, kPrimary };
 
 // The models are those of the group protocol, main fusion, first repeat.
 struct Study {
@@ -76,7 +83,7 @@ inline constexpr const char* kSplitsFile = "splits.csv";
 // Trains and evaluates; writes nothing. The result depends only on data, spec and seed, not on `threads`. Throws
 // InputError as check_splits() does, Interrupted when *stop becomes true.
 Study run_study(const LearningTable& table, const LearningSpec& spec, double train_fraction, std::uint64_t seed,
-                int threads, const StopFlag* stop = nullptr);
+                int threads, const StopFlag* stop = nullptr, StudyScope scope = StudyScope::kFull);
 
 // Names of the files that save_models() and save_model_card() write.
 std::vector<std::string> model_files();

@@ -101,16 +101,16 @@ ordered_json to_json(const Study& study, const LearningSpec& spec) {
       entry[name(outcome.protocol)] = to_object(outcome.primary, study.classes);
       entry[name(outcome.protocol)]["roc"] = to_object(outcome.roc, study.classes);
       entry[name(outcome.protocol)]["logistic_regression"] = to_object(outcome.linear, study.classes);
-      others[name(outcome.protocol)] = to_object(outcome.alternative, study.classes);
+      if (outcome.alternative) others[name(outcome.protocol)] = to_object(*outcome.alternative, study.classes);
     }
-    entry[network ? fusion_name(other) : "fewer_rows"] = others;
+    if (!others.empty()) entry[network ? fusion_name(other) : "fewer_rows"] = others;
     json[group.name] = entry;
   }
   json["probes"] = ordered_json::array();
   for (const ProbeResult& probe : study.probes) {
     ordered_json entry{{"name", probe.name}, {"kind", name(probe.kind)}, {"meaning", probe.meaning}};
-    entry["random"] = to_object(probe.evaluations[0], study.classes);
-    entry["group"] = to_object(probe.evaluations[1], study.classes);
+    if (probe.evaluations.size() > 1) entry["random"] = to_object(probe.evaluations.front(), study.classes);
+    entry["group"] = to_object(probe.of_group(), study.classes);
     json["probes"].push_back(entry);
   }
   json["split_repeats"] = spec.split_repeats;
@@ -124,8 +124,11 @@ ordered_json to_json(const Study& study, const LearningSpec& spec) {
 
 std::string accuracy_table(const Study& study) {
   std::string text = "Accuracy in % (95 % interval by bootstrap over seas), XGBoost on four groups of features\n\n";
-  for (std::size_t protocol = 0; protocol < 2; ++protocol) {
-    text += protocol == 0 ? "random split of the maps (the paper's protocol)\n" : "\n" + study.division + "\n";
+  for (std::size_t protocol = 0; protocol < study.groups.front().outcomes.size(); ++protocol) {
+    text += protocol == 0 ? "" : "\n";
+    text += study.groups.front().outcomes[protocol].protocol == Protocol::kRandom
+                ? "random split of the maps (the paper's protocol)\n"
+                : study.division + "\n";
     text += fmt::format("  {:<10}{:>18}{:>18}{:>18}{:>18}\n", "Hs [m]", "hand-made", "CNN", "fused", "extended");
     const auto& heights = study.groups.front().outcomes[protocol].primary.by_wave_height;
     for (std::size_t i = 0; i <= heights.size(); ++i) {

@@ -28,7 +28,8 @@ nlohmann::ordered_json to_object(const Scores& scores, const std::vector<std::st
 nlohmann::ordered_json to_object(const std::vector<std::vector<RocPoint>>& curves,
                                  const std::vector<std::string>& classes);
 
-// The study as a JSON object with the members handmade, cnn, fused, extended, probes, network.
+// The study as a JSON object with the members handmade, cnn, fused, extended, probes, network; without what the scope
+// of the study leaves out.
 nlohmann::ordered_json to_json(const Study& study, const LearningSpec& spec);
 
 }  // namespace seaglint

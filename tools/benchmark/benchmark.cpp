@@ -76,9 +76,9 @@ Scenario read_benchmark(const std::string& name, bool small, const std::vector<O
   return read_scenario(file, all);
 }
 
-std::string run_benchmark(const Scenario& scenario, bool small, const fs::path& directory, const RunOptions& options,
+std::string run_benchmark(const Scenario& scenario, bool small, const fs::path& directory, bool resume, int threads,
                           const StopFlag* stop) {
-  const RunResult run = run_scenario(scenario, directory, options, stop);
+  const RunResult run = run_scenario(scenario, directory, {resume, threads, StudyScope::kPrimary}, stop);
   const SamplePlan plan(scenario);
   const std::size_t seas = plan.sea_states().size() * static_cast<std::size_t>(scenario.dataset.realisations_per_case);
   nlohmann::ordered_json json{{"benchmark", scenario.name},

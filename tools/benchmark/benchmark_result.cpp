@@ -19,14 +19,13 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::size_t kUnseenSeas = 1;  // index of the group protocol
 constexpr double kPaperHandmade = 0.86;
 
 double chance_of(const Study& study) { return 1 / static_cast<double>(study.classes.size()); }
 
 const Outcome& outcome_of(const Study& study, const std::string& group) {
   const auto found = std::ranges::find(study.groups, group, &FeatureGroupResult::name);
-  return found->outcomes[kUnseenSeas];
+  return found->of_group();
 }
 
 // Name, evaluation.
@@ -178,7 +177,7 @@ std::vector<FloorEntry> floor_of(const Study& study) {
   std::vector<Estimate> estimates;
   for (const ProbeResult& probe : study.probes) {
     if (probe.kind == ProbeKind::kFeature && probe.name != "sigma_r alone") continue;
-    entries.push_back({probe.name, probe.evaluations[kUnseenSeas].scores});
+    entries.push_back({probe.name, probe.of_group().scores});
     estimates.push_back(estimate_of(entries.back().scores));
   }
   const std::vector<ConfidenceInterval> intervals = holm_intervals(estimates, chance_of(study));
@@ -202,7 +201,7 @@ ordered_json benchmark_json(const Study& study) {
   const std::vector<FloorEntry> floor = floor_of(study);
   for (const FloorEntry& entry : floor) {
     const auto probe = std::ranges::find(study.probes, entry.name, &ProbeResult::name);
-    ordered_json object = to_object(probe->evaluations[kUnseenSeas]);
+    ordered_json object = to_object(probe->of_group());
     object["interval"] = {number_or_null(entry.scores.accuracy_95.low), number_or_null(entry.scores.accuracy_95.high)};
     object["leaks"] = entry.leaks;
     json["floor"][entry.name] = object;

@@ -31,7 +31,7 @@ void add_benchmark(CommandOptions& program, CommandContext& context) {
   command.add_option("NAME", arguments->name, "Name of a scenario of scenarios/benchmark, or a scenario file (.yaml)")
       .required();
   command.add_option("-o,--output", arguments->directory, "Directory of the results, new or empty").required();
-  command.add_flag("--small", arguments->small, "A trial with a few maps in a minute or two");
+  command.add_flag("--small", arguments->small, "A trial with a few maps in a minute");
   command.add_option("--set", arguments->set, "Replace a value of the scenario: key.path=value");
   command.add_flag("--resume", arguments->resume, "Go on with what an earlier run left in the directory");
   add_threads_option(command, context);
@@ -42,8 +42,8 @@ void add_benchmark(CommandOptions& program, CommandContext& context) {
     context.work = [arguments, &context] {
       const Scenario scenario = read_benchmark(arguments->name, arguments->small, read_overrides(arguments->set));
       try {
-        print_out("{}", run_benchmark(scenario, arguments->small, arguments->directory,
-                                      {arguments->resume, context.threads}, &context.stop));
+        print_out("{}", run_benchmark(scenario, arguments->small, arguments->directory, arguments->resume,
+                                      context.threads, &context.stop));
       } catch (const Interrupted&) {
         throw WorkError(fmt::format("interrupted; whole shards are kept, go on by the same command with --resume ({})",
                                     arguments->directory));

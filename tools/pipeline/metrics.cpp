@@ -90,7 +90,8 @@ Guessing guessing(const ordered_json& scores) {
 bool as_chance(const ordered_json& metrics, const ordered_json& probe) {
   const bool blind = probe.at("kind") == "blind";
   const int repeats = metrics.at("split_repeats");
-  return scores_as_chance(probe.at("random"), blind, repeats) && scores_as_chance(probe.at("group"), blind, repeats);
+  const bool random = !probe.contains("random") || scores_as_chance(probe.at("random"), blind, repeats);
+  return random && scores_as_chance(probe.at("group"), blind, repeats);
 }
 
 }  // namespace seaglint

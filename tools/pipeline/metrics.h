@@ -36,9 +36,9 @@ struct Guessing {
 Guessing guessing(
     const nlohmann::ordered_json& scores);  // for the class frequencies of the tested rows, from their confusion matrix
 
-// True if a probe's accuracy is compatible with guessing under both protocols. A probe that is random by construction
-// is independent from map to map: 99 % binomial interval of one split's rows (repeats reuse the same maps). Any other
-// probe: its bootstrap interval over seas; below guessing it does not tell either.
+// True if a probe's accuracy is compatible with guessing under both protocols, or the one that it has. A probe that is
+// random by construction is independent from map to map: 99 % binomial interval of one split's rows (repeats reuse the
+// same maps). Any other probe: its bootstrap interval over seas; below guessing it does not tell either.
 bool as_chance(const nlohmann::ordered_json& metrics, const nlohmann::ordered_json& probe);
 
 }  // namespace seaglint

@@ -149,11 +149,11 @@ void divide_rows(LearningData& data, const Scenario& scenario) {
 }
 
 TrainedModel train_on(const LearningData& data, const Scenario& scenario, const fs::path& model_directory, int threads,
-                      const StopFlag* stop) {
+                      const StopFlag* stop, StudyScope scope = StudyScope::kFull) {
   make_directory(model_directory);
   TrainedModel model;
   model.study = run_study(data.table, scenario.learning, scenario.dataset.train_fraction, scenario.seed,
-                          thread_count(threads), stop);
+                          thread_count(threads), stop, scope);
   model.metrics = metrics_json(model.study, data, scenario);
   ModelCard card = describe_model(model.study, data.table, data.rows, scenario, data.axes, kVersion);
   for (const Manifest& manifest : data.manifests)
@@ -199,13 +199,14 @@ void require_classes(const Division& division, std::span<const int> labels, cons
 }
 
 TrainedModel train_model(const DatasetReader& data, const Scenario& scenario, const fs::path& model_directory,
-                         int threads, const StopFlag* stop, const std::function<void(const Shard&)>& use) {
+                         int threads, const StopFlag* stop, const std::function<void(const Shard&)>& use,
+                         StudyScope scope) {
   require_own_directory(model_directory);
   LearningData learning;
   read_data(learning, data, scenario, stop, use);
   require_learnable(learning.table, data.directory().string());
   divide_rows(learning, scenario);
-  return train_on(learning, scenario, model_directory, threads, stop);
+  return train_on(learning, scenario, model_directory, threads, stop, scope);
 }
 
 TrainedModel train_model(const std::vector<fs::path>& data_sets, const fs::path& model_directory,

@@ -36,12 +36,13 @@ struct DivisionOptions {
 };
 
 // Trains and evaluates with the learning section of the data set's scenario; every shard is read once and passed to
-// `use` if given. The model directory is created; an earlier model there is replaced only when all is computed. Throws
-// InputError for an invalid data set, a directory with other content, or a division that leaves nothing, or one class
-// only, to train or to test on, WorkError when a file cannot be written, Interrupted when *stop becomes true.
+// `use` if given. `scope`: StudyScope. The model directory is created; an earlier model there is replaced only when all
+// is computed. Throws InputError for an invalid data set, a directory with other content, or a division that leaves
+// nothing, or one class only, to train or to test on, WorkError when a file cannot be written, Interrupted when *stop
+// becomes true.
 TrainedModel train_model(const DatasetReader& data, const Scenario& scenario,
                          const std::filesystem::path& model_directory, int threads, const StopFlag* stop = nullptr,
-                         const std::function<void(const Shard&)>& use = {});
+                         const std::function<void(const Shard&)>& use = {}, StudyScope scope = StudyScope::kFull);
 
 // The same with several data sets. Learning, split and seed are those of the scenario of the first data set, changed by
 // `overrides` and `division`. Prints data_set_warnings(). Throws InputError also when maps or features of the data sets

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -44,14 +45,20 @@ std::string reading(const std::string& kind, bool chance, bool level_seen) {
 }  // namespace
 
 std::string probes_table(const ordered_json& metrics, const Scenario& scenario) {
-  std::vector<std::vector<std::string>> rows{
-      {"probe", "what it is", "random split", "split " + division_words(metrics).by, "reading"}};
+  // A benchmark has no random split.
+  const bool has_random =
+      std::ranges::any_of(metrics.at("probes"), [](const ordered_json& probe) { return probe.contains("random"); });
+  std::vector<std::vector<std::string>> rows{{"probe", "what it is"}};
+  if (has_random) rows.front().push_back("random split");
+  rows.front().push_back("split " + division_words(metrics).by);
+  rows.front().push_back("reading");
   const bool level_seen = !not_scaled(scenario.clutter).empty();
   for (const auto& entry : metrics.at("probes")) {
-    rows.push_back({escape_html(entry.at("name").get<std::string>()),
-                    escape_html(entry.at("meaning").get<std::string>()), accuracy_cell(entry.at("random")),
-                    accuracy_cell(entry.at("group")),
-                    reading(entry.at("kind"), as_chance(metrics, entry), level_seen)});
+    rows.push_back(
+        {escape_html(entry.at("name").get<std::string>()), escape_html(entry.at("meaning").get<std::string>())});
+    if (has_random) rows.back().push_back(accuracy_cell(entry.at("random")));
+    rows.back().push_back(accuracy_cell(entry.at("group")));
+    rows.back().push_back(reading(entry.at("kind"), as_chance(metrics, entry), level_seen));
   }
   return html_table(rows, false);
 }

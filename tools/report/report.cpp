@@ -2,6 +2,7 @@
 #include "tools/report/report.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -17,6 +18,7 @@
 #include "sim/scenario/writer.h"
 #include "tools/page/html.h"
 #include "tools/page/page_files.h"
+#include "tools/pipeline/metrics.h"
 #include "tools/pipeline/scene.h"
 #include "tools/pipeline/train.h"
 #include "tools/pipeline/warnings.h"
@@ -149,6 +151,34 @@ std::string benchmarks(const fs::path& run) {
     }
   }
   return html;
+}
+
+// Times, versions, seeds and the network of a run, as HTML.
+std::string provenance_table(const ordered_json& metrics) {
+  std::vector<std::vector<std::string>> rows{{"item", "value"}};
+  const auto& run = metrics.at("run");
+  for (const auto& [stage, seconds] : run.at("seconds").items())
+    rows.push_back({fmt::format("time for {}", stage), fmt::format("{:.1f} s", value_or_nan(seconds))});
+  rows.push_back({"threads", fmt::format("{}", run.at("threads").get<int>())});
+  rows.push_back(
+      {"maps made in this run / kept from an earlier one",
+       fmt::format("{} / {}", run.at("maps_made").get<std::size_t>(), run.at("maps_kept").get<std::size_t>())});
+  rows.push_back({"program", "seaglint " + escape_html(metrics.at("version").get<std::string>())});
+  rows.push_back({"scenario, seed", fmt::format("{}, {}", escape_html(metrics.at("scenario").get<std::string>()),
+                                                metrics.at("seed").get<std::uint64_t>())});
+  rows.push_back({"scenario SHA-256",
+                  "<code>" + escape_html(metrics.at("data").at("scenario_sha256").get<std::string>()) + "</code>"});
+  const auto processors = metrics.at("data").at("processors").get<std::vector<std::string>>();
+  rows.push_back({"processor", escape_html(fmt::format("{}", fmt::join(processors, "; ")))});
+  const auto& network = metrics.at("network");
+  rows.push_back(
+      {"network", fmt::format("{} parameters, weights of epoch {}", network.at("parameters").get<std::size_t>(),
+                              network.at("epochs").get<int>())});
+  const auto& losses = network.at("training_loss");
+  if (!losses.empty())
+    rows.push_back({"network’s training loss, first and last epoch",
+                    fmt::format("{:.3f}, {:.3f}", value_or_nan(losses.front()), value_or_nan(losses.back()))});
+  return html_table(rows, false);
 }
 
 std::string page(const ordered_json& metrics, const ReportData& data, const Scenario& scenario,

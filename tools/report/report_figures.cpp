@@ -143,7 +143,9 @@ void add_maps(FigureList& list, const ReportData& data) {
 void add_scores(FigureList& list, const nlohmann::ordered_json& metrics) {
   const DivisionWords division = division_words(metrics);
   const std::string unseen = escape_html(division.unseen);
+  const bool has_random = metrics.at("handmade").contains("random");
   for (const char* protocol : {"random", "group"}) {
+    if (!metrics.at("handmade").contains(protocol)) continue;
     list.add("accuracy", fmt::format("accuracy_{}", protocol), accuracy_plot(metrics, protocol), {640, 400},
              protocol == std::string("random") ? "Random split: the paper's protocol. Maps of the same sea lie on both "
                                                  "sides. Bars: 95 % bootstrap over seas."
@@ -153,13 +155,15 @@ void add_scores(FigureList& list, const nlohmann::ordered_json& metrics) {
              fmt::format("Accuracy against wave height, {} split", protocol));
   }
   for (const char* protocol : {"random", "group"}) {
+    if (!metrics.at("handmade").contains(protocol)) continue;
     std::optional<LinePlot> plot = roc_plot(metrics, protocol);
     if (!plot) continue;
     list.add("accuracy", fmt::format("roc_{}", protocol), std::move(*plot), {640, 400},
              protocol == std::string("random")
                  ? "Receiver operating characteristic over the threshold of the trees' probability, all test "
                    "predictions of the random split."
-                 : fmt::format("The same for {}. Maps of one sea are not independent.", unseen),
+                 : fmt::format("{} for {}. Maps of one sea are not independent.",
+                               has_random ? "The same" : "Receiver operating characteristic", unseen),
              fmt::format("ROC, {} split", protocol));
   }
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <vector>
@@ -23,7 +24,13 @@ using Rows = std::vector<std::vector<std::string>>;
 
 constexpr const char* kGroups[3] = {"handmade", "cnn", "fused"};
 constexpr const char* kGroupNames[3] = {"hand-made", "CNN", "fused"};
-constexpr const char* kProtocols[2] = {"random", "group"};
+constexpr const char* kRandom = "random";
+
+// The protocols that metrics.json has: a benchmark has the second only.
+std::vector<const char*> protocols_of(const ordered_json& metrics) {
+  if (metrics.at("handmade").contains(kRandom)) return {kRandom, "group"};
+  return {"group"};
+}
 
 double accuracy(const ordered_json& metrics, const char* group, const char* protocol) {
   return value_or_nan(metrics.at(group).at(protocol).at("accuracy"));
@@ -74,13 +81,14 @@ std::string compared_protocols(const ordered_json& random, const ordered_json& g
 }
 
 // Note on what the row counts of a table refer to.
-std::string pooled_splits(int repeats) {
-  if (repeats == 1) return "<p>One split under each protocol: a test prediction is a map.</p>\n";
+std::string pooled_splits(int repeats, std::size_t protocols) {
+  const char* const each = protocols > 1 ? " under each protocol" : "";
+  if (repeats == 1) return fmt::format("<p>One split{}: a test prediction is a map.</p>\n", each);
   return fmt::format(
-      "<p>{} splits under each protocol, pooled: a map that several of them test has a prediction of each, so that "
+      "<p>{} splits{}, pooled: a map that several of them test has a prediction of each, so that "
       "there "
       "may be more predictions than maps. A test sea counts once.</p>\n",
-      repeats);
+      repeats, each);
 }
 
 std::string item(const std::string& text) { return "<li>" + text + "</li>\n"; }
@@ -99,7 +107,8 @@ std::string summary_tiles(const ordered_json& metrics) {
   html += tile(percent(accuracy(metrics, "handmade", "group")), "hand-made features, " + unseen);
   html += tile(percent(accuracy(metrics, "cnn", "group")), "CNN features, " + unseen);
   html += tile(percent(accuracy(metrics, "fused", "group")), "fused features, " + unseen);
-  html += tile(percent(accuracy(metrics, "fused", "random")), "fused, the paper's random split");
+  if (protocols_of(metrics).size() > 1)
+    html += tile(percent(accuracy(metrics, "fused", kRandom)), "fused, the paper's random split");
   html += tile(fmt::format("{:.0f} s", seconds), "run time");
   return html + "</div>\n";
 }
@@ -107,8 +116,9 @@ std::string summary_tiles(const ordered_json& metrics) {
 std::string accuracy_tables(const ordered_json& metrics, const ClassNames& classes) {
   const DivisionWords division = division_words(metrics);
   std::string html;
-  for (const char* protocol : kProtocols) {
-    const bool random = protocol == kProtocols[0];
+  const std::vector<const char*> protocols = protocols_of(metrics);
+  for (const char* protocol : protocols) {
+    const bool random = protocol == kRandom;
     html += random ? "<h3>Random split of the maps (the paper’s protocol)</h3>\n"
                    : fmt::format("<h3>{}</h3>\n", escape_html(division.heading));
     Rows rows{{"H<sub>s</sub> (m)", "hand-made", "CNN", "fused", "test predictions", "test seas"}};
@@ -130,6 +140,7 @@ std::string accuracy_tables(const ordered_json& metrics, const ClassNames& class
   }
 
   html += "<h3>Further figures of merit, all wave heights</h3>\n";
+  const bool has_both = metrics.at("handmade").contains("fewer_rows");  // fusions
   const bool two = classes.size() == 2;
   Rows rows{{"features, split", "fusion", "accuracy", two ? "AUC" : "AUC, mean over pairs of classes", "log loss"}};
   if (two) {
@@ -149,24 +160,24 @@ std::string accuracy_tables(const ordered_json& metrics, const ClassNames& class
     }
     rows.back().push_back(fmt::format("{}", e.at("train_rows").get<std::size_t>()));
   };
-  for (const char* protocol : kProtocols) {
+  for (const char* protocol : protocols) {
     for (int k = 0; k < 3; ++k) {
       const auto& group = metrics.at(kGroups[k]);
-      const std::string name =
-          fmt::format("{}, {}", kGroupNames[k], protocol == kProtocols[0] ? "random" : division.by);
+      const std::string name = fmt::format("{}, {}", kGroupNames[k], protocol == kRandom ? "random" : division.by);
       if (k == 0) {
         add(name, "–", group.at(protocol));
-        add(name, "rows of split", group.at("fewer_rows").at(protocol));
+        if (has_both) add(name, "rows of split", group.at("fewer_rows").at(protocol));
       } else {
         const std::string main = group.at("fusion"), other = main == "split" ? "in_sample" : "split";
         add(name, main, group.at(protocol));
-        add(name, other, group.at(other).at(protocol));
+        if (has_both) add(name, other, group.at(other).at(protocol));
       }
     }
   }
   html += html_table(rows);
   if (!two) html += confusion_table(metrics, classes);
-  html += pooled_splits(metrics.at("split_repeats"));
+  html += pooled_splits(metrics.at("split_repeats"), protocols.size());
+  if (!has_both) return html;
   html +=
       "<p>Fusion <code>split</code>: the network learns from one part of the training maps, the trees from the other, "
       "so that the trees never see "
@@ -181,31 +192,49 @@ std::string accuracy_tables(const ordered_json& metrics, const ClassNames& class
 
 std::string claims_table(const ordered_json& metrics, const ClassNames& classes) {
   const auto verdict = [](bool holds) { return holds ? std::string("yes") : std::string("no"); };
-  const double handmade_random = accuracy(metrics, "handmade", "random"),
-               handmade_group = accuracy(metrics, "handmade", "group");
-  Rows rows{{"The paper’s claim", "Random split (the paper’s)", "Split " + division_words(metrics).by, "Holds here"}};
+  const std::vector<const char*> protocols = protocols_of(metrics);
+  Rows rows{{"The paper’s claim"}};
+  for (const char* protocol : protocols)
+    rows[0].push_back(protocol == kRandom ? "Random split (the paper’s)" : "Split " + division_words(metrics).by);
+  rows[0].push_back("Holds here");
+  // A row of a claim with figures and verdict under each protocol.
+  const auto add = [&](const std::string& claim, const auto& figures, const auto& holds) {
+    rows.push_back({claim});
+    std::vector<std::string> verdicts;
+    for (const char* protocol : protocols) {
+      rows.back().push_back(figures(protocol));
+      verdicts.push_back(verdict(holds(protocol)));
+    }
+    rows.back().push_back(fmt::format("{}", fmt::join(verdicts, " / ")));
+  };
   for (int k = 0; k < 3; ++k) {
     const auto& group = metrics.at(kGroups[k]);
-    rows.push_back({fmt::format("Accuracy rises with wave height: {} features", kGroupNames[k]),
-                    by_height(group.at("random")), by_height(group.at("group")),
-                    fmt::format("{} / {}", verdict(rises(group.at("random"))), verdict(rises(group.at("group"))))});
+    add(
+        fmt::format("Accuracy rises with wave height: {} features", kGroupNames[k]),
+        [&](const char* protocol) { return by_height(group.at(protocol)); },
+        [&](const char* protocol) { return rises(group.at(protocol)); });
   }
-  std::string best[2];
-  bool fused_best[2];
-  for (int p = 0; p < 2; ++p) {
-    const double a = accuracy(metrics, "handmade", kProtocols[p]), b = accuracy(metrics, "cnn", kProtocols[p]),
-                 c = accuracy(metrics, "fused", kProtocols[p]);
-    fused_best[p] = c >= a && c >= b;
-    best[p] = fmt::format("{} / {} / {}", percent(a), percent(b), percent(c));
-  }
-  rows.push_back({"Fused features are best (hand-made / CNN / fused)", best[0], best[1],
-                  fmt::format("{} / {}", verdict(fused_best[0]), verdict(fused_best[1]))});
-  rows.push_back({"Hand-made features alone exceed 86 %", percent(handmade_random), percent(handmade_group),
-                  fmt::format("{} / {}", verdict(handmade_random > 0.86), verdict(handmade_group > 0.86))});
+  const auto of = [&](const char* protocol) {
+    return std::array{accuracy(metrics, "handmade", protocol), accuracy(metrics, "cnn", protocol),
+                      accuracy(metrics, "fused", protocol)};
+  };
+  add(
+      "Fused features are best (hand-made / CNN / fused)",
+      [&](const char* protocol) {
+        const auto [a, b, c] = of(protocol);
+        return fmt::format("{} / {} / {}", percent(a), percent(b), percent(c));
+      },
+      [&](const char* protocol) {
+        const auto [a, b, c] = of(protocol);
+        return c >= a && c >= b;
+      });
+  add(
+      "Hand-made features alone exceed 86 %", [&](const char* protocol) { return percent(of(protocol)[0]); },
+      [&](const char* protocol) { return of(protocol)[0] > 0.86; });
   if (classes.size() > 2) return html_table(rows, false);  // the next claim is on a ship and an array
   std::string residuals;
   bool array_scatters = true;
-  for (const auto& row : metrics.at("handmade").at("random").at("by_wave_height")) {
+  for (const auto& row : metrics.at("handmade").at("group").at("by_wave_height")) {
     const double height = row.at("significant_wave_height_m");
     const auto mwr = [&](int label) {
       return median_at(metrics, "features_by_wave_height", "significant_wave_height_m", height, label, "mwr");
@@ -216,7 +245,9 @@ std::string claims_table(const ordered_json& metrics, const ClassNames& classes)
   rows.push_back(
       {fmt::format("A ship’s centres lie on a line, an array’s do not (median MWR of {} / {} in (m/s)², all aspects)",
                    escape_html(classes[1]), escape_html(classes[0])),
-       residuals, "the same maps", array_scatters ? "yes" : "not at every height"});
+       residuals});
+  if (protocols.size() > 1) rows.back().push_back("the same maps");
+  rows.back().push_back(array_scatters ? "yes" : "not at every height");
   return html_table(rows, false);
 }
 
@@ -254,17 +285,21 @@ std::string note_of_seas(const ordered_json& metrics) {
 
 std::string expert_notes(const ordered_json& metrics, const Scenario& scenario) {
   std::string html = "<ul>\n";
-  const ordered_json &random = metrics.at("fused").at("random"), &group = metrics.at("fused").at("group");
+  const ordered_json& group = metrics.at("fused").at("group");
   const DivisionWords division = division_words(metrics);
   const std::string unseen = escape_html(division.unseen);
-  html += item(fmt::format(
-      "<b>Two protocols.</b> Fused features reach {} on random maps and {} on {}{}. Maps of one sea, {:g} s apart and "
-      "seen from several aspects, are not independent: {}.",
-      percent(value_or_nan(random.at("accuracy"))), percent(value_or_nan(group.at("accuracy"))), unseen,
-      compared_protocols(random, group), scenario.dataset.interval_spacing_s,
-      division.by_sea ? "the second figure is the one that would carry over to another day"
-                      : fmt::format("a split {} has them on both sides, so that neither figure is that of another day",
-                                    division.by)));
+  if (protocols_of(metrics).size() > 1) {
+    html += item(fmt::format(
+        "<b>Two protocols.</b> Fused features reach {} on random maps and {} on {}{}. Maps of one sea, {:g} s apart "
+        "and "
+        "seen from several aspects, are not independent: {}.",
+        percent(accuracy(metrics, "fused", kRandom)), percent(value_or_nan(group.at("accuracy"))), unseen,
+        compared_protocols(metrics.at("fused").at(kRandom), group), scenario.dataset.interval_spacing_s,
+        division.by_sea
+            ? "the second figure is the one that would carry over to another day"
+            : fmt::format("a split {} has them on both sides, so that neither figure is that of another day",
+                          division.by)));
+  }
   html += item(note_of_seas(metrics));
   html += item(note_of_level(metrics, scenario));
   const auto alone = [&metrics](const char* name) { return percent(probe_accuracy(metrics, name)); };
@@ -350,33 +385,6 @@ std::string expert_notes(const ordered_json& metrics, const Scenario& scenario) 
                          degenerate, metrics.at("data").at("maps").get<std::size_t>()));
   }
   return html + "</ul>\n";
-}
-
-std::string provenance_table(const ordered_json& metrics) {
-  Rows rows{{"item", "value"}};
-  const auto& run = metrics.at("run");
-  for (const auto& [stage, seconds] : run.at("seconds").items())
-    rows.push_back({fmt::format("time for {}", stage), fmt::format("{:.1f} s", value_or_nan(seconds))});
-  rows.push_back({"threads", fmt::format("{}", run.at("threads").get<int>())});
-  rows.push_back(
-      {"maps made in this run / kept from an earlier one",
-       fmt::format("{} / {}", run.at("maps_made").get<std::size_t>(), run.at("maps_kept").get<std::size_t>())});
-  rows.push_back({"program", "seaglint " + escape_html(metrics.at("version").get<std::string>())});
-  rows.push_back({"scenario, seed", fmt::format("{}, {}", escape_html(metrics.at("scenario").get<std::string>()),
-                                                metrics.at("seed").get<std::uint64_t>())});
-  rows.push_back({"scenario SHA-256",
-                  "<code>" + escape_html(metrics.at("data").at("scenario_sha256").get<std::string>()) + "</code>"});
-  const auto processors = metrics.at("data").at("processors").get<std::vector<std::string>>();
-  rows.push_back({"processor", escape_html(fmt::format("{}", fmt::join(processors, "; ")))});
-  const auto& network = metrics.at("network");
-  rows.push_back(
-      {"network", fmt::format("{} parameters, weights of epoch {}", network.at("parameters").get<std::size_t>(),
-                              network.at("epochs").get<int>())});
-  const auto& losses = network.at("training_loss");
-  if (!losses.empty())
-    rows.push_back({"network’s training loss, first and last epoch",
-                    fmt::format("{:.3f}, {:.3f}", value_or_nan(losses.front()), value_or_nan(losses.back()))});
-  return html_table(rows, false);
 }
 
 }  // namespace seaglint

@@ -19,6 +19,5 @@ std::string feature_table(const nlohmann::ordered_json& metrics, const ClassName
 // expert note on the number of seas that the splits test
 std::string note_of_seas(const nlohmann::ordered_json& metrics);
 std::string expert_notes(const nlohmann::ordered_json& metrics, const Scenario& scenario);
-std::string provenance_table(const nlohmann::ordered_json& metrics);
 
 }  // namespace seaglint

@@ -84,8 +84,9 @@ RunResult run_scenario(const Scenario& scenario, const fs::path& directory, cons
   TrainedModel model = clock.time("learning", [&] {
     const DatasetReader data(directory / "data");
     warn(data_set_warnings(data));
-    return train_model(data, scenario, directory / "model", options.threads, stop,
-                       [&](const Shard& shard) { collector.add(shard); });
+    return train_model(
+        data, scenario, directory / "model", options.threads, stop, [&](const Shard& shard) { collector.add(shard); },
+        options.scope);
   });
 
   // metrics.json of the run contains the model's numbers and the times of this run; `report` reads it.

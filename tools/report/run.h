@@ -17,6 +17,7 @@ namespace seaglint {
 struct RunOptions {
   bool resume = false;
   int threads = 0;  // 0 = all processors
+  StudyScope scope = StudyScope::kFull;
 };
 
 struct RunResult {

@@ -80,6 +80,42 @@ TEST(SmallBenchmark, HasAccuraciesInTheirIntervalsThatMotionAloneExplains) {
   EXPECT_EQ(read_file(folder.path() / "two" / "benchmark.json"), text);
 }
 
+// A benchmark leaves out the random split and the other fusion; what it has is that of `run`, to the last digit.
+TEST(SmallBenchmark, HasTheFiguresAndTheModelOfARun) {
+  for (const char* fusion : {"split", "in_sample"}) {
+    const TemporaryFolder folder;
+    const auto made = [&](const char* command) {
+      const fs::path directory = folder.path() / command;
+      const ProgramResult result =
+          run_program({command, "scenarios/points.yaml", "-o", directory, "--set", "learning.epochs=2", "--set",
+                       "learning.trees=20", "--set", "learning.split_repeats=2", "--set",
+                       std::string("learning.fusion=") + fusion});
+      EXPECT_EQ(result.code, 0) << result.err;
+      return json::parse(read_file(directory / "metrics.json"));
+    };
+    const json run = made("run"), benchmark = made("benchmark");
+    for (const char* group : {"handmade", "cnn", "fused", "extended"}) {
+      EXPECT_EQ(benchmark.at(group).at("group"), run.at(group).at("group")) << group;
+      EXPECT_EQ(benchmark.at(group).at("gain"), run.at(group).at("gain")) << group;
+      EXPECT_TRUE(run.at(group).contains("random"));
+      EXPECT_FALSE(benchmark.at(group).contains("random"));
+    }
+    ASSERT_EQ(benchmark.at("probes").size(), run.at("probes").size());
+    for (std::size_t i = 0; i < run.at("probes").size(); ++i)
+      EXPECT_EQ(benchmark.at("probes")[i].at("group"), run.at("probes")[i].at("group")) << i;
+    for (const char* file : {"network.bin", "handmade.json", "cnn.json", "fused.json", "extended.json", "splits.csv",
+                             "embeddings.csv", "model.json"}) {
+      EXPECT_EQ(read_file(folder.path() / "benchmark/model" / file), read_file(folder.path() / "run/model" / file))
+          << file;
+    }
+    const std::string page = read_file(folder.path() / "benchmark/report.html");
+    EXPECT_THAT(page, HasSubstr("Split by sea realisation"));
+    EXPECT_THAT(page, testing::Not(HasSubstr("andom split of the maps")));
+    EXPECT_THAT(page, testing::Not(HasSubstr("paper's random split")));
+    EXPECT_THAT(page, testing::Not(HasSubstr("in_sample</code>, the paper")));
+  }
+}
+
 TEST(SmallBenchmark, IsRefusedWithoutAFileLeftBehind) {
   const TemporaryFolder folder;
   const auto expect = [&](const std::string& name, std::vector<std::string> more, const std::string& message) {
