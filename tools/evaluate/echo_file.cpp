@@ -225,6 +225,7 @@ void read_columns(const Archive& archive, EchoFile& echo) {
 }  // namespace
 
 EchoFile read_echo_file(const fs::path& file) {
+  if (!fs::exists(file)) throw InputError(fmt::format("{}: no such file", file.string()));
   const Archive archive{file, npz_members(file)};
   EchoFile echo;
   echo.is_measured = archive.has_array("echo");

@@ -138,7 +138,17 @@ TEST_F(EchoOverTime, ThatDoesNotFitIsRefused) {
   const std::string bytes = read_file(file);
   write_file(path("half.npz"), bytes.substr(0, bytes.size() / 2));
   expect_refusal({"classify", path("model"), path("half.npz")}, "half.npz: no .npz archive of NumPy, or truncated");
-  expect_refusal({"classify", path("model"), path("none.npz")}, "none.npz");
+  const ProgramResult compressed = run_words({kPython, "-c", R"(
+import sys, zipfile
+with zipfile.ZipFile(sys.argv[1]) as stored, zipfile.ZipFile(sys.argv[2], 'w', zipfile.ZIP_DEFLATED) as archive:
+    for name in stored.namelist():
+        archive.writestr(name, stored.read(name))
+)",
+                                              file, path("compressed.npz")});
+  ASSERT_EQ(compressed.code, 0) << compressed.err;
+  expect_refusal({"classify", path("model"), path("compressed.npz")},
+                 "array pulse_time_s: is compressed; numpy.savez writes archives that are not");
+  expect_refusal({"classify", path("model"), path("none.npz")}, "none.npz: no such file");
   run({"export", path("data"), "-o", path("set.npz")});
   expect_refusal({"classify", path("model"), path("set.npz")}, "set.npz: ");
   expect_refusal({"classify", path("model"), echo(0, {"features.max_centres=32"})},
