@@ -52,7 +52,8 @@ struct ProbeResult {
   const Evaluation& of_group() const { return evaluations.back(); }
 };
 
-// kPrimary: the primary results of the group protocol, with the same figures as in kFull by one of six trainings of the network.
+// kPrimary: the primary results of the group protocol, with the same figures as in kFull by one of six trainings of the
+// network.
 enum class StudyScope { kFull, kPrimary };
 
 // The models are those of the group protocol, main fusion, first repeat.

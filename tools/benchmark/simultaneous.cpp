@@ -68,7 +68,7 @@ Estimate estimate_of(const Scores& scores) {
 
 double student_quantile(double probability, double degrees_of_freedom) {
   if (degrees_of_freedom >= kManyDegrees) return expanded_quantile(probability, degrees_of_freedom);
-  const int degrees = std::max(1, static_cast<int>(degrees_of_freedom));
+  const int degrees = static_cast<int>(std::max(1.0, degrees_of_freedom));
   double low = 0, high = kPi / 2;
   for (int halving = 0; halving < 60; ++halving) {
     const double middle = (low + high) / 2;
