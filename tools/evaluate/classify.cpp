@@ -36,7 +36,7 @@ struct Classified {
   AppliedRows applied;
   std::optional<std::set<std::string>> known;  // columns of the rows that have values; all unless given
 
-  bool knows(const std::string& column) const { return !known || known->contains(column); }
+  bool has(const std::string& column) const { return !known || known->contains(column); }
 };
 
 // Names of the features and conditions of a row outside the training range.
@@ -45,7 +45,7 @@ std::vector<std::string> outside(const ModelCard& card, const Classified& maps, 
   std::vector<std::string> names;
   for (const auto* ranges : {&card.feature_ranges, &card.condition_ranges})
     for (const ValueRange& range : *ranges)
-      if (maps.knows(range.name) && range.excludes(column_of({&row, 1}, range.name).numbers.front()))
+      if (maps.has(range.name) && range.excludes(column_of({&row, 1}, range.name).numbers.front()))
         names.push_back(range.name);
   return names;
 }
@@ -65,12 +65,12 @@ std::string digits(double value) { return std::isnan(value) ? "-" : fmt::format(
 // "sample 3: ship (truth: ship), Hs 1 m, azimuth 30 deg", without what is not known of the map.
 std::string title(const SavedModel& model, const Classified& maps) {
   const SampleRecord& record = maps.applied.rows.front().record;
-  std::string text = maps.knows("sample") ? fmt::format("sample {}", record.sample) : "interval";
-  if (maps.knows("target_name")) text += fmt::format(": {}", shown(record.target_name));
-  text += maps.knows("label") ? fmt::format(" (truth: {})", model.card.classes[static_cast<std::size_t>(record.label)])
-                              : " (truth not given)";
-  if (maps.knows("significant_wave_height_m")) text += fmt::format(", Hs {:g} m", record.significant_wave_height_m);
-  if (maps.knows("azimuth_deg")) text += fmt::format(", azimuth {:g} deg", record.azimuth_deg);
+  std::string text = maps.has("sample") ? fmt::format("sample {}", record.sample) : "interval";
+  if (maps.has("target_name")) text += fmt::format(": {}", shown(record.target_name));
+  text += maps.has("label") ? fmt::format(" (truth: {})", model.card.classes[static_cast<std::size_t>(record.label)])
+                            : " (truth not given)";
+  if (maps.has("significant_wave_height_m")) text += fmt::format(", Hs {:g} m", record.significant_wave_height_m);
+  if (maps.has("azimuth_deg")) text += fmt::format(", azimuth {:g} deg", record.azimuth_deg);
   return text + "\n";
 }
 
@@ -90,7 +90,7 @@ std::string sample_text(const SavedModel& model, const Classified& maps) {
   for (const std::string& name : model.card.classes) text += fmt::format("{:>32}", name + ", 5 / 50 / 95 %");
   text += "\n";
   const auto add = [&](const ValueRange& range) {
-    const bool known = maps.knows(range.name);
+    const bool known = maps.has(range.name);
     const double value = known ? column_of({&row, 1}, range.name).numbers.front() : std::nan("");
     text += fmt::format("  {:<28}{:>12}{:>24}", range.name, known ? digits(value) : "not given",
                         fmt::format("{} to {}", digits(range.lowest), digits(range.highest)));
@@ -136,8 +136,8 @@ std::string csv(const SavedModel& model, const Classified& maps) {
   text += ",outside\n";
   for (std::size_t row = 0; row < applied.rows.size(); ++row) {
     const SampleRecord& record = applied.rows[row].record;
-    text += fmt::format("{},{}", maps.knows("sample") ? std::to_string(record.sample) : "",
-                        maps.knows("label") ? std::to_string(record.label) : "");
+    text += fmt::format("{},{}", maps.has("sample") ? std::to_string(record.sample) : "",
+                        maps.has("label") ? std::to_string(record.label) : "");
     for (std::size_t i = 0; i < kModelNames.size(); ++i)
       text += fmt::format(",{}", fmt::join(applied.outputs(i, row), ","));
     for (const float value : applied.features.row(row)) text += fmt::format(",{}", value);

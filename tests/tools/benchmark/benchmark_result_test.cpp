@@ -87,8 +87,8 @@ TEST(BenchmarkClaims, OfFewSeasHaveTheIntervalsOfStudentsDistribution) {
   EXPECT_EQ(above(0.021, 4).verdict, kYes);
 }
 
-// A probe at 51 % is not rejected: that is what "held" says, and how far it may be from chance.
-TEST(BenchmarkClaims, OfMotionAloneSayThatNothingIsRejected) {
+// A probe at 51 % is not rejected: "held" states that, and how far it may be from chance.
+TEST(BenchmarkClaims, OfMotionAloneStateThatNothingIsRejected) {
   const Study study = study_of({0.9}, {0.9}, {0.9}, {0.9}, 0.51);
   const Claim claim = claims_of(study).back();
   EXPECT_EQ(claim.verdict, kYes);
