@@ -16,6 +16,7 @@
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/motion/target_motion.h"
 #include "tests/temporary_folder.h"
+#include "tests/tools/pipeline/target_responses.h"
 #include "tools/pipeline/map_products.h"
 #include "tools/pipeline/pipeline.h"
 
@@ -43,21 +44,6 @@ dataset: {{maps_per_case: 16, realisations_per_case: 8}}
 
 std::string line_of(int count, double spacing_m, const char* bodies) {
   return fmt::format("layout: {{line: {{count: {}, spacing_m: {}}}, bodies: {}}}", count, spacing_m, bodies);
-}
-
-std::vector<Complex> response_of(const Pipeline& pipeline, int target) {
-  SampleAddress at;
-  at.target = target;
-  return pipeline.response(at, pipeline.pulse_train(0)).response.values;
-}
-
-double relative_difference_db(const std::vector<Complex>& a, const std::vector<Complex>& b) {
-  double difference = 0, power = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    difference += std::norm(a[i] - b[i]);
-    power += std::norm(b[i]);
-  }
-  return 10 * std::log10(difference / power);
 }
 
 class RigidRaft : public testing::Test {

@@ -12,6 +12,7 @@
 #include "sim/geometry/shapes/generators.h"
 #include "sim/scenario/layout/layout.h"
 #include "tests/temporary_folder.h"
+#include "tests/tools/pipeline/target_responses.h"
 #include "tools/pipeline/moving_bodies.h"
 #include "tools/pipeline/pipeline.h"
 #include "tools/pipeline/warnings.h"
@@ -22,21 +23,6 @@ namespace {
 using testing::HasSubstr;
 
 constexpr const char* kReflector = SEAGLINT_SOURCE_DIR "/assets/icosahedral_reflector.glb";
-
-std::vector<Complex> response_of(const Pipeline& pipeline, int target) {
-  SampleAddress at;
-  at.target = target;
-  return pipeline.response(at, pipeline.pulse_train(0)).response.values;
-}
-
-double relative_difference_db(const std::vector<Complex>& a, const std::vector<Complex>& b) {
-  double difference = 0, power = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    difference += std::norm(a[i] - b[i]);
-    power += std::norm(b[i]);
-  }
-  return 10 * std::log10(std::max(difference / power, 1e-30));
-}
 
 class TargetSizes : public testing::Test {
  protected:
