@@ -173,11 +173,13 @@ BodyResponse body_response(const Scatterer& scatterer, const Trajectory& traject
           directions = shared_directions(traces[i].paths.front(), served, solver, polarisation);
         if (!directions.empty()) {
           std::vector<WeightedTrace> around;
-          for (const auto& [at, basis, weight] : directions) {
-            const SharedTraceKey key{at, kc, kc - wavenumbers.first, channel};
-            const auto make = [&] { return make_shared_trace(scatterer, basis, key, served, solver, inner, stop); };
-            around.push_back(
-                {shared != nullptr ? shared->get(key, make) : std::make_shared<const SharedTrace>(make()), weight});
+          for (const SharedDirection& direction : directions) {
+            const SharedTraceKey key{direction.at, kc, kc - wavenumbers.first, channel};
+            const auto make = [&] {
+              return make_shared_trace(scatterer, direction.basis, key, served, solver, inner, stop);
+            };
+            around.push_back({shared != nullptr ? shared->get(key, make) : std::make_shared<const SharedTrace>(make()),
+                              direction.weight});
           }
           returns[i].push_back(
               grid_of_traces(around, traces[i].paths.front(), wavenumbers, cross_track_limit_m(scatterer), inner));
