@@ -16,10 +16,10 @@
 #include "radar/rvmap/scr.h"
 #include "radar/waveform/pulse_train.h"
 #include "sim/core/process/parallel.h"
+#include "sim/core/process/shared_results.h"
 #include "sim/scattering/interval/body_response.h"
 #include "sim/scenario/sample_plan.h"
 #include "tools/pipeline/scene.h"
-#include "tools/pipeline/shared_results.h"
 
 namespace seaglint {
 

@@ -10,10 +10,10 @@
 
 #include "classify/dataset/directory/dataset_reader.h"
 #include "radar/waveform/pulse_train.h"
+#include "sim/core/process/shared_results.h"
 #include "sim/scattering/interval/body_response.h"
 #include "sim/scenario/scenario.h"
 #include "tools/pipeline/pipeline.h"
-#include "tools/pipeline/shared_results.h"
 
 namespace seaglint {
 

@@ -60,7 +60,7 @@ class LoadedBodies {
     static constexpr std::size_t kKept = 16;
     struct Entry {
       std::shared_ptr<const Value> value;
-      std::size_t used = 0;  // number of the last call that asked for it
+      std::size_t used = 0;  // number of the last call of get() for these fields
     };
     std::map<std::string, Entry> entries_;
     std::size_t calls_ = 0;

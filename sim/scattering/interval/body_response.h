@@ -18,7 +18,7 @@ namespace seaglint {
 
 struct BodyResponse {
   FrequencyResponse response;
-  int traces = 0;  // aspect traces, over all spans and propagation paths
+  int traces = 0;  // aspect traces, over all spans and propagation paths; those shared by intervals count as one
 };
 
 // Default aspect change that one trace serves, rad: min(0.15 deg, 3 wavelength / radius), a two-way displacement of 6

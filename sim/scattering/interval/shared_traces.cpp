@@ -99,18 +99,11 @@ bool SharedTraces::keep(const SharedTrace& trace) {
 
 std::shared_ptr<const SharedTrace> SharedTraces::get(const SharedTraceKey& key,
                                                      const std::function<SharedTrace()>& make) {
-  const std::shared_ptr<Slot> slot = [&] {
-    const std::lock_guard lock(mutex_);
-    std::shared_ptr<Slot>& known = slots_[key];
-    if (!known) known = std::make_shared<Slot>();
-    return known;
-  }();
-  std::call_once(slot->made, [&] {
-    slot->trace = std::make_shared<const SharedTrace>(make());
-    const std::lock_guard lock(mutex_);
-    if (!keep(*slot->trace)) slots_.erase(key);
+  return traces_.get(key, [&] {
+    SharedTrace trace = make();
+    if (!keep(trace)) traces_.forget(key);
+    return trace;
   });
-  return slot->trace;
 }
 
 }  // namespace seaglint

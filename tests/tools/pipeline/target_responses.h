@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "tests/relative_difference.h"
 #include "tools/pipeline/pipeline.h"
 
 namespace seaglint {
@@ -20,12 +21,7 @@ inline std::vector<Complex> response_of(const Pipeline& pipeline, int target) {
 
 // Relative L2 difference of a from b, dB; at least -300.
 inline double relative_difference_db(const std::vector<Complex>& a, const std::vector<Complex>& b) {
-  double difference = 0, power = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    difference += std::norm(a[i] - b[i]);
-    power += std::norm(b[i]);
-  }
-  return 10 * std::log10(std::max(difference / power, 1e-30));
+  return 20 * std::log10(std::max(relative_difference(a, b), 1e-15));
 }
 
 }  // namespace seaglint

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Results that several threads need: the first one to ask computes a result, the others wait for it.
+// Results that several threads need: one of them computes a result, the others wait for it.
 
 #include <cstddef>
 #include <memory>
@@ -10,7 +10,7 @@
 
 namespace seaglint {
 
-// Keeps the results of the `kept` keys that were asked for last for the first time. Any thread may use it.
+// Keeps the results of the `kept` keys that were requested last for the first time. Any thread may use it.
 template <class Key, class Value>
 class SharedResults {
  public:
@@ -22,6 +22,12 @@ class SharedResults {
     const std::shared_ptr<Slot> slot = slot_of(key);
     std::call_once(slot->made, [&] { slot->value = std::make_shared<const Value>(make()); });
     return slot->value;
+  }
+
+  // The result of a key is not kept, also if it is being computed; threads that wait for it get it.
+  void forget(const Key& key) {
+    const std::lock_guard lock(mutex_);
+    std::erase_if(slots_, [&](const auto& slot) { return slot->key == key; });
   }
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Results that several threads need are computed once, and again when they are no longer kept.
-#include "tools/pipeline/shared_results.h"
+#include "sim/core/process/shared_results.h"
 
 #include <gtest/gtest.h>
 
@@ -44,6 +44,17 @@ TEST(SharedResults, ThatFailedAreTriedAgain) {
   SharedResults<int, int> kept(2);
   EXPECT_THROW(kept.get(1, []() -> int { throw std::runtime_error("interrupted"); }), std::runtime_error);
   EXPECT_EQ(*kept.get(1, [] { return 7; }), 7);
+}
+
+TEST(SharedResults, CanBeForgottenWhileTheyAreComputed) {
+  SharedResults<int, int> kept(2);
+  int made = 0;
+  const auto make = [&] {
+    kept.forget(1);
+    return ++made;
+  };
+  EXPECT_EQ(*kept.get(1, make), 1);
+  EXPECT_EQ(*kept.get(1, make), 2);
 }
 
 }  // namespace
