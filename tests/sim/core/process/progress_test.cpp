@@ -51,12 +51,14 @@ std::string output_to_terminal(const Function& work) {
   work();
   ::dup2(before, STDERR_FILENO);
   ::close(before);
-  ::fcntl(terminal, F_SETFL, O_NONBLOCK);
-  char buffer[4096];
-  const ssize_t count = ::read(terminal, buffer, sizeof buffer);
   ::close(inside);
+  // The kernel passes what is written in pieces; after the last of them reading fails, as the other end is closed.
+  std::string output;
+  char buffer[4096];
+  for (ssize_t count; (count = ::read(terminal, buffer, sizeof buffer)) > 0;)
+    output.append(buffer, static_cast<std::size_t>(count));
   ::close(terminal);
-  return std::string(buffer, count > 0 ? static_cast<std::size_t>(count) : 0);
+  return output;
 }
 
 TEST(Progress, DrawsABarOnATerminalAfterTwoSecondsAndErasesIt) {
