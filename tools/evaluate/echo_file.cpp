@@ -49,21 +49,27 @@ struct Archive {
     const NpzValues wanted{"", shape, ""};
     if (values.shape != shape)
       fail(fmt::format("array {}: shape {}, must be {}", name, values.shape_text(), wanted.shape_text()));
+    return converted(name, values, convert);
+  }
+  std::vector<double> numbers(const std::string& name, std::uint64_t count) const {
+    return read(name, {count}, &NpzValues::numbers);
+  }
+  // Values of an array of one dimension of any length.
+  std::vector<double> numbers(const std::string& name) const {
+    const NpzValues values = read_npz_array(file, name);
+    if (values.shape.size() != 1)
+      fail(fmt::format("array {}: shape {}, must have one dimension", name, values.shape_text()));
+    return converted(name, values, &NpzValues::numbers);
+  }
+
+ private:
+  template <class Values>
+  Values converted(const std::string& name, const NpzValues& values, Values (NpzValues::*convert)() const) const {
     try {
       return (values.*convert)();
     } catch (const InputError& error) {
       fail(fmt::format("array {}: {}", name, error.what()));
     }
-  }
-  std::vector<double> numbers(const std::string& name, std::uint64_t count) const {
-    return read(name, {count}, &NpzValues::numbers);
-  }
-  // Number of values of an array of one dimension.
-  std::uint64_t length(const std::string& name) const {
-    const NpzValues values = read_npz_array(file, name);
-    if (values.shape.size() != 1)
-      fail(fmt::format("array {}: shape {}, must have one dimension", name, values.shape_text()));
-    return values.shape.front();
   }
 };
 
@@ -95,12 +101,12 @@ double window_of(const Archive& archive, const Scenario& scenario, const std::ve
 // The pulses of the map with the archive's code, carriers and times.
 PulseTrain read_train(const Archive& archive, const Scenario& scenario, bool is_measured) {
   const RadarSpec& radar = scenario.radar;
-  const std::uint64_t pulses = archive.length("pulse_time_s");
+  const std::vector<double> time_s = archive.numbers("pulse_time_s");
+  const std::size_t pulses = time_s.size();
   if (pulses != static_cast<std::uint64_t>(radar.pulses))
     archive.fail(fmt::format("array pulse_time_s: {} pulses, by radar.pulses {}", pulses, radar.pulses));
   std::vector<double> frequency_hz;
-  if (!is_measured || archive.has_array("frequency_hz"))
-    frequency_hz = archive.numbers("frequency_hz", archive.length("frequency_hz"));
+  if (!is_measured || archive.has_array("frequency_hz")) frequency_hz = archive.numbers("frequency_hz");
   if (!is_measured && frequency_hz.empty()) archive.fail("array frequency_hz: no frequency");
 
   PulseTrain train = make_pulse_train(radar, window_of(archive, scenario, frequency_hz), scenario.seed, 0);
@@ -122,7 +128,6 @@ PulseTrain read_train(const Archive& archive, const Scenario& scenario, bool is_
   check_values(archive, "carrier_hz", archive.numbers("carrier_hz", pulses), train.carrier_hz,
                kRounding * train.hop_step_hz, "hop_code, radar.carrier_ghz and radar.hop_step_mhz");
 
-  const std::vector<double> time_s = archive.numbers("pulse_time_s", pulses);
   std::vector<double> regular_s;
   for (std::size_t n = 0; n < pulses; ++n) regular_s.push_back(static_cast<double>(n) * train.pri_s);
   // A drawn jitter has the bound of its distribution, below half the interval.
@@ -138,7 +143,8 @@ PulseTrain read_train(const Archive& archive, const Scenario& scenario, bool is_
 // Times of the samples of each pulse.
 std::vector<double> read_times(const Archive& archive, const Scenario& scenario, const PulseTrain& train) {
   const double sampling_hz = scenario.radar.sampling_mhz * 1e6;
-  const std::uint64_t samples = archive.length("time_s");
+  const std::vector<double> time_s = archive.numbers("time_s");
+  const std::size_t samples = time_s.size();
   const double length = static_cast<double>(samples), per_step = sampling_hz / train.baseband_step_hz;
   const double steps = length / per_step, odd = 2 * std::round((steps - 1) / 2) + 1;
   if (length < scenario.radar.pulse_width_us * scenario.radar.sampling_mhz)
@@ -154,8 +160,7 @@ std::vector<double> read_times(const Archive& archive, const Scenario& scenario,
   }
   std::vector<double> stated(samples);
   for (std::size_t k = 0; k < samples; ++k) stated[k] = (static_cast<double>(k) - (length - 1) / 2) / sampling_hz;
-  check_values(archive, "time_s", archive.numbers("time_s", samples), stated, 1e-3 / sampling_hz,
-               "radar.sampling_mhz, centred on 0,");
+  check_values(archive, "time_s", time_s, stated, 1e-3 / sampling_hz, "radar.sampling_mhz, centred on 0,");
   return stated;
 }
 

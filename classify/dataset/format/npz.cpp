@@ -197,6 +197,13 @@ ArchiveToRead open_to_read(const std::filesystem::path& file) {
   return {zip_open(file.c_str(), ZIP_RDONLY, &code), &zip_discard};
 }
 
+// Throws InputError when the file is no archive.
+ArchiveToRead opened(const std::filesystem::path& file) {
+  ArchiveToRead archive = open_to_read(file);
+  if (!archive) throw InputError(fmt::format("{}: no .npz archive of NumPy, or truncated", file.string()));
+  return archive;
+}
+
 // Bytes of a member, checked against its checksum, which the library does at the end; empty when it is damaged.
 std::optional<std::string> read_member(zip_t* archive, const std::string& name, std::uint64_t bytes) {
   const std::unique_ptr<zip_file_t, decltype(&zip_fclose)> member(zip_fopen(archive, name.c_str(), 0), &zip_fclose);
@@ -240,8 +247,7 @@ std::string read_npz_text(const std::filesystem::path& file, const std::string& 
 }
 
 std::vector<std::string> npz_members(const std::filesystem::path& file) {
-  const ArchiveToRead archive = open_to_read(file);
-  if (!archive) throw InputError(fmt::format("{}: no .npz archive of NumPy, or truncated", file.string()));
+  const ArchiveToRead archive = opened(file);
   std::vector<std::string> names;
   for (zip_int64_t i = 0; i < zip_get_num_entries(archive.get(), 0); ++i) {
     const char* name = zip_get_name(archive.get(), static_cast<zip_uint64_t>(i), 0);
@@ -273,8 +279,7 @@ NpzValues read_npz_array(const std::filesystem::path& file, const std::string& n
   const auto fail = [&](const std::string& why) {
     throw InputError(fmt::format("{}: array {}: {}", file.string(), name, why));
   };
-  const ArchiveToRead archive = open_to_read(file);
-  if (!archive) throw InputError(fmt::format("{}: no .npz archive of NumPy, or truncated", file.string()));
+  const ArchiveToRead archive = opened(file);
   const std::string member = name + ".npy";
   zip_stat_t stat;
   constexpr zip_uint64_t kNeeded = ZIP_STAT_SIZE | ZIP_STAT_COMP_SIZE | ZIP_STAT_COMP_METHOD;
