@@ -8,12 +8,15 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "classify/model/tree_check.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 
 namespace seaglint {
 
 namespace {
+
+constexpr std::size_t kMaxBytes = std::size_t{64} << 20;  // of a file
 
 void require(int status, const char* what) {
   if (status != 0) throw WorkError(fmt::format("XGBoost: {}: {}", what, XGBGetLastError()));
@@ -152,12 +155,11 @@ void Booster::save(const std::filesystem::path& file) const {
 
 Booster Booster::load(const std::filesystem::path& file) {
   quieten();
-  const std::string bytes = read_file(file);
+  const std::string bytes = read_file(file, kMaxBytes);
+  require_sound_trees(bytes, file.string());
   auto model = std::make_shared<Model>(nullptr);
-  if (bytes.empty() || bytes.front() != '{' ||
-      XGBoosterLoadModelFromBuffer(model->handle, bytes.data(), bytes.size()) != 0) {
-    throw InputError(fmt::format("{}: not an XGBoost model in JSON", file.string()));
-  }
+  if (XGBoosterLoadModelFromBuffer(model->handle, bytes.data(), bytes.size()) != 0)
+    throw InputError(fmt::format("{}: not the trees of a model: XGBoost cannot read them", file.string()));
   model->set("nthread", "1");
   return Booster(std::move(model));
 }

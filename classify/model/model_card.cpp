@@ -48,8 +48,8 @@ double number(const ordered_json& json) {
 ordered_json to_object(const AxisExtent& axis) {
   return {{"cells", axis.cells}, {"first", axis.first}, {"last", axis.last}};
 }
-AxisExtent axis_from(const ordered_json& json) {
-  return {json.at("cells").get<std::uint64_t>(), json.at("first").get<double>(), json.at("last").get<double>()};
+AxisExtent axis_from(const ordered_json& json, const std::string& file) {
+  return {whole_number(json, "cells", file), json.at("first").get<double>(), json.at("last").get<double>()};
 }
 
 ordered_json to_array(const std::vector<ValueRange>& ranges, const std::vector<std::string>& classes) {
@@ -187,10 +187,14 @@ ModelCard read_model_card(const std::filesystem::path& file, const std::string& 
         card.classes.size() > kMaxClasses || different.contains(""))
       throw InputError(fmt::format("{}: classes {}: must be {} to {} different names", file.string(),
                                    shown(fmt::format("{}", fmt::join(card.classes, ", "))), kMinClasses, kMaxClasses));
-    card.seed = json.at("seed").get<std::uint64_t>();
+    const auto whole = [&](const ordered_json& object, const char* key) {
+      return whole_number(object, key, file.string());
+    };
+    card.seed = whole(json, "seed");
     card.features = json.at("features").get<std::vector<std::string>>();
     card.embedding = json.at("embedding").get<std::vector<std::string>>();
-    card.grid = {axis_from(json.at("grid").at("range_m")), axis_from(json.at("grid").at("velocity_mps"))};
+    const ordered_json& grid = json.at("grid");
+    card.grid = {axis_from(grid.at("range_m"), file.string()), axis_from(grid.at("velocity_mps"), file.string())};
     for (const char* section : {"map", "features", "learning"}) {
       SectionSettings& entries = card.settings[section];
       for (const auto& [key, value] : json.at("settings").at(section).items())
@@ -198,10 +202,10 @@ ModelCard read_model_card(const std::filesystem::path& file, const std::string& 
     }
     for (const ordered_json& entry : json.at("data_sets")) {
       card.data_sets.push_back({entry.at("scenario").get<std::string>(), entry.at("scenario_sha256").get<std::string>(),
-                                entry.at("seed").get<std::uint64_t>(), entry.at("samples").get<std::uint64_t>()});
+                                whole(entry, "seed"), whole(entry, "samples")});
     }
     card.division = json.at("division").get<std::string>();
-    card.train_rows = json.at("train_rows").get<std::uint64_t>();
+    card.train_rows = whole(json, "train_rows");
     card.feature_ranges = ranges_from(json.at("feature_ranges"), card.classes);
     card.condition_ranges = ranges_from(json.at("condition_ranges"), card.classes);
     card.sha256 = json.at("sha256").get<std::map<std::string, std::string>>();
@@ -211,8 +215,12 @@ ModelCard read_model_card(const std::filesystem::path& file, const std::string& 
     if (!same_features) throw InputError(fmt::format("{}: feature_ranges: not those of features", file.string()));
     for (const auto* ranges : {&card.feature_ranges, &card.condition_ranges}) {
       for (const ValueRange& range : *ranges) {
-        if (column_of({}, range.name).is_text)
+        const ColumnOfRows column = column_of({}, range.name);
+        if (column.is_text)
           throw InputError(fmt::format("{}: {}: a column of text has no range", file.string(), shown(range.name)));
+        if (range.unit != column.unit)
+          throw InputError(fmt::format("{}: {}: units {}, must be {}", file.string(), range.name, in_quotes(range.unit),
+                                       in_quotes(column.unit)));
       }
     }
     return card;

@@ -56,7 +56,10 @@ const std::vector<NamedReader> kReaders = {{"numbers", fuzz_numbers},
                                            {"npz", fuzz_npz},
                                            {"inputs", fuzz_inputs},
                                            {"croissant", fuzz_croissant},
-                                           {"embeddings", fuzz_embeddings}};
+                                           {"embeddings", fuzz_embeddings},
+                                           {"trees", fuzz_trees},
+                                           {"model_card", fuzz_model_card},
+                                           {"echo", fuzz_echo}};
 
 // The inputs of all readers, each of which may be given to any.
 std::vector<fs::path> inputs() {

@@ -51,4 +51,9 @@ void fuzz_inputs(const std::string& bytes);  // inputs.sha256
 void fuzz_croissant(const std::string& bytes);
 void fuzz_embeddings(const std::string& bytes);  // embeddings.csv
 
+// Models and echoes.
+void fuzz_trees(const std::string& bytes);       // handmade.json, with the probabilities of rows
+void fuzz_model_card(const std::string& bytes);  // model.json
+void fuzz_echo(const std::string& bytes);        // I/Q samples over time
+
 }  // namespace seaglint

@@ -2,9 +2,12 @@
 // Writes files that this program makes itself as seeds: DIRECTORY/{manifest,shard,npz,glb,...}/...
 #include <fmt/format.h>
 
+#include <complex>
 #include <cstdio>
 #include <filesystem>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "classify/dataset/format/manifest.h"
 #include "classify/dataset/format/npz.h"
@@ -136,6 +139,54 @@ const char* const kEmbeddings = R"(sample,label,target,group,sea_state,mwr,ccf,s
 const char* const kCroissant = R"({"isBasedOn": {"name": "seaglint"}, "distribution": [
 {"@id": "a", "contentUrl": "manifest.json", "sha256": "0f"}, {"contentUrl": "https://example.org/b", "sha256": "1"}]})";
 
+// One tree with one split.
+const char* const kTrees = R"({"learner": {"attributes": {}, "feature_names": [], "feature_types": [],
+"gradient_booster": {"model": {
+"gbtree_model_param": {"num_parallel_tree": "1", "num_trees": "1", "size_leaf_vector": "0"}, "tree_info": [0],
+"trees": [{"base_weights": [0.2, -0.1, 0.1], "categories": [], "categories_nodes": [], "categories_segments": [],
+"categories_sizes": [], "default_left": [0, 0, 0], "id": 0, "left_children": [1, -1, -1], "loss_changes": [12, 0, 0],
+"parents": [2147483647, 0, 0], "right_children": [2, -1, -1], "split_conditions": [0.3, -0.1, 0.1],
+"split_indices": [1, 0, 0], "split_type": [0, 0, 0], "sum_hessian": [4.5, 2, 2.5],
+"tree_param": {"num_deleted": "0", "num_feature": "2", "num_nodes": "3", "size_leaf_vector": "0"}}]}, "name": "gbtree"},
+"learner_model_param": {"base_score": "5E-1", "boost_from_average": "1", "num_class": "0", "num_feature": "2",
+"num_target": "1"}, "objective": {"name": "binary:logistic", "reg_loss_param": {"scale_pos_weight": "1"}}},
+"version": [1, 7, 4]})";
+
+const char* const kModelCard = R"({"format": "seaglint model 1", "program_version": "0.1.0", "seed": 3,
+"classes": ["array", "ship"], "features": ["mwr"], "embedding": ["lambda_1", "logit"],
+"grid": {"range_m": {"cells": 256, "first": -95.9, "last": 95.2},
+"velocity_mps": {"cells": 16, "first": -4.7, "last": 4.1}},
+"settings": {"features": {"max_centres": "64"}, "learning": {"split.by": "sea", "epochs": "2"},
+"map": {"range_span_m": "192"}},
+"data_sets": [{"scenario": "points", "scenario_sha256": "02b9", "seed": 3, "samples": 32}],
+"division": "split by sea realisation", "train_rows": 24,
+"feature_ranges": [{"name": "mwr", "units": "(m/s)^2", "lowest": 0, "highest": 7.6, "undefined_in_some": false,
+"quantiles_5_50_95": {"array": [0, 0, 0], "ship": [2, null, 6.9]}}],
+"condition_ranges": [{"name": "azimuth_deg", "units": "deg", "lowest": null, "highest": null,
+"undefined_in_some": true, "quantiles_5_50_95": {"array": [0, 0, 0], "ship": [1, 2, 3]}}],
+"sha256": {"network.bin": "0f"}})";
+
+// Two pulses of a measured interval.
+void write_echo(const fs::path& file) {
+  constexpr std::size_t kPulses = 2, kSamples = 66;  // 50 MHz by steps of 25 MHz / 33
+  std::vector<double> time_s;
+  for (std::size_t k = 0; k < kSamples; ++k) time_s.push_back((static_cast<double>(k) - 32.5) / 50e6);
+  const auto array = [](const char* name, const char* type, const std::vector<std::uint64_t>& shape,
+                        const auto& values) {
+    return npz_array(name, type, shape, bytes_of_values(std::span(values)));
+  };
+  write_npz(
+      file,
+      {array("echo", "<c8", {kPulses, kSamples}, std::vector<std::complex<float>>(kPulses * kSamples, 1.0f)),
+       array("time_s", "<f8", {kSamples}, time_s), array("pulse_time_s", "<f8", {kPulses}, std::vector{0.0, 250e-6}),
+       array("carrier_hz", "<f8", {kPulses}, std::vector{16e9, 16.025e9}),
+       array("hop_code", "<i8", {kPulses}, std::vector<std::int64_t>{0, 1})},
+      {{"scenario.yaml",
+        "seaglint: 1\nradar: {pulses: 2, pulse_width_us: 1.2}\n"
+        "targets: {p: {label: 0, points: [{position_m: [0, 0, 0]}]}}\n"},
+       {"description.json", R"({"columns": {"label": 1, "target_name": "ferry", "scr_peak_cell_db": null}})"}});
+}
+
 void write_texts(const fs::path& root) {
   write_file(seed(root, "veres", "small.re1"), kVeres);
   write_file(seed(root, "wamit", "small.4"), wamit());
@@ -143,6 +194,8 @@ void write_texts(const fs::path& root) {
   write_file(seed(root, "own_table", "own.csv"), kOwnCut);
   write_file(seed(root, "embeddings", "embeddings.csv"), kEmbeddings);
   write_file(seed(root, "croissant", "croissant.json"), kCroissant);
+  write_file(seed(root, "trees", "trees.json"), kTrees);
+  write_file(seed(root, "model_card", "model.json"), kModelCard);
   write_file(seed(root, "hop_code", "code.txt"), "# carriers\n0, 5, 3, 15\n1;2\t7 8\n");
   write_file(seed(root, "numbers", "range"), "0.1:1.5:0.1");
   write_file(seed(root, "numbers", "list"), "1,2.5e-3,-4D+2");
@@ -166,6 +219,7 @@ void write_seeds(const fs::path& root) {
   write_file(seed(root, "manifest", "manifest.json"), to_json(manifest));
   write_npz(seed(root, "npz", "data.npz"), {npz_array("samples/label", "<i8", {2}, std::string(16, '\0'))},
             {{"description.json", "{\"manifest_sha256\": \"0\"}"}});
+  write_echo(seed(root, "echo", "echo.npz"));
   write_mesh(seed(root, "glb", "tetrahedron.glb"), tetrahedron());
   write_mesh(seed(root, "gltf", "tetrahedron.gltf"), tetrahedron());
   write_mesh(seed(root, "ply", "tetrahedron.ply"), tetrahedron());

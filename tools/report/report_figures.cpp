@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "classify/model/tsne.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
@@ -17,6 +16,7 @@
 #include "sim/scenario/sample_plan.h"
 #include "tools/figure/figure.h"
 #include "tools/figure/mesh_picture.h"
+#include "tools/figure/tsne.h"
 #include "tools/page/html.h"
 #include "tools/page/plot_json.h"
 #include "tools/pipeline/metrics.h"

@@ -10,6 +10,7 @@
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/core/text/json_keys.h"
+#include "sim/core/text/json_number.h"
 #include "sim/core/text/json_problem.h"
 #include "sim/core/text/shown.h"
 
@@ -68,11 +69,8 @@ Manifest read_manifest(const std::filesystem::path& file) {
     manifest.program_version = json.at("program_version").get<std::string>();
     manifest.processors = json.at("processors").get<std::vector<std::string>>();
     if (json.contains("classes")) manifest.classes = json.at("classes").get<std::vector<std::string>>();
-    // Elsewhere -1 would be read as a huge number, 4.7 as 4.
     const auto whole = [&](const ordered_json& object, const char* key) {
-      const ordered_json& value = object.at(key);
-      if (value.is_number_unsigned()) return value.get<std::uint64_t>();
-      throw InputError(fmt::format("{}: {}: {}: must be a whole number", file.string(), key, shown(value.dump())));
+      return whole_number(object, key, file.string());
     };
     manifest.seed = whole(json, "seed");
     manifest.samples = whole(json, "samples");

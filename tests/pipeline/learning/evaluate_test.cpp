@@ -240,6 +240,12 @@ TEST_F(ModelOnOtherData, OfAnotherVersionClassesOrTrainingIsRefused) {
   expect_refusal(words, "epoch: unknown key");
   changed("features", {"mwr", "ccf", "sigma_r_m", "sigma_w"});
   expect_refusal(words, "model.json: feature_ranges: not those of features");
+  changed("seed", -1);
+  expect_refusal(words, "model.json: seed: -1: must be a whole number");
+  json ranges = json::parse(read_file(path("model") + "/model.json")).at("feature_ranges");
+  ranges[0]["units"] = "km";
+  changed("feature_ranges", ranges);
+  expect_refusal(words, "model.json: mwr: units 'km', must be '(m/s)^2'");
   fs::remove_all(path("changed"));
   fs::copy(path("model"), path("changed"));
   write_file(path("changed") + "/network.bin", read_file(path("model") + "/network.bin") + "x");

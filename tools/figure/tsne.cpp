@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "classify/model/tsne.h"
+#include "tools/figure/tsne.h"
 
 #include <algorithm>
 #include <cmath>

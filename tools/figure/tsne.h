@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "classify/model/booster.h"
+#include "classify/features/feature_matrix.h"
 
 namespace seaglint {
 

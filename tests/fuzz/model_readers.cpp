@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+#include <vector>
+
+#include "classify/model/booster.h"
+#include "classify/model/model_card.h"
+#include "tests/fuzz/readers.h"
+#include "tests/fuzz/refusal.h"
+
+namespace seaglint {
+
+void fuzz_trees(const std::string& bytes) {
+  is_refused([&] {
+    const Booster trees = Booster::load(file_of(bytes, "handmade.json"));
+    FeatureMatrix row;
+    for (std::size_t i = 0; i < trees.columns(); ++i) row.names.push_back("x");
+    for (const float value : {-1e30f, -1.0f, 0.0f, std::nanf(""), 1.0f, 1e30f})
+      row.values.insert(row.values.end(), row.names.size(), value);
+    const std::size_t outputs = trees.classes() == 2 ? 1 : trees.classes();
+    SEAGLINT_CHECK(trees.predict(row).size() == outputs * row.rows(), "probabilities of another number");
+  });
+}
+
+void fuzz_model_card(const std::string& bytes) {
+  is_refused([&] {
+    const std::filesystem::path file = file_of(bytes, kModelFile);
+    const ModelCard card = read_model_card(file, "0.1.0");
+    learning_spec(card, file);
+    SEAGLINT_CHECK(read_model_card(file_of(to_json(card), kModelFile), "0.1.0").classes == card.classes,
+                   "another model after writing");
+  });
+}
+
+}  // namespace seaglint
