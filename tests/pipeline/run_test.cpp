@@ -5,6 +5,7 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <regex>
 
@@ -139,6 +140,30 @@ TEST_F(RunOutput, IsNotReportedWithTheModelOfAnotherTrainingOrHalfOfOne) {
   const ProgramResult half = run_program({"report", folder.path() / "run"});
   EXPECT_EQ(half.code, 2);
   EXPECT_THAT(half.err, HasSubstr((model / "metrics.json").string() + ": missing"));
+}
+
+TEST_F(RunOutput, IsNotReportedFromScoresThatAreDamaged) {
+  const TemporaryFolder folder;
+  const fs::path run = folder.path() / "run";
+  fs::copy(directory_, run, fs::copy_options::recursive);
+  const nlohmann::json metrics = metrics_of(run);
+  const auto reported_with = [&](const std::function<void(nlohmann::json&)>& damage) {
+    nlohmann::json damaged = metrics;
+    damage(damaged["fused"]["group"]);
+    write_file(run / "metrics.json", damaged.dump());
+    write_file(run / "model" / "metrics.json", nlohmann::json{{"fused", damaged["fused"]}}.dump());
+    const ProgramResult result = run_program({"report", run});
+    EXPECT_EQ(result.code, 2) << result.err;
+    EXPECT_THAT(result.err, testing::StartsWith("seaglint: " + (run / "metrics.json").string() + ": "));
+    return result.err;
+  };
+  EXPECT_THAT(reported_with([](auto& scores) { scores["accuracy_95"] = nlohmann::json::array(); }),
+              HasSubstr("index 0"));
+  EXPECT_THAT(reported_with([](auto& scores) { scores.erase("auc"); }), HasSubstr("key 'auc' not found"));
+  EXPECT_THAT(reported_with([](auto& scores) { scores["confusion"].erase(scores["confusion"].begin()); }),
+              HasSubstr("confusion: 3 counts of 2 classes"));
+  EXPECT_THAT(reported_with([](auto& scores) { scores["roc"]["detections"].push_back(1); }),
+              HasSubstr("false_alarms, "));
 }
 
 // The stored scenario specifies the contents of the maps.

@@ -21,7 +21,7 @@ using nlohmann::ordered_json;
 bool scores_as_chance(const ordered_json& scores, bool independent, int repeats) {
   constexpr double kDeviations = 2.576;  // 99 % of a normal distribution, two-sided
   const Guessing guess = guessing(scores);
-  const double low = value_or_nan(scores.at("accuracy_95")[0]);
+  const double low = value_or_nan(scores.at("accuracy_95").at(0));
   if (!independent && std::isfinite(low)) return low <= guess.most;
   const double rows = scores.at("rows").get<double>() / repeats, accuracy = value_or_nan(scores.at("accuracy"));
   const double off = std::max({accuracy - guess.most, independent ? guess.least - accuracy : 0.0, 0.0});
@@ -30,12 +30,25 @@ bool scores_as_chance(const ordered_json& scores, bool independent, int repeats)
 
 }  // namespace
 
+std::string scores_fault(const ordered_json& metrics, std::size_t classes) {
+  if (!metrics.is_structured()) return "";
+  if (metrics.is_object() && metrics.contains("confusion") && metrics.at("confusion").size() != classes * classes)
+    return fmt::format("confusion: {} counts of {} classes", metrics.at("confusion").size(), classes);
+  if (metrics.is_object() && metrics.contains("false_alarms") && metrics.contains("detections") &&
+      metrics.at("false_alarms").size() != metrics.at("detections").size())
+    return fmt::format("roc: {} false_alarms, {} detections", metrics.at("false_alarms").size(),
+                       metrics.at("detections").size());
+  for (const ordered_json& member : metrics)
+    if (std::string fault = scores_fault(member, classes); !fault.empty()) return fault;
+  return "";
+}
+
 double value_or_nan(const ordered_json& json) { return json.is_number() ? json.get<double>() : std::nan(""); }
 
 std::string percent(double fraction) { return std::isfinite(fraction) ? fmt::format("{:.1f} %", 100 * fraction) : "–"; }
 
 std::string accuracy_cell(const ordered_json& scores) {
-  const double low = value_or_nan(scores.at("accuracy_95")[0]), high = value_or_nan(scores.at("accuracy_95")[1]);
+  const double low = value_or_nan(scores.at("accuracy_95").at(0)), high = value_or_nan(scores.at("accuracy_95").at(1));
   std::string cell = percent(value_or_nan(scores.at("accuracy")));
   if (std::isfinite(low)) cell += fmt::format(" <small>({:.0f}–{:.0f})</small>", 100 * low, 100 * high);
   return cell;

@@ -3,10 +3,15 @@
 
 // Access to metrics.json for the report, and tests of accuracies against chance.
 
+#include <cstddef>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
 namespace seaglint {
+
+// The first confusion matrix that is not of classes x classes counts, or receiver operating characteristic whose two
+// lists differ in length: "roc: 3 false_alarms, 2 detections"; "" if there is none.
+std::string scores_fault(const nlohmann::ordered_json& metrics, std::size_t classes);
 
 double value_or_nan(const nlohmann::ordered_json& json);  // JSON has no NaN: an undefined value is null
 

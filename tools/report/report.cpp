@@ -52,7 +52,7 @@ ordered_json read_object(const fs::path& file) {
 
 // The run's numbers; throws InputError if they differ from those of its model, as tables and figures would be of two
 // trainings.
-ordered_json read_metrics(const fs::path& directory) {
+ordered_json read_metrics(const fs::path& directory, std::size_t classes) {
   const fs::path file = directory / kMetricsFile;
   if (!fs::exists(file))
     throw InputError(fmt::format("{}: not the directory of a finished run: no {}", directory.string(), kMetricsFile));
@@ -72,6 +72,8 @@ ordered_json read_metrics(const fs::path& directory) {
     throw InputError(fmt::format("{}: `{}` is of another training than {}; go on by `seaglint run --resume`",
                                  file.string(), member, of_model.string()));
   }
+  const std::string fault = scores_fault(metrics, classes);
+  if (!fault.empty()) throw InputError(fmt::format("{}: {}", file.string(), fault));
   return metrics;
 }
 
@@ -247,20 +249,21 @@ double draw_and_write(const fs::path& directory, const Scenario& scenario, const
                       const std::vector<Target>& targets, const std::string& missing, RunResults results, int threads,
                       const StopFlag* stop, Clock::time_point begin) {
   ordered_json& metrics = results.metrics;
-  metrics["report"] = report_numbers(results.data);
-  const std::vector<ReportFigure> all =
-      draw_report_figures(directory, scenario, plan, targets, results.data, metrics, thread_count(threads), stop);
-  const HotSpots spots = hot_spots(scenario, plan, targets, thread_count(threads), stop);
-  const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
-  metrics["run"]["seconds"]["report"] = seconds;
-  const std::string beside = benchmarks(directory);
+  const std::string file = (directory / kMetricsFile).string();
+  double seconds = 0;
   std::string html;
   try {
-    html = page(metrics, results.data, scenario, all, spots, missing, beside);
+    metrics["report"] = report_numbers(results.data);
+    const std::vector<ReportFigure> all =
+        draw_report_figures(directory, scenario, plan, targets, results.data, metrics, thread_count(threads), stop);
+    const HotSpots spots = hot_spots(scenario, plan, targets, thread_count(threads), stop);
+    seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    metrics["run"]["seconds"]["report"] = seconds;
+    html = page(metrics, results.data, scenario, all, spots, missing, benchmarks(directory));
   } catch (const nlohmann::json::exception& error) {
-    throw InputError(fmt::format("{}: {}", (directory / kMetricsFile).string(), json_problem(error)));
+    throw InputError(fmt::format("{}: {}", file, json_problem(error)));
   }
-  write_file(directory / kMetricsFile, metrics.dump(2) + "\n");
+  write_file(file, metrics.dump(2) + "\n");
   write_file(directory / kReportFile, html);
   remove_leftovers(directory);
   return seconds;
@@ -276,7 +279,7 @@ double write_report(const fs::path& directory, const Scenario& scenario, const S
 void write_report(const fs::path& directory, const Scenario& scenario, int threads, const StopFlag* stop) {
   const auto begin = Clock::now();
   RunResults results;
-  results.metrics = read_metrics(directory);
+  results.metrics = read_metrics(directory, scenario.dataset.classes.size());
   const SamplePlan plan(scenario);
   results.data = load_report_data(directory, scenario, plan, stop);
   const std::string missing = missing_input(scenario);

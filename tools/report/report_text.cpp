@@ -67,8 +67,8 @@ double median_at(const ordered_json& metrics, const char* list, const char* key,
 // not distinguished.
 std::string compared_protocols(const ordered_json& random, const ordered_json& group) {
   const double gap = 100 * (value_or_nan(random.at("accuracy")) - value_or_nan(group.at("accuracy")));
-  const auto low = [](const ordered_json& scores) { return value_or_nan(scores.at("accuracy_95")[0]); };
-  const auto high = [](const ordered_json& scores) { return value_or_nan(scores.at("accuracy_95")[1]); };
+  const auto low = [](const ordered_json& scores) { return value_or_nan(scores.at("accuracy_95").at(0)); };
+  const auto high = [](const ordered_json& scores) { return value_or_nan(scores.at("accuracy_95").at(1)); };
   const std::string by = fmt::format("by {:.1f} points", std::abs(gap));
   if (!std::isfinite(gap)) return "";
   if (std::abs(gap) < 0.05) return "; here they agree";
@@ -126,12 +126,12 @@ std::string accuracy_tables(const ordered_json& metrics, const ClassNames& class
     for (std::size_t i = 0; i <= heights.size(); ++i) {
       const bool total = i == heights.size();
       std::vector<std::string> row{
-          total ? "all" : fmt::format("{:g}", heights[i].at("significant_wave_height_m").get<double>())};
+          total ? "all" : fmt::format("{:g}", heights.at(i).at("significant_wave_height_m").get<double>())};
       for (const char* group : kGroups) {
         const auto& evaluation = metrics.at(group).at(protocol);
-        row.push_back(accuracy_cell(total ? evaluation : evaluation.at("by_wave_height")[i]));
+        row.push_back(accuracy_cell(total ? evaluation : evaluation.at("by_wave_height").at(i)));
       }
-      const auto& counts = total ? metrics.at("handmade").at(protocol) : heights[i];
+      const auto& counts = total ? metrics.at("handmade").at(protocol) : heights.at(i);
       row.push_back(fmt::format("{}", counts.at("rows").get<std::size_t>()));
       row.push_back(fmt::format("{}", counts.at("groups").get<std::size_t>()));
       rows.push_back(std::move(row));
@@ -339,7 +339,7 @@ std::string expert_notes(const ordered_json& metrics, const Scenario& scenario) 
   // The random code's pedestal and the velocity cell determine what the features can resolve.
   const PulseTrain train = make_pulse_train(scenario.radar, scenario.map.range_span_m, scenario.seed, 0);
   const double cell = train.velocity_resolution_mps();
-  const double shown = metrics.at("report").at("features_by_azimuth")[0].at("significant_wave_height_m");
+  const double shown = metrics.at("report").at("features_by_azimuth").at(0).at("significant_wave_height_m");
   const std::string residuals = by_class(classes, [&](int label) {
     return fmt::format("{:.2g}",
                        median_at(metrics, "features_by_wave_height", "significant_wave_height_m", shown, label, "mwr"));

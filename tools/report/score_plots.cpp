@@ -61,8 +61,8 @@ LinePlot accuracy_plot(const nlohmann::ordered_json& metrics, const std::string&
     series.style = SeriesStyle::kLinesPoints;
     for (const auto& row : metrics.at(group).at(protocol).at("by_wave_height")) {
       const double accuracy = 100 * value_or_nan(row.at("accuracy"));
-      const double low = 100 * value_or_nan(row.at("accuracy_95")[0]),
-                   high = 100 * value_or_nan(row.at("accuracy_95")[1]);
+      const double low = 100 * value_or_nan(row.at("accuracy_95").at(0)),
+                   high = 100 * value_or_nan(row.at("accuracy_95").at(1));
       series.x.push_back(row.at("significant_wave_height_m").get<double>() + shift);
       series.y.push_back(accuracy);
       series.interval.push_back({std::isfinite(low) ? low : accuracy, std::isfinite(high) ? high : accuracy});
