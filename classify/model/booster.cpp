@@ -16,7 +16,7 @@ namespace seaglint {
 
 namespace {
 
-constexpr std::size_t kMaxBytes = std::size_t{64} << 20;  // of a file
+constexpr std::size_t kMaxBytes = std::size_t{256} << 20;  // of a file
 
 void require(int status, const char* what) {
   if (status != 0) throw WorkError(fmt::format("XGBoost: {}: {}", what, XGBGetLastError()));

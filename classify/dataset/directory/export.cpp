@@ -64,10 +64,10 @@ std::string column_bytes(const std::vector<SampleRecord>& rows, T SampleRecord::
 // Manifest checksum of the data set that an archive was exported from; empty if it is no export.
 std::string exported_manifest(const fs::path& file) {
   try {
-    return ordered_json::parse(read_npz_text(file, kDescription)).at("manifest_sha256").get<std::string>();
+    return nlohmann::json::parse(read_npz_text(file, kDescription)).at("manifest_sha256").get<std::string>();
   } catch (const InputError&) {
     return {};
-  } catch (const ordered_json::exception&) {
+  } catch (const nlohmann::json::exception&) {
     return {};
   }
 }

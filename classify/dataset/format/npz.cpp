@@ -234,7 +234,7 @@ NpzArray npz_array(std::string name, std::string type, std::vector<std::uint64_t
 }
 
 std::string read_npz_text(const std::filesystem::path& file, const std::string& name) {
-  constexpr zip_uint64_t kMaxBytes = 16 << 20;
+  constexpr zip_uint64_t kMaxBytes = 4 << 20;
   const auto fail = [&] { throw InputError(fmt::format("{}: no archive with a {} inside", file.string(), name)); };
   const ArchiveToRead archive = open_to_read(file);
   if (!archive) fail();

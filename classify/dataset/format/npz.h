@@ -36,7 +36,7 @@ struct NpzText {
 NpzArray npz_array(std::string name, std::string type, std::vector<std::uint64_t> shape, std::string bytes);
 
 // Reads the text file `name` inside an archive. Throws InputError naming the archive if it has no such file of at most
-// 16 MB.
+// 4 MB, the limit of scenarios.
 std::string read_npz_text(const std::filesystem::path& file, const std::string& name);
 
 // Names of the files inside an archive, "time_s.npy". Throws InputError naming the file if it is no complete archive.
