@@ -32,6 +32,10 @@ inline const std::vector<Job>& jobs() {
       {"export", true, {"export", "@/data", "-o", "@/npz"}},
       {"export, one file", true, {"export", "@/data", "-o", "@/all.npz"}},
       {"export, tar", true, {"export", "@/data", "-o", "@/tar", "--as", "webdataset", "--max-tar-mb", "0.1"}},
+      {"features",
+       true,
+       {"features", "@/data", "--set", "clutter.scr_db=10", "-o", "@/other", "--resume", "--threads", "1"}},
+      {"card", true, {"card", "@/data", "--licence", "CC-BY-4.0", "--date", "2026-05-01"}},
       {"train", true, {"train", "@/data", "-o", "@/model", "--threads", "1"}},
       {"run", false, {"run", "@/tiny.yaml", "-o", "@/run", "--resume", "--threads", "1"}}};
   return all;
@@ -103,15 +107,16 @@ class JobFolder {
     return undisturbed_[job.name] = bytes();
   }
 
-  // Names of what is there and differs from the undisturbed job's; with `all`, also of what is missing. The numbers of
-  // a run are written before the report too, and are then without the report's.
+  // Names of what is there and differs from the undisturbed job's; with `all`, also of what is missing, without it, but
+  // for what the job began with and has not replaced. The numbers of a run are written before the report too, and are
+  // then without the report's.
   Words differences(const Job& job, bool all) {
     const Bytes there = bytes();
     const Bytes& right = undisturbed(job);
     Words names;
     for (const auto& [name, content] : there) {
       if (!right.contains(name)) names.push_back("surplus: " + name);
-      if (!all && name == "run/metrics.json") continue;
+      if (!all && (name == "run/metrics.json" || is_of_start(job, name, content))) continue;
       if (right.contains(name) && right.at(name) != content) names.push_back("other bytes: " + name);
     }
     for (const auto& [name, content] : right) {
@@ -121,6 +126,11 @@ class JobFolder {
   }
 
  private:
+  bool is_of_start(const Job& job, const std::string& name, const std::string& content) const {
+    const std::filesystem::path file = start_of(job) / name;
+    return std::filesystem::is_regular_file(file) && read_file(file) == content;
+  }
+
   TemporaryFolder folder_;
   std::filesystem::path with_data_ = folder_.path() / "with_data";
   std::map<std::string, Bytes> undisturbed_;
