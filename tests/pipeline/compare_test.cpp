@@ -120,7 +120,8 @@ TEST_F(CompareCommand, OfAFileWithItselfFindsNoDifference) {
   const ProgramResult result = run_program({"compare", file, "--against", file, "--tolerance-db", "0.001",
                                             "--min-correlation", "0.9999", "-o", path("compared")});
   EXPECT_EQ(result.code, 0) << result.err;
-  for (const auto& entry : compared()["exports"]) {
+  const nlohmann::json json = compared();
+  for (const auto& entry : json["exports"]) {
     EXPECT_EQ(entry["pairs"], 12);
     EXPECT_NEAR(entry["correlation"].get<double>(), 1, 1e-12);
     EXPECT_EQ(entry["rms_db"], 0);
@@ -143,7 +144,8 @@ TEST_F(CompareCommand, InterpolatesOnRequest) {
   const ProgramResult result = run_program(words);
   ASSERT_EQ(result.code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("fine.csv: interpolated at "));
-  for (const auto& entry : compared()["exports"]) {
+  const nlohmann::json json = compared();
+  for (const auto& entry : json["exports"]) {
     EXPECT_EQ(entry["interpolation"]["omitted"], 0);
     EXPECT_EQ(entry["interpolation"]["radius_m"], 0.6);
     EXPECT_LT(entry["interpolation"]["standard_error"], 0.05);
