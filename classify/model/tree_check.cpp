@@ -25,7 +25,7 @@ using nlohmann::json;
 
 constexpr std::int64_t kMaxColumns = 10'000;
 constexpr std::int64_t kNone = -1;                   // child of a leaf
-constexpr std::int64_t kNoParent = (1ll << 31) - 1;  // of the first node; the split of a node without a place
+constexpr std::int64_t kNoParent = (1ll << 31) - 1;  // of the first node
 
 [[noreturn]] void fail(const std::string& what) { throw InputError(what); }
 
@@ -50,7 +50,9 @@ std::vector<std::int64_t> integers(const json& object, const char* key, std::siz
                                    std::int64_t highest) {
   std::vector<std::int64_t> values;
   for (const json& entry : array_of(object, key, count)) {
-    const bool is_whole = entry.is_number_integer() || entry.is_boolean();
+    const bool is_beyond =
+        entry.is_number_unsigned() && entry.get<std::uint64_t>() > static_cast<std::uint64_t>(highest);
+    const bool is_whole = entry.is_boolean() || (entry.is_number_integer() && !is_beyond);
     values.push_back(is_whole ? entry.get<std::int64_t>() : lowest - 1);
     if (values.back() < lowest || values.back() > highest)
       fail(fmt::format("{}: {}, must be a whole number from {} to {}", key, shown(entry.dump()), lowest, highest));

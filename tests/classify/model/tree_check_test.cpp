@@ -70,6 +70,8 @@ TEST_F(TreeCheck, RefusesTreesThatXgboostWouldFollowOutsideOfTheirArrays) {
   const std::vector<Case> cases{
       {"child outside", [](json& tree) { tree["left_children"][0] = 100'000'000; }, "tree 0: left_children: 100000000"},
       {"child below", [](json& tree) { tree["right_children"][0] = -5; }, "tree 0: right_children: -5"},
+      {"child beyond 64 bits", [](json& tree) { tree["left_children"][0] = 18'446'744'073'709'551'615ull; },
+       "left_children: 18446744073709551615"},
       {"circle", [](json& tree) { tree["left_children"][1] = tree["right_children"][1] = 0; }, "has another parent"},
       {"own child", [](json& tree) { tree["left_children"][1] = tree["right_children"][1] = tree["parents"][1] = 1; },
        "node 0: 1 has another parent"},
