@@ -265,8 +265,7 @@ Network Network::load(const std::filesystem::path& file) {
     fail("it is truncated or has a tail");
   std::vector<float> weights(head[3]);
   std::memcpy(weights.data(), bytes.data() + head_bytes, weights.size() * sizeof(float));
-  if (!std::ranges::all_of(weights, [](float weight) { return std::isfinite(weight); }))
-    fail("a weight is not finite");
+  if (!std::ranges::all_of(weights, [](float weight) { return std::isfinite(weight); })) fail("a weight is not finite");
   set_weights(*state->layers, weights);
   return network;
 }

@@ -37,7 +37,7 @@ void make_deterministic() {
   at::globalContext().setDeterministicAlgorithms(true, false);
 }
 
-torch::Tensor tensor_of(const float* values, std::vector<std::int64_t> shape) {
+torch::Tensor tensor_of(const float* values, const std::vector<std::int64_t>& shape) {
   torch::Tensor tensor = torch::empty(shape);
   std::memcpy(tensor.data_ptr<float>(), values, static_cast<std::size_t>(tensor.numel()) * sizeof(float));
   return tensor;
@@ -135,7 +135,7 @@ void TorchLayers::start_training(double learning_rate) try {
 void TorchLayers::step(const std::vector<float>& gradient) try {
   make_deterministic();
   const float* place = gradient.data();
-  for (torch::Tensor parameter : plane_.parameters()) {
+  for (const torch::Tensor& parameter : plane_.parameters()) {
     parameter.mutable_grad() = tensor_of(place, parameter.sizes().vec());
     place += parameter.numel();
   }

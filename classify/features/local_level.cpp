@@ -122,11 +122,14 @@ bool near(const CleanComponent& a, const CleanComponent& b, const CellSizes& cel
 // integral of nu^nu t^{nu-1} e^{-nu t - x/t} / Gamma(nu) dt; t = e^s, by the trapezoidal rule, whose error falls
 // exponentially here.
 double log_exceedance(double x, double shape) {
-  const double step = 0.1;
+  constexpr double kStep = 0.1;
   double sum = 0;
-  for (double s = -6; s <= 5; s += step) sum += std::exp(shape * s - shape * std::exp(s) - x * std::exp(-s));
+  for (int i = -60; i <= 50; ++i) {
+    const double s = kStep * i;
+    sum += std::exp(shape * s - shape * std::exp(s) - x * std::exp(-s));
+  }
   int sign = 1;  // std::lgamma would write it to a global, from several threads
-  return shape * std::log(shape) - ::lgamma_r(shape, &sign) + std::log(step * sum);
+  return shape * std::log(shape) - ::lgamma_r(shape, &sign) + std::log(kStep * sum);
 }
 
 }  // namespace

@@ -76,7 +76,8 @@ SampledEcho sample_echo(const std::vector<Complex>& echo, const PulseTrain& fine
   SampledEcho sampled;
   sampled.sampling_hz = sampling_hz;
   sampled.pulses = static_cast<int>(fine.pulses());
-  for (double k = 0; k < length; ++k) sampled.time_s.push_back((k - (length - 1) / 2) / sampling_hz);
+  for (std::size_t k = 0; k < static_cast<std::size_t>(length); ++k)
+    sampled.time_s.push_back((static_cast<double>(k) - (length - 1) / 2) / sampling_hz);
 
   const CentredTransform centred{static_cast<double>(frequencies), length, length};
   const double scale = fine.baseband_step_hz / std::sqrt(fine.chirp_rate_hz_s);

@@ -25,7 +25,7 @@ struct Arguments {
 
 // Only keys of learning and split may be overridden: the maps exist already.
 std::vector<Override> learning_overrides(const std::vector<std::string>& set) {
-  const std::vector<Override> overrides = read_overrides(set);
+  std::vector<Override> overrides = read_overrides(set);
   for (const Override& entry : overrides) {
     if (!entry.key_path.starts_with("learning.") && entry.key_path != "dataset.split") {
       throw InputError(

@@ -110,10 +110,9 @@ double relative_difference_db(const FrequencyResponse& reference, const Frequenc
 
 std::string text_of(const SampleCrossCheck& check) {
   const std::vector<SampleDifference>& all = check.differences;
-  const std::string left_out = check.points > 0
-                                   ? fmt::format("{} sample{} of ideal points left out, which have no solver\n",
-                                                 check.points, check.points == 1 ? "" : "s")
-                                   : "";
+  std::string left_out = check.points > 0 ? fmt::format("{} sample{} of ideal points left out, which have no solver\n",
+                                                        check.points, check.points == 1 ? "" : "s")
+                                          : "";
   if (all.empty()) return left_out;
   std::size_t width = std::string_view("target").size();
   for (const SampleDifference& one : all) width = std::max(width, one.target.size());

@@ -41,7 +41,7 @@ class HeaderText {
     if (*quote == '"') expect(quote);
     const std::size_t end = text_.find(*quote);
     if (end == std::string_view::npos) fail();
-    const std::string word(text_.substr(0, end));
+    std::string word(text_.substr(0, end));
     text_.remove_prefix(end + 1);
     return word;
   }

@@ -93,8 +93,7 @@ void RayPaths::trace(std::span<const Vec2> rays, std::span<std::uint64_t> signat
 
 void RayPaths::finish() {
   std::ranges::sort(obstacles_);
-  const auto repeated = std::ranges::unique(obstacles_);
-  obstacles_.erase(repeated.begin(), repeated.end());
+  obstacles_.erase(std::unique(obstacles_.begin(), obstacles_.end()), obstacles_.end());
 }
 
 void RayPaths::mark_children(std::int32_t path) {
