@@ -107,9 +107,9 @@ class JobFolder {
     return undisturbed_[job.name] = bytes();
   }
 
-  // Names of what is there and differs from the undisturbed job's; with `all`, also of what is missing, without it, but
-  // for what the job began with and has not replaced. The numbers of a run are written before the report too, and are
-  // then without the report's.
+  // Names of what is there and differs from the undisturbed job's. With `all`, also of what is missing; without it,
+  // files that are still those of the start count as equal, and the numbers of a run, which are written before the
+  // report and again with the report's.
   Words differences(const Job& job, bool all) {
     const Bytes there = bytes();
     const Bytes& right = undisturbed(job);

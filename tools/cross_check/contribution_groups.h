@@ -21,7 +21,7 @@ struct ContributionGroup {
   std::uint8_t bounces = 1;
   Mechanism mechanism = Mechanism::kPhysicalOptics;
 
-  auto operator<=>(const ContributionGroup&) const = default;  // NOLINT(modernize-use-nullptr): as ray_paths.h
+  auto operator<=>(const ContributionGroup&) const = default;  // NOLINT(modernize-use-nullptr): compares with 0
 };
 
 using GroupSums = std::map<ContributionGroup, std::array<Complex, 4>>;

@@ -35,7 +35,7 @@ struct Obstacle {
   std::int32_t receiver = 0;
   std::int32_t facet = -1;  // first facet of its panel
 
-  auto operator<=>(const Obstacle&) const = default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 means its 0
+  auto operator<=>(const Obstacle&) const = default;  // NOLINT(modernize-use-nullptr): compares with 0
 };
 
 // Rays of one tile, traced in any number of batches; start() begins the next tile and keeps the memory.
