@@ -33,6 +33,15 @@ fs::path& chosen_folder() {
   return folder;
 }
 
+// True if the file exists. Throws WorkError when its status cannot be read, which leaves that open.
+bool is_there(const fs::path& file) {
+  std::error_code error;
+  const fs::file_status status = fs::status(file, error);
+  if (error == std::errc::io_error || error == std::errc::not_enough_memory)
+    throw WorkError(fmt::format("{}: cannot read: {}", file.string(), error.message()));
+  return fs::exists(status);
+}
+
 }  // namespace
 
 fs::path data_folder() { return chosen_folder(); }
@@ -48,9 +57,8 @@ std::vector<fs::path> search_folders(const fs::path& folder) {
 }
 
 std::optional<fs::path> search_file(const std::string& name, const fs::path& folder) {
-  std::error_code error;
   for (const fs::path& place : search_folders(folder)) {
-    if (fs::exists(place / name, error)) return place / name;
+    if (is_there(place / name)) return place / name;
   }
   return std::nullopt;
 }
@@ -72,8 +80,7 @@ fs::path find_input(const std::string& name, const std::string& below) {
   if (const std::optional<fs::path> file = search_file(name, {})) return *file;
   if (fs::path(name).is_absolute()) return name;
   const fs::path folder = below.empty() || data_folder().empty() ? fs::path() : data_folder() / below;
-  std::error_code error;
-  if (!folder.empty() && fs::exists(folder / name, error)) return folder / name;
+  if (!folder.empty() && is_there(folder / name)) return folder / name;
   throw InputError(fmt::format("{}: no such file, {}{}", name, places_text({}),
                                folder.empty() ? "" : fmt::format(" nor in {}", folder.string())));
 }
