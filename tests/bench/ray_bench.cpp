@@ -61,7 +61,8 @@ class RaySolver {
       for (double x = lower.x(); x < upper.x(); x += tile) {
         std::vector<Tube> tubes;
         for (int i = 0; i < kTile * kTile; ++i) {
-          const Vec2 p(x + (i % kTile + 0.5) * side_, y + (i / kTile + 0.5) * side_);
+          const int row = i / kTile, column = i % kTile;
+          const Vec2 p(x + (column + 0.5) * side_, y + (row + 0.5) * side_);
           Tube& tube = tubes.emplace_back();
           tube.p = p;
           tube.ray = {p.x() * basis.h + p.y() * basis.v + 2 * scatterer_.radius() * basis.r, -basis.r};

@@ -153,7 +153,7 @@ std::shared_ptr<const Value> LoadedBodies::Kept<Value>::get(const std::string& f
   auto known = entries_.find(fields);
   if (known == entries_.end()) known = entries_.emplace(fields, Entry{std::make_shared<const Value>(make())}).first;
   known->second.used = ++calls_;
-  const std::shared_ptr<const Value> value = known->second.value;
+  std::shared_ptr<const Value> value = known->second.value;
   const auto is_unused = [](const auto& entry) { return entry.second.value.use_count() == 1; };
   if (static_cast<std::size_t>(std::ranges::count_if(entries_, is_unused)) > kKept) {
     auto oldest = entries_.end();
