@@ -15,7 +15,7 @@ namespace seaglint {
 // Writes the bytes into a file of this name in a folder of this process (below TMPDIR); the next call replaces it.
 inline std::filesystem::path file_of(const std::string& bytes, const char* name) {
   static const TemporaryFolder folder;
-  const std::filesystem::path path = folder.path() / name;
+  std::filesystem::path path = folder.path() / name;
   std::ofstream(path, std::ios::binary | std::ios::trunc)
       .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   return path;

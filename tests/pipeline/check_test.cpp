@@ -209,7 +209,8 @@ TEST(Check, RefusesScenariosThatCannotBeRead) {
   expect_refused({"check", folder.path()}, ": cannot read: is a directory\n");
   write_file(folder.path() / "empty.yaml", "");
   expect_refused({"check", folder.path() / "empty.yaml"}, "empty.yaml: the file is empty");
-  write_file(folder.path() / "large.yaml", std::string(100'000'000, ' '));
+  const std::vector<char> blanks(100'000'000, ' ');
+  write_file(folder.path() / "large.yaml", {blanks.data(), blanks.size()});
   expect_refused({"check", folder.path() / "large.yaml"},
                  "large.yaml: cannot read: has 100000000 bytes, more than the limit of 4000000\n");
 }
@@ -246,7 +247,7 @@ TEST(CommandLine, ClosedOrFullStandardErrorChangesNoExitCode) {
     EXPECT_EQ(code("check scenarios/points.yaml >&-" + quiet), 1) << quiet;
     ASSERT_EQ(code(rcs), 0);
     const std::string whole = read_file(csv);
-    EXPECT_EQ(code(rcs + " >/dev/null" + quiet), 0) << quiet;
+    EXPECT_EQ(code(fmt::format("{} >/dev/null{}", rcs, quiet)), 0) << quiet;
     EXPECT_EQ(read_file(csv), whole) << quiet;
   }
 }

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "sim/core/process/error.h"
+#include "sim/core/process/file.h"
 
 namespace seaglint {
 
@@ -31,15 +32,6 @@ fs::path& chosen_folder() {
     return set != nullptr && *set != '\0' ? fs::path(set) : folder_beside_program();
   }();
   return folder;
-}
-
-// True if the file exists. Throws WorkError when its status cannot be read, which leaves that open.
-bool is_there(const fs::path& file) {
-  std::error_code error;
-  const fs::file_status status = fs::status(file, error);
-  if (error == std::errc::io_error || error == std::errc::not_enough_memory)
-    throw WorkError(fmt::format("{}: cannot read: {}", file.string(), error.message()));
-  return fs::exists(status);
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ void set_data_folder(const std::filesystem::path& folder);
 std::vector<std::filesystem::path> search_folders(const std::filesystem::path& folder);
 
 // The first existing file `name` of these folders; an absolute name as it is. nullopt if there is none. Throws
-// WorkError when the status of a file cannot be read (EIO).
+// the WorkError of is_there().
 std::optional<std::filesystem::path> search_file(const std::string& name, const std::filesystem::path& folder);
 
 // "neither in A nor in the working directory nor in B", the places of search_file().

@@ -51,12 +51,16 @@ class Descriptor {
 // Without O_NONBLOCK, opening a pipe without a writer would block.
 constexpr int kReading = O_RDONLY | O_NONBLOCK;
 
-// A name that is wrong is an error of the input; a disk or a system that fails is not.
+// A name that is wrong, or that may not be read, is an error of the input; a disk or a system that fails is not.
+bool is_of_input(int error) {
+  constexpr int kOfInput[] = {ENOENT, ENOTDIR, EACCES, EPERM, EISDIR, ELOOP, ENAMETOOLONG, EINVAL, ENXIO, ENODEV};
+  return std::ranges::find(kOfInput, error) != std::end(kOfInput);
+}
+
 [[noreturn]] void fail_reading(const fs::path& path) {
-  const std::string message = fmt::format("{}: cannot read: {}", path.string(), std::strerror(errno));
-  for (const int of_input : {ENOENT, ENOTDIR, EACCES, EPERM, EISDIR, ELOOP, ENAMETOOLONG, EINVAL, ENXIO, ENODEV}) {
-    if (errno == of_input) throw InputError(message);
-  }
+  const int error = errno;
+  const std::string message = fmt::format("{}: cannot read: {}", path.string(), std::strerror(error));
+  if (is_of_input(error)) throw InputError(message);
   throw WorkError(message);
 }
 
@@ -129,6 +133,13 @@ bool is_stream(const fs::path& path) {
 }
 
 }  // namespace
+
+bool is_there(const fs::path& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) == 0) return true;
+  if (!is_of_input(errno)) fail_reading(path);
+  return false;
+}
 
 std::string read_file(const fs::path& path, std::size_t max_bytes) {
   const Descriptor file(path, kReading);

@@ -12,6 +12,10 @@
 
 namespace seaglint {
 
+// True if the path exists and its status may be read; throws WorkError, with the system error, when the disk or the
+// system fails, which leaves that open.
+bool is_there(const std::filesystem::path& path);
+
 // Throws InputError when the file is missing, not a regular file, or larger than max_bytes; WorkError, with the system
 // error, when the disk or the system fails.
 std::string read_file(const std::filesystem::path& path, std::size_t max_bytes = std::size_t{1} << 30);

@@ -20,7 +20,6 @@ namespace seaglint {
 namespace {
 
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 using Values = std::vector<double>;
 
 const std::vector<std::string> kClasses{"decoys", "ship", "guarded ship"};

@@ -40,7 +40,7 @@ class TreeCheck : public testing::Test {
     try {
       require_sound_trees(model.dump(), "handmade.json");
     } catch (const InputError& error) {
-      const std::string text = error.what();
+      std::string text = error.what();
       EXPECT_TRUE(text.starts_with("handmade.json: not the trees of a model: ")) << text;
       return text;
     }

@@ -44,7 +44,7 @@ class EchoOverTime : public testing::Test {
 
   // The echo of a sample of points.yaml with these settings.
   static std::string echo(int sample, const Words& settings) {
-    const std::string file = path("echo.npz");
+    std::string file = path("echo.npz");
     Words words{"echo", "scenarios/points.yaml", "--sample", std::to_string(sample), "-o", file};
     for (const std::string& setting : settings) words.insert(words.end(), {"--set", setting});
     run(words);

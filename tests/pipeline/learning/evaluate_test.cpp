@@ -19,7 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using testing::HasSubstr;
-using testing::Not;
 using Words = std::vector<std::string>;
 
 // A data set of ideal points, another of another seed, and a model of the first, for all tests of this file.

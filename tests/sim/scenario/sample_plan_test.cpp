@@ -117,7 +117,7 @@ TEST(SamplePlan, ClassIsIndependentOfParityAndNeighbour) {
   Scenario scenario = small_scenario();
   scenario.dataset.maps_per_case = 300;
   const SamplePlan plan(scenario);
-  const int samples = static_cast<int>(plan.size());
+  const auto samples = static_cast<double>(plan.size());
   int even_ships = 0, changes = 0;
   for (std::size_t i = 0; i < plan.size(); ++i) {
     if (i % 2 == 0) even_ships += plan.address(i).target == 0 ? 1 : 0;

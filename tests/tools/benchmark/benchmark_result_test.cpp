@@ -37,8 +37,8 @@ Evaluation evaluation_of(std::vector<double> by_height, double half = 0.02) {
   return evaluation;
 }
 
-Study study_of(std::vector<double> handmade, std::vector<double> network, std::vector<double> fused,
-               std::vector<double> linear, double order_probe = 0.5) {
+Study study_of(const std::vector<double>& handmade, const std::vector<double>& network,
+               const std::vector<double>& fused, const std::vector<double>& linear, double order_probe = 0.5) {
   Study study;
   for (const auto& [name, values] : {std::pair{"handmade", handmade}, {"cnn", network}, {"fused", fused}}) {
     FeatureGroupResult group;

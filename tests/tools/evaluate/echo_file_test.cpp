@@ -89,7 +89,7 @@ class EchoFiles : public testing::Test {
     try {
       read_echo_file(file_);
     } catch (const InputError& error) {
-      const std::string text = error.what();
+      std::string text = error.what();
       EXPECT_TRUE(text.starts_with(file_.string())) << text;
       EXPECT_EQ(text.find('\n'), std::string::npos) << text;
       return text;
@@ -131,6 +131,7 @@ TEST_F(EchoFiles, HaveTheColumnsOfTheirDescription) {
   EXPECT_THAT(with(R"({"columns": {"layout": 3}})"), HasSubstr("layout: 3: of another type"));
   EXPECT_THAT(with(R"({"columns": {"depth_m": 1e400}})"), HasSubstr("description.json: "));
   EXPECT_THAT(with("{\"columns\": "), HasSubstr("no valid JSON"));
+  EXPECT_THAT(with("{}" + std::string(4 << 20, ' ')), HasSubstr("no archive with a description.json inside"));
   EXPECT_THAT(with(std::string(100, '[') + std::string(100, ']')), HasSubstr("nested more than 64 levels"));
 }
 

@@ -55,7 +55,7 @@ TEST(RayLattice, RefusesMoreThanTenThousandMillionRays) {
   const Scatterer plate(make_plate(100, 100));
   EXPECT_NO_THROW(RayLattice(plate, radar_basis(Vec3::UnitX()), 1.01e-3));
   try {
-    RayLattice(plate, radar_basis(Vec3::UnitX()), 0.9e-3);
+    const RayLattice too_fine(plate, radar_basis(Vec3::UnitX()), 0.9e-3);
     FAIL();
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(),

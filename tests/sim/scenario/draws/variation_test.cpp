@@ -33,7 +33,7 @@ targets:
 dataset: {maps_per_case: 12, realisations_per_case: 4}
 )yaml";
 
-std::string replaced(std::string text, const std::string& from, const std::string& by) {
+std::string replaced(const std::string& text, const std::string& from, const std::string& by) {
   const std::size_t at = text.find(from);
   return text.substr(0, at) + by + text.substr(at + from.size());
 }
