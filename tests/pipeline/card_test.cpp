@@ -190,16 +190,16 @@ TEST_F(Card, OfADamagedDataSetIsNotMade) {
 // Title, version and author of the citation are those of CITATION.cff.
 TEST_F(Card, CitesTheProgramAsCitationCffDoes) {
   SKIP_WITHOUT_PYTHON();
+  const std::string citation = SEAGLINT_SOURCE_DIR "/CITATION.cff";
   ASSERT_EQ(card().code, 0);
-  const ProgramResult result = run_words({kPython, "-c",
-                                          R"py(
-import json, sys, yaml
-cff = yaml.safe_load(open(sys.argv[1]))
-cited = json.load(open(sys.argv[2]))['citeAs']
-for value in (cff['title'], cff['version'], '{' + cff['authors'][0]['name'] + '}'):
-    assert '= {' + value + '}' in cited, cited
-)py",
-                                          SEAGLINT_SOURCE_DIR "/CITATION.cff", data_ / "croissant.json"});
+  const ProgramResult result =
+      run_words({kPython, "-c",
+                 "import json, sys, yaml\n"
+                 "cff = yaml.safe_load(open(sys.argv[1]))\n"
+                 "cited = json.load(open(sys.argv[2]))['citeAs']\n"
+                 "for value in (cff['title'], cff['version'], '{' + cff['authors'][0]['name'] + '}'):\n"
+                 "    assert '= {' + value + '}' in cited, cited\n",
+                 citation, data_ / "croissant.json"});
   EXPECT_EQ(result.code, 0) << result.err;
 }
 
