@@ -19,7 +19,10 @@ constexpr double kEpsilon = 1e-16;
 // sign.
 double log_gamma(double a) {
   double shift = 0;
-  for (; a < 10; a += 1) shift += std::log(a);
+  while (a < 10) {
+    shift += std::log(a);
+    a += 1;
+  }
   const double x = 1 / (a * a);
   const double series =
       (1.0 / 12 - x * (1.0 / 360 - x * (1.0 / 1260 - x * (1.0 / 1680 - x * (1.0 / 1188 - x * 691.0 / 360360))))) / a;

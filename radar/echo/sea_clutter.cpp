@@ -35,8 +35,10 @@ struct Kernel {
 
 Kernel kernel_at(double x) {
   Kernel kernel{std::ceil((x - kKernelReach) / kNodeSpacing), {}};
+  const int nodes = static_cast<int>(std::floor((x + kKernelReach) / kNodeSpacing) - kernel.first) + 1;
   double power = 0;
-  for (double q = kernel.first; q <= std::floor((x + kKernelReach) / kNodeSpacing); ++q) {
+  for (int n = 0; n < nodes; ++n) {
+    const double q = kernel.first + n;
     kernel.weight.push_back(std::exp(-(x - q * kNodeSpacing) * (x - q * kNodeSpacing)));
     power += kernel.weight.back() * kernel.weight.back();
   }

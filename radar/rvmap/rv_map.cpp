@@ -49,6 +49,13 @@ Block phase_ramp(double phase, double step) {
   return block;
 }
 
+// (i - floor(cells/2)) step, i = 0..cells-1; a whole number of cells
+std::vector<double> centred_axis(double cells, double step) {
+  std::vector<double> axis(static_cast<std::size_t>(cells));
+  for (std::size_t i = 0; i < axis.size(); ++i) axis[i] = (static_cast<double>(i) - std::floor(cells / 2)) * step;
+  return axis;
+}
+
 // S += x e^{j ...} of one pulse over all its frequencies: `factor` is the compensation at the first frequency, `step`
 // its change from one frequency to the next (f_b v t_n couples frequency and velocity: range migration).
 SEAGLINT_FUNCTION_VERSIONS("arch=x86-64-v4", "arch=x86-64-v3", "default")
@@ -84,8 +91,8 @@ MapGrid map_grid(const PulseTrain& train, const MapSpec& spec) {
   }
   MapGrid grid;
   grid.window_cells = static_cast<std::size_t>(window_cells);
-  for (double i = 0; i < ranges; ++i) grid.range_m.push_back((i - std::floor(ranges / 2)) * range_step);
-  for (double i = 0; i < velocities; ++i) grid.velocity_mps.push_back((i - std::floor(velocities / 2)) * velocity_step);
+  grid.range_m = centred_axis(ranges, range_step);
+  grid.velocity_mps = centred_axis(velocities, velocity_step);
   return grid;
 }
 

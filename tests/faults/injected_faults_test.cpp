@@ -104,6 +104,28 @@ TEST(InjectedFaults, OfTheNamesOfTemporaryFilesLeaveNone) {
   }
 }
 
+// A disk that fails when a file is looked for does not mean that the file is missing, which would let it be replaced.
+TEST(InjectedFaults, OfLookingForAUsersCardKeepIt) {
+  JobFolder folder;
+  const Job& generate = jobs().front();
+  folder.undisturbed(generate);
+  folder.begin(generate);
+  ASSERT_EQ(run_words(folder.words(generate)).code, 0);
+  const std::filesystem::path card = folder.path() / "data/README.md", manifest = folder.path() / "data/manifest.json";
+  write_file(card, "# Made for the trial in May\n");
+  std::uint64_t injected = 0;
+  for (std::uint64_t number = 1; injected + 1 == number; ++number) {
+    std::filesystem::remove(manifest);
+    const MappedCounts counts(folder.beside("counts"));
+    const Fault fault{&generate, FaultKind::kStat, number, EIO, "README.md"};
+    const ProgramResult result = run_words(folder.words(generate, counts.launcher(folder, &fault)));
+    EXPECT_EQ(result.code, counts->injected == 0 ? 0 : 1) << fault.text() << ": " << result.err;
+    EXPECT_EQ(read_file(card), "# Made for the trial in May\n") << fault.text();
+    injected += counts->injected;
+  }
+  EXPECT_GE(injected, 1u);
+}
+
 // gnuplot checks neither its writes nor whether it could open its data: it has no file in the folder.
 TEST(InjectedFaults, DoNotReachGnuplot) {
   JobFolder folder;

@@ -136,8 +136,7 @@ std::string explorer(const ReportData& data) {
 std::string benchmarks(const fs::path& run) {
   std::vector<fs::path> files;
   for (const fs::directory_entry& entry : fs::directory_iterator(run)) {
-    std::error_code error;
-    if (fs::exists(entry.path() / kBenchmarkFile, error)) files.push_back(entry.path() / kBenchmarkFile);
+    if (is_there(entry.path() / kBenchmarkFile)) files.push_back(entry.path() / kBenchmarkFile);
   }
   std::sort(files.begin(), files.end());
   std::string html;

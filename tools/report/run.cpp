@@ -52,11 +52,11 @@ class StageClock {
 
 // Throws InputError unless the directory is that of a run (with resume), or empty or absent.
 void require_directory(const fs::path& directory, bool resume) {
+  if (!is_there(directory)) return;
   std::error_code error;
-  if (fs::exists(directory, error) && !fs::is_directory(directory, error)) {
+  if (!fs::is_directory(directory, error))
     throw InputError(fmt::format("{}: is a file, not a directory", directory.string()));
-  }
-  if (!fs::exists(directory, error) || fs::is_empty(directory, error)) return;
+  if (fs::is_empty(directory, error)) return;
   if (!resume) {
     throw InputError(
         fmt::format("{}: the directory is not empty; go on with what is there by --resume", directory.string()));

@@ -34,8 +34,8 @@ std::string maps_yaml(Scenario scenario) {
 }
 
 bool is_empty_or_absent(const fs::path& directory) {
+  if (!is_there(directory)) return true;
   std::error_code error;
-  if (!fs::exists(directory, error)) return true;
   if (!fs::is_directory(directory, error)) {
     throw InputError(fmt::format("{}: is a file, not a directory", directory.string()));
   }
@@ -60,8 +60,7 @@ void require_own_directory(const fs::path& directory) {
   for (const std::string& name : file_names(directory)) {
     if (is_dataset_file(name)) continue;
     const fs::path of_run = directory / "data";
-    std::error_code error;
-    const bool is_run = fs::exists(of_run / kScenarioFile, error);
+    const bool is_run = is_there(of_run / kScenarioFile);
     throw InputError(fmt::format("{}: the directory contains {}, which is no file of a data set{}", directory.string(),
                                  name, is_run ? "; the run's data set is " + of_run.string() : ""));
   }
@@ -80,8 +79,7 @@ void write_in_company(const fs::path& file, const std::string& content) {
 
 // A card that a user changed or that has metadata of `seaglint card` is kept.
 bool is_replaceable_card(const fs::path& file) {
-  std::error_code error;
-  if (!fs::exists(file, error)) return true;
+  if (!is_there(file)) return true;
   const std::string text = read_file(file);
   return is_unchanged_card(text) && !has_front_matter(text);
 }

@@ -14,6 +14,7 @@
 #include "classify/dataset/format/layout.h"
 #include "classify/dataset/format/npz.h"
 #include "sim/core/process/error.h"
+#include "sim/core/process/file.h"
 #include "sim/core/process/temporary_file.h"
 
 namespace seaglint {
@@ -155,8 +156,8 @@ void export_shards(const DatasetReader& reader, std::size_t first, std::size_t c
 
 void require_export_directory(const DatasetReader& reader, const fs::path& directory, const ExportedName& is_name,
                               const ExportedName& is_of_this_set) {
+  if (!is_there(directory)) return;
   std::error_code error;
-  if (!fs::exists(directory, error)) return;
   if (!fs::is_directory(directory, error))
     throw InputError(fmt::format("{}: is a file, not a directory", directory.string()));
   if (fs::equivalent(directory, reader.directory(), error))

@@ -20,8 +20,7 @@ bool GltfFolder::holds(const std::string& name) const {
 }
 
 bool exists_in_folder(const std::string& name, void* folder) {
-  std::error_code error;
-  return static_cast<const GltfFolder*>(folder)->holds(name) && fs::is_regular_file(name, error);
+  return static_cast<const GltfFolder*>(folder)->holds(name) && is_there(name);
 }
 
 std::string same_path(const std::string& name, void*) { return name; }

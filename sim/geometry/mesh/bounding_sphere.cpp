@@ -63,7 +63,7 @@ Sphere bounding_sphere(std::span<const Vec3> points) {
   std::vector<Vec3> support{Vec3::Zero()};
   Sphere sphere;
   for (int step = 0; step < kMaxSteps; ++step) {
-    const Vec3* farthest = nullptr;
+    const Vec3* farthest = points.data();
     double distance2 = -1;
     for (const Vec3& p : points) {
       const double here = (p - origin - sphere.centre).squaredNorm();

@@ -33,9 +33,11 @@ void add_deck_rails(MeshBuilder& builder, const HullSurface& hull, double width)
   for (double side : {1.0, -1.0}) {
     builder.begin_part(side > 0 ? "rails_port" : "rails_starboard");
     std::vector<Vec3> line;
-    for (double x = -45.5; x < 46.6; x += 4.2) {
+    double x = -45.5;
+    while (x < 46.6) {
       const double at = hull.x_of(x);
       line.push_back({at, side * (hull.deck_half_breadth(at) - 0.14), hull.deck_height(at)});
+      x += 4.2;
     }
     add_rail(builder, line, width);
   }
@@ -104,7 +106,8 @@ void add_ladders(MeshBuilder& builder, const HullSurface& hull, const ShipHouses
 void add_nets(MeshBuilder& builder, const HullSurface& hull, double width) {
   builder.begin_part("flight_deck_nets");
   for (double side : {1.0, -1.0}) {
-    for (double x = -70.6; x < -47.5; x += 2.4) {
+    double x = -70.6;
+    while (x < -47.5) {
       const auto at = [&](double design_x, double out, double down) {
         const double place = hull.x_of(design_x);
         return Vec3(place, side * (hull.deck_half_breadth(place) + out), hull.deck_height(place) - down);
@@ -113,6 +116,7 @@ void add_nets(MeshBuilder& builder, const HullSurface& hull, double width) {
       add_bar(builder, at(x + 2.3, -0.1, 0.12), at(x + 2.3, 1.25, -0.06), width);
       for (double out : {0.35, 0.78, 1.2})
         add_bar(builder, at(x, out, 0.06 - 0.1 * out), at(x + 2.3, out, 0.06 - 0.1 * out), 0.7 * width);
+      x += 2.4;
     }
   }
 }

@@ -18,10 +18,12 @@ void add_cabinets(MeshBuilder& builder, const HullSurface& hull, const Deckhouse
                   double spacing, double height) {
   int n = 0;
   for (double side : {1.0, -1.0}) {
-    for (double x = from + (side > 0 ? 0.0 : 0.4 * spacing); x < to; x += spacing * (n % 3 == 1 ? 1.25 : 0.9), ++n) {
+    double x = from + (side > 0 ? 0.0 : 0.4 * spacing);
+    while (x < to) {
       const double size = 0.45 + 0.08 * (n % 4);
       const Pose wall = house.on_side(hull, side, x, height + 0.25 * (n % 2));
       add_open_box(builder, moved(wall, 0.5 * size - 0.06, 0, 0), {size, size + 0.1, size + 0.15}, 0.025);
+      x += spacing * (n++ % 3 == 1 ? 1.25 : 0.9);
     }
   }
 }

@@ -69,7 +69,7 @@ Side clip_by(const MovingPolygon& polygon, const Distance& distance, double on_l
   if (!any_inside) return Side::kOutside;
   kept.clear();
   if (cut_off) cut_off->clear();
-  const MovingLine line = make_line();
+  const MovingLine& line = make_line();
   const auto value = [&](std::size_t i) {
     const double f = i < kRemembered ? remembered[i] : distance(polygon[i].p);
     return std::abs(f) < on_line ? 0.0 : f;

@@ -47,8 +47,8 @@ namespace {
 double bessel_i0(double z) {
   const double q = 0.25 * z * z;
   double term = 1, sum = 1;
-  for (double m = 1; term > 1e-17 * sum; ++m) {
-    term *= q / (m * m);
+  for (int m = 1; term > 1e-17 * sum; ++m) {
+    term *= q / (static_cast<double>(m) * m);
     sum += term;
   }
   return sum;

@@ -38,7 +38,7 @@ GmshValues::GmshValues(std::string bytes, std::string file) : file_(std::move(fi
 }
 
 std::string GmshValues::place(const char* at) const {
-  return source_ ? source_->place({at, 0}) : fmt::format("{}: byte {}", file_, at - bytes_.data());
+  return source_ ? source_->place({at, at}) : fmt::format("{}: byte {}", file_, at - bytes_.data());
 }
 
 void GmshValues::fail(const std::string& what) const { throw InputError(fmt::format("{}: {}", place(at_), what)); }

@@ -52,9 +52,9 @@ bool has_prefix(std::string_view name, std::span<const std::string_view> prefixe
 
 class NastranReader {
  public:
-  explicit NastranReader(TextSource source)
+  explicit NastranReader(const TextSource& source)
       : cards_(source), model_(source.name(), [source](const char* at) {
-          return source.place({at, 0});
+          return source.place({at, at});
         }) {}
 
   TriangleMesh read() {

@@ -58,14 +58,14 @@ void NastranFrames::place(Frame& frame, const TextSource& source) const {
   for (Vec3* point : {&frame.a, &frame.b, &frame.c}) {
     const std::optional<Vec3> base = in_base(frame.reference, *point);
     if (!base) {
-      source.fail(std::string_view(frame.at, 0),
+      source.fail(std::string_view(frame.at, frame.at),
                   fmt::format("coordinate system {}, which it refers to, is not given", frame.reference));
     }
     *point = *base;
   }
   const Vec3 z = frame.b - frame.a, y = z.cross(frame.c - frame.a);
   if (!(y.norm() > 1e-9 * z.norm() * (frame.c - frame.a).norm()))
-    source.fail(std::string_view(frame.at, 0), "the three points of the coordinate system are on one line");
+    source.fail(std::string_view(frame.at, frame.at), "the three points of the coordinate system are on one line");
   frame.R.col(2) = z.normalized();
   frame.R.col(1) = y.normalized();
   frame.R.col(0) = frame.R.col(1).cross(frame.R.col(2));
@@ -81,7 +81,7 @@ void NastranFrames::resolve(const TextSource& source) {
       if (next == frames_.end()) break;
       frame = &next->second;
       if (chain.size() > frames_.size())
-        source.fail(std::string_view(first.at, 0), fmt::format("coordinate system {} refers to itself", number));
+        source.fail(std::string_view(first.at, first.at), fmt::format("coordinate system {} refers to itself", number));
     }
     for (; !chain.empty(); chain.pop_back()) place(*chain.back(), source);
   }

@@ -37,9 +37,9 @@ bool is_beam(std::int64_t id) { return id == 11 || (id >= 21 && id <= 24) || id 
 
 class UnvReader {
  public:
-  explicit UnvReader(TextSource source)
+  explicit UnvReader(const TextSource& source)
       : sets_(source), model_(source.name(), [source](const char* at) {
-          return source.place({at, 0});
+          return source.place({at, at});
         }) {}
 
   UnvMesh read() {
