@@ -153,7 +153,7 @@ std::optional<fs::path> find_material_file(const std::string& name, const fs::pa
   if (name == "pec") return std::nullopt;
   const bool is_file = name.ends_with(".yaml") || name.find('/') != std::string::npos;
   const fs::path path = is_file ? fs::path(name) : fs::path("assets/materials") / (name + ".yaml");
-  if (const std::optional<fs::path> file = search_file(path.string(), folder)) return file;
+  if (std::optional<fs::path> file = search_file(path.string(), folder)) return file;
   if (is_file) {
     throw InputError(fmt::format("{}: value '{}': no such material file, {}", where, name, places_text(folder)));
   }

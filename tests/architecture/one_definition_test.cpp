@@ -13,7 +13,6 @@ namespace seaglint {
 namespace {
 
 using testing::ElementsAre;
-using testing::HasSubstr;
 using testing::IsEmpty;
 
 // "name: place place" of every name that is defined more than once. `main` is one in every program.

@@ -150,7 +150,7 @@ void mark_error(FILE* stream) {
 }  // namespace
 
 // `real` is the function of this name that the program would call without this library.
-#define SEAGLINT_REAL(name) static const auto real = next_function<decltype(&name)>(#name)
+#define SEAGLINT_REAL(name) static const auto real = next_function<decltype(&(name))>(#name)
 
 extern "C" {
 

@@ -59,6 +59,7 @@ const std::vector<NamedReader> kReaders = {{"numbers", fuzz_numbers},
                                            {"embeddings", fuzz_embeddings},
                                            {"trees", fuzz_trees},
                                            {"model_card", fuzz_model_card},
+                                           {"network", fuzz_network},
                                            {"echo", fuzz_echo}};
 
 // The inputs of all readers, each of which may be given to any.

@@ -2,8 +2,10 @@
 #include <cmath>
 #include <vector>
 
+#include "classify/cnn/network.h"
 #include "classify/model/booster.h"
 #include "classify/model/model_card.h"
+#include "sim/core/process/file.h"
 #include "tests/fuzz/readers.h"
 #include "tests/fuzz/refusal.h"
 
@@ -28,6 +30,18 @@ void fuzz_model_card(const std::string& bytes) {
     learning_spec(card, file);
     SEAGLINT_CHECK(read_model_card(file_of(to_json(card), kModelFile), "0.1.0").classes == card.classes,
                    "another model after writing");
+  });
+}
+
+void fuzz_network(const std::string& bytes) {
+  is_refused([&] {
+    const std::filesystem::path file = file_of(bytes, "network.bin");
+    const Network network = Network::load(file);
+    const std::vector<CentreList> maps{{}, {{-40, -0.1, 1}, {0, 0, 1}, {40, 0.1, 1}}};
+    const std::size_t outputs = network.classes() == 2 ? 1 : network.classes();
+    SEAGLINT_CHECK(network.embed(maps).logits.size() == outputs * maps.size(), "outputs of another number");
+    network.save(file);
+    SEAGLINT_CHECK(read_file(file) == bytes, "another network after writing");
   });
 }
 

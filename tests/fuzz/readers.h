@@ -54,6 +54,7 @@ void fuzz_embeddings(const std::string& bytes);  // embeddings.csv
 // Models and echoes.
 void fuzz_trees(const std::string& bytes);       // handmade.json, with the probabilities of rows
 void fuzz_model_card(const std::string& bytes);  // model.json
+void fuzz_network(const std::string& bytes);     // network.bin, with its outputs for a map
 void fuzz_echo(const std::string& bytes);        // I/Q samples over time
 
 }  // namespace seaglint

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "classify/cnn/network.h"
 #include "classify/dataset/format/manifest.h"
 #include "classify/dataset/format/npz.h"
 #include "classify/dataset/format/shard.h"
@@ -187,6 +188,16 @@ void write_echo(const fs::path& file) {
        {"description.json", R"({"columns": {"label": 1, "target_name": "ferry", "scr_peak_cell_db": null}})"}});
 }
 
+// Of one training step on two maps.
+void write_network(const fs::path& file, std::size_t classes) {
+  const std::vector<CentreList> maps{{{-40, -0.1, 1}, {40, 0.1, 1}}, {{-40, 0.1, 1}, {40, 0.2, 1}}};
+  const std::vector<std::size_t> rows{0, 1};
+  const std::vector<int> labels{0, 1};
+  LearningSpec spec;
+  spec.epochs = spec.embedding_size = 1;
+  Network::train(maps, {rows, {}}, labels, spec, 1, 0, nullptr, classes).save(file);
+}
+
 void write_texts(const fs::path& root) {
   write_file(seed(root, "veres", "small.re1"), kVeres);
   write_file(seed(root, "wamit", "small.4"), wamit());
@@ -220,6 +231,8 @@ void write_seeds(const fs::path& root) {
   write_npz(seed(root, "npz", "data.npz"), {npz_array("samples/label", "<i8", {2}, std::string(16, '\0'))},
             {{"description.json", "{\"manifest_sha256\": \"0\"}"}});
   write_echo(seed(root, "echo", "echo.npz"));
+  write_network(seed(root, "network", "two.bin"), 2);
+  write_network(seed(root, "network", "three.bin"), 3);
   write_mesh(seed(root, "glb", "tetrahedron.glb"), tetrahedron());
   write_mesh(seed(root, "gltf", "tetrahedron.gltf"), tetrahedron());
   write_mesh(seed(root, "ply", "tetrahedron.ply"), tetrahedron());

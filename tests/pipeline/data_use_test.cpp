@@ -35,7 +35,7 @@ class DataSetUse : public testing::Test {
   static void TearDownTestSuite() { delete folder_; }
 
   static fs::path copy() {
-    const fs::path place = folder_->path() / testing::UnitTest::GetInstance()->current_test_info()->name();
+    fs::path place = folder_->path() / testing::UnitTest::GetInstance()->current_test_info()->name();
     fs::copy(data_, place);
     return place;
   }

@@ -38,8 +38,8 @@ TEST_F(HostileDataSet, IsRefusedWithTheShardsName) {
             0);
   for (int i = 0; i < 100000; ++i) std::ofstream(secret_, std::ios::app) << "SECRET OF ANOTHER FILE ";
   const fs::path made = folder_.path() / "made";
-  const ProgramResult script =
-      run_words({kPython, SEAGLINT_SOURCE_DIR "/tests/pipeline/hostile_shards.py", base_, made, secret_});
+  const std::string hostile_shards = SEAGLINT_SOURCE_DIR "/tests/pipeline/hostile_shards.py";
+  const ProgramResult script = run_words({kPython, hostile_shards, base_, made, secret_});
   ASSERT_EQ(script.code, 0) << script.err;
   std::istringstream kinds(script.out);
   int count = 0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `seaglint map` on ideal points.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -139,14 +140,13 @@ std::vector<std::array<double, 3>> cluster_centres(const std::vector<std::string
 }
 
 TEST(MapCommand, ACompanionIsInTheSameMap) {
-  const auto centres_in = [](const std::string& sample) {
-    return cluster_centres(
-        {"--set", "view={azimuth_deg: 0, elevation_deg: 0}", "--set",
-         "targets={one: {label: 1, points: [{position_m: [30, 0, 0], amplitude_m: 2, velocity_mps: [1, 0, 0]}], "
-         "companions: "
-         "[{target: other, x_m: -50, y_m: 8}]}, other: {label: 0, points: [{position_m: [5, 0, 0]}]}}",
-         "--set", "dataset={maps_per_case: 1, realisations_per_case: 1}", "--set", "clutter.scr_db=60", "--sample",
-         sample});
+  const std::string targets =
+      "targets={one: {label: 1, points: [{position_m: [30, 0, 0], amplitude_m: 2, velocity_mps: [1, 0, 0]}], "
+      "companions: [{target: other, x_m: -50, y_m: 8}]}, other: {label: 0, points: [{position_m: [5, 0, 0]}]}}";
+  const auto centres_in = [&](const std::string& sample) {
+    return cluster_centres({"--set", "view={azimuth_deg: 0, elevation_deg: 0}", "--set", targets, "--set",
+                            "dataset={maps_per_case: 1, realisations_per_case: 1}", "--set", "clutter.scr_db=60",
+                            "--sample", sample});
   };
   // Which of the two targets sample 0 contains is random; the companion is placed with one of them.
   const auto first = centres_in("0"), second = centres_in("1");
@@ -166,17 +166,18 @@ TEST(MapCommand, ACompanionIsInTheSameMap) {
 TEST(MapCommand, CompanionsOfAShipUnderWayStayInTheWater) {
   const std::string corner = "mesh: assets/icosahedral_reflector.glb", hull = "length_m: 140, beam_m: 19, draught_m: 6";
   const auto centres = [&](const std::string& with) {
+    const std::string targets = fmt::format(
+        "targets={{flagship: {{label: 1, {0}, motion: {{model: ship, speed_mps: 2, {1}}}, companions: [{2}]}}, "
+        "consort: {{label: 1, {0}, motion: {{model: ship, speed_mps: 2, {1}}}}}, "
+        "decoy: {{label: 0, {0}, motion: {{model: float}}}}, "
+        "buoy: {{label: 0, points: [{{position_m: [0, 0, 0], amplitude_m: 4}}]}}}}",
+        corner, hull, with);
     std::vector<std::array<double, 3>> most;
     for (const char* sample : {"0", "1", "2", "3"}) {
-      const auto found = cluster_centres(
-          {"--set", "view={azimuth_deg: 60, elevation_deg: 0}", "--set", "sea={significant_wave_height_m: 0}", "--set",
-           "targets={flagship: {label: 1, " + corner + ", motion: {model: ship, speed_mps: 2, " + hull +
-               "}, companions: [" + with + "]}, consort: {label: 1, " + corner +
-               ", motion: {model: ship, speed_mps: 2, " + hull + "}}, decoy: {label: 0, " + corner +
-               ", motion: {model: float}}, buoy: {label: 0, points: [{position_m: [0, 0, 0], "
-               "amplitude_m: 4}]}}",
-           "--set", "dataset={maps_per_case: 1, realisations_per_case: 1}", "--set", "clutter.enabled=false",
-           "--sample", sample});
+      const auto found = cluster_centres({"--set", "view={azimuth_deg: 60, elevation_deg: 0}", "--set",
+                                          "sea={significant_wave_height_m: 0}", "--set", targets, "--set",
+                                          "dataset={maps_per_case: 1, realisations_per_case: 1}", "--set",
+                                          "clutter.enabled=false", "--sample", sample});
       if (found.size() > most.size()) most = found;
     }
     return most;

@@ -36,7 +36,7 @@ enum Column { kAzimuth, kElevation, kHh, kVv, kCut, kCutFloat, kRenumbered, kTur
 class MeshSensitivityCommand : public testing::Test {
  protected:
   std::string made(const std::string& what) const {
-    const std::string file = folder_.path() / "mesh.glb";
+    std::string file = folder_.path() / "mesh.glb";
     EXPECT_EQ(run_program(words("mesh make " + what + " -o " + file)).code, 0);
     return file;
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `sea` and `motion` write the results of their stages in the documented columns.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -205,8 +206,7 @@ TEST(Motion, DrawsRaosInTheScenariosUnitsAndDepth) {
     const std::string reference = folder.path() / "ship.4", figure = folder.path() / "rao.svg";
     std::string rows;
     for (const char* period : {"6", "8", "12"}) {
-      for (int mode = 1; mode <= 6; ++mode)
-        rows += std::string(period) + " 120 " + std::to_string(mode) + " " + scale + " 0 " + scale + " 0\n";
+      for (int mode = 1; mode <= 6; ++mode) rows += fmt::format("{0} 120 {1} {2} 0 {2} 0\n", period, mode, scale);
     }
     write_file(reference, rows);
     std::vector<std::string> words{"motion", "scenarios/quick.yaml", "--duration-s", "1"};

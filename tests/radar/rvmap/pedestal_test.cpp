@@ -33,7 +33,7 @@ constexpr Offset kListed[] = {
 struct Means {
   double measured = 0, expected = 0;
 };
-Means mean_response(RadarSpec radar, const Offset& offset, double window_m) {
+Means mean_response(const RadarSpec& radar, const Offset& offset, double window_m) {
   Means means;
   for (int i = 0; i < kCodes; ++i) {
     const PulseTrain train = make_pulse_train(radar, window_m, 77, i);
