@@ -198,7 +198,7 @@ TEST_F(MeshFile, NamesThatAreNotUtf8AreLatin1) {
                                       {"cut \xC3", "cut \xC3\x83"},
                                       {"\xED\xA0\x80", "\xC3\xAD\xC2\xA0\xC2\x80"},
                                       {"\xC0\x80", "\xC3\x80\xC2\x80"}}) {
-    const TriangleMesh mesh = read_mesh(put("a.obj", corners + "g " + written + "\nf 1 2 3\n"));
+    const TriangleMesh mesh = read_mesh(put("a.obj", corners + fmt::format("g {}\nf 1 2 3\n", written)));
     EXPECT_EQ(mesh.part_names, std::vector<std::string>{read});
     write_mesh(folder / "a.glb", mesh);
     EXPECT_EQ(read_mesh(folder / "a.glb").part_names, mesh.part_names);

@@ -28,27 +28,31 @@ const std::string kNodes = "GRID,1,,0.,0.,0.\nGRID,2,,2.,0.,0.\nGRID,3,,0.,1.,0.
 
 // One rectangle of 2 m x 1 m in every way to write it.
 TEST_F(Nastran, HasSmallLargeAndFreeFieldsWithContinuationLines) {
-  const std::vector<std::string> decks{
+  const std::string small_fields =
       "GRID           1              0.      0.      0.\nGRID           2              2.      0.      0.\n"
       "GRID           3              2.      1.      0.\nGRID           4              0.      1.      0.\n"
-      "CQUAD4         5       7       1       2       3       4\nENDDATA\n",
-      // Tabs lead to the next field; lower case.
+      "CQUAD4         5       7       1       2       3       4\nENDDATA\n";
+  // Tabs lead to the next field; lower case.
+  const std::string tabs =
       "grid\t1\t\t0.\t0.\t0.\ngrid\t2\t\t2.\t0.\t0.\ngrid\t3\t\t2.\t1.\t0.\ngrid\t4\t\t0.\t1.\t0.\n"
-      "cquad4\t5\t7\t1\t2\t3\t4\nenddata\n",
-      // Large fields with labels and without; a comment between the lines of a card.
+      "cquad4\t5\t7\t1\t2\t3\t4\nenddata\n";
+  // With labels and without; a comment between the lines of a card.
+  const std::string large_fields =
       "GRID*                  1                              0.              0.*A\n$ comment\n*A                    "
       "0.\n"
       "GRID*                  2                             2.0             0.0\n*                   0.0\n"
       "GRID*                  3                          2.0D+0          1.0E+0*B1\n*B1                   0.\n"
       "GRID*                  4                                             1.0\n*\n"
-      "CQUADR         5       7       1       2       3       4\nENDDATA\n",
-      // Eight corners, whose last two are in the next line; free fields with labels.
+      "CQUADR         5       7       1       2       3       4\nENDDATA\n";
+  // Eight corners, whose last two are in the next line.
+  const std::string free_fields =
       "GRID,1,,0.,0.,0.\nGRID,2,,2.,0.,0.\nGRID,3,,2.,1.,0.\nGRID,4,,0.,1.,0.\nGRID,5,,1.,0.,0.\nGRID,6,,2.,.5,0.\n"
-      "GRID,7,,1.,1.,0.\nGRID,8,,0.,.5,0.\nCQUAD8,5,7,1,2,3,4,5,6,+Q\n+Q,7,8\nENDDATA\n",
-      // Large free fields, exponents without a letter.
+      "GRID,7,,1.,1.,0.\nGRID,8,,0.,.5,0.\nCQUAD8,5,7,1,2,3,4,5,6,+Q\n+Q,7,8\nENDDATA\n";
+  // Exponents without a letter.
+  const std::string large_free_fields =
       "GRID*,1,,0.,0.\n*,0.\nGRID*,2,,2.+0,0.\n*,0.\nGRID*,3,,.2+1,1.\n*,0.\nGRID*,4,,0.,10.-1\n*,\n"
-      "CSHEAR,5,7,1,2,3,4\nENDDATA\n"};
-  for (const std::string& deck : decks) {
+      "CSHEAR,5,7,1,2,3,4\nENDDATA\n";
+  for (const std::string& deck : {small_fields, tabs, large_fields, free_fields, large_free_fields}) {
     SCOPED_TRACE(deck);
     const TriangleMesh mesh = read(deck);
     EXPECT_EQ(mesh.triangles.size(), 2u);

@@ -13,7 +13,6 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::IsEmpty;
 
 std::string dataset(int number, const std::string& records) {
   return "    -1\n" + std::string(number < 1000 ? "   " : "  ") + std::to_string(number) + "\n" + records + "    -1\n";
@@ -63,7 +62,8 @@ TEST_F(Unv, HasShellsWithPropertiesAndGroups) {
               "        0\n         8        12         0         0\n         2         0         0  "
               "       0         0         0         0         1\nother\n         8        10        "
               " 0         0\n");
-  for (const TriangleMesh& grouped : {read(kNodes + kElements + groups), read(groups + kElements + kNodes)}) {
+  const std::string last = kNodes + kElements + groups, first = groups + kElements + kNodes;
+  for (const TriangleMesh& grouped : {read(last), read(first)}) {
     EXPECT_THAT(grouped.part_names, ElementsAre("bridge wing", "property_3"));
     EXPECT_THAT(grouped.findings, testing::Contains("1 element in several groups: taken as of the first"));
   }

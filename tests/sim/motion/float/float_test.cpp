@@ -33,7 +33,7 @@ SeaState state_of(double height, double period) {
   return state;
 }
 
-WaveField regular_wave(double amplitude, double omega, Vec2 direction) {
+WaveField regular_wave(double amplitude, double omega, const Vec2& direction) {
   return WaveField({{omega, amplitude, 0.4, omega * omega / kGravity}}, direction, 1, 0);
 }
 

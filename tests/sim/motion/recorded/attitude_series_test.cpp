@@ -23,7 +23,7 @@ namespace {
 // In a folder of this process, since tests of other processes write files of the same names.
 std::filesystem::path write(const std::string& text, const char* name = "series.csv") {
   static const TemporaryFolder folder;
-  const std::filesystem::path file = folder.path() / name;
+  std::filesystem::path file = folder.path() / name;
   std::ofstream(file) << text;
   return file;
 }

@@ -20,7 +20,7 @@ TEST(IlluminationByEdge, ContainsAllOfEachEdgeInTheOrderOfTheirLists) {
   std::size_t count = 0;
   for (auto& list : lists) {
     for (int i = 0; i < 20; ++i) {
-      const int edge = 2 * static_cast<int>(kEdges / 2 * random.uniform());  // every other one has none
+      const int edge = 2 * static_cast<int>(0.5 * kEdges * random.uniform());  // every other one has none
       const Vec3 x = Vec3::Zero();
       const EdgeIllumination illumination{
           edge, {static_cast<double>(count++), 0}, {Vec2::Zero(), Vec2::Zero()}, x, x, x, x, x};

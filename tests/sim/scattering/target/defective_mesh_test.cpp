@@ -12,7 +12,6 @@ namespace seaglint {
 namespace {
 
 using namespace testing_echoes;
-using testing::HasSubstr;
 
 constexpr double kRounding = 1e-9;  // relative; the same facets in another order
 const double k10 = wavenumber(10e9);
