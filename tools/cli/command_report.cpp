@@ -32,7 +32,7 @@ Scenario read_own_scenario(const std::filesystem::path& run) {
                                                    above.has_filename() ? above.string() : above.parent_path().string())
                                      : "no data/scenario.yaml"));
   }
-  const Scenario scenario = read_scenario(file);
+  Scenario scenario = read_scenario(file);
   const std::string here = effective_yaml(scenario), there = effective_yaml(read_scenario(of_data));
   if (here != there) {
     throw InputError(fmt::format("{}: is not the scenario of {} ({}); bring the run's own back", file.string(),

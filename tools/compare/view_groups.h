@@ -11,7 +11,7 @@ namespace seaglint {
 
 struct ViewPoint {
   double frequency_hz = 0, azimuth_deg = 0, elevation_deg = 0;
-  auto operator<=>(const ViewPoint&) const = default;
+  auto operator<=>(const ViewPoint&) const = default;  // NOLINT(modernize-use-nullptr): compares with 0
 };
 
 // All combinations of these values.

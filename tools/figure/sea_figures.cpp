@@ -57,10 +57,10 @@ LinePlot crest_plot(const SeaSummary& summary, const SeaEnsemble& ensemble) {
       forristall_crests(height, summary.steepness, summary.ursell, summary.long_crested);
   Series simulated{.name = "simulated", .x = {}, .y = {}, .interval = {}, .style = SeriesStyle::kPoints};
   // Every crest among the highest, a subset of the others.
-  const auto count = static_cast<double>(ensemble.crests.size());
-  for (double rank = 1; rank <= count; rank = std::max(rank + 1, std::floor(rank * 1.15))) {
-    simulated.x.push_back(ensemble.crests[ensemble.crests.size() - static_cast<std::size_t>(rank)] / height);
-    simulated.y.push_back(rank / (count + 1));
+  const std::size_t count = ensemble.crests.size();
+  for (std::size_t rank = 1; rank <= count; rank = std::max(rank + 1, rank + rank * 15 / 100)) {
+    simulated.x.push_back(ensemble.crests[count - rank] / height);
+    simulated.y.push_back(static_cast<double>(rank) / static_cast<double>(count + 1));
   }
   Series fit{.name = fmt::format("Forristall (2000), {}-crested", summary.long_crested ? "long" : "short"),
              .x = {},
@@ -74,11 +74,12 @@ LinePlot crest_plot(const SeaSummary& summary, const SeaEnsemble& ensemble) {
     rayleigh.x.push_back(x);
     rayleigh.y.push_back(rayleigh_exceedance(x * height, height));
   }
-  LinePlot plot{.title = fmt::format("Exceedance of {} crests", ensemble.crests.size()),
-                .x = {"crest height / Hs", AxisRange{0, 1.5}},
-                .y = {"probability per crest", AxisRange{0.3 / std::max(count, 10.0), 1}, true},
-                .series = {},
-                .legend_above = true};
+  LinePlot plot{
+      .title = fmt::format("Exceedance of {} crests", ensemble.crests.size()),
+      .x = {"crest height / Hs", AxisRange{0, 1.5}},
+      .y = {"probability per crest", AxisRange{0.3 / static_cast<double>(std::max<std::size_t>(count, 10)), 1}, true},
+      .series = {},
+      .legend_above = true};
   plot.series = {simulated, fit, rayleigh};
   return plot;
 }

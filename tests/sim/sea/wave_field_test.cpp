@@ -28,7 +28,7 @@ SeaState state_of(double height, double period) {
   return state;
 }
 
-WaveField regular_wave(double amplitude, double wavenumber, Vec2 direction, int order) {
+WaveField regular_wave(double amplitude, double wavenumber, const Vec2& direction, int order) {
   return WaveField({{std::sqrt(kGravity * wavenumber), amplitude, 0, wavenumber}}, direction, order, kNoCutoff);
 }
 

@@ -20,7 +20,7 @@ TEST(MotionFrames, DrawTheWaterAtAShipsPosition) {
       std::filesystem::path(testing::TempDir()) / ("motion_frames_" + std::to_string(::getpid()) + ".svg");
   const auto picture = [&](double speed, double period_s) {
     write_motion_frames({{"ship", Trajectory(), make_plate(2, 2), speed}}, sea, period_s, "title", file);
-    const std::string text = read_file(file);
+    std::string text = read_file(file);
     std::filesystem::remove(file);
     return text;
   };

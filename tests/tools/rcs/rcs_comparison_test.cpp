@@ -17,7 +17,7 @@ using testing::HasSubstr;
 
 constexpr double kPrinted_db = 1e-9;  // rounding of logarithm and power
 
-RcsSweep sweep_of(std::vector<double> azimuth_deg, std::vector<Complex> vv) {
+RcsSweep sweep_of(std::vector<double> azimuth_deg, const std::vector<Complex>& vv) {
   RcsSweep sweep;
   sweep.frequency_hz = {10e9};
   sweep.azimuth_deg = std::move(azimuth_deg);
@@ -27,7 +27,7 @@ RcsSweep sweep_of(std::vector<double> azimuth_deg, std::vector<Complex> vv) {
   return sweep;
 }
 
-RcsCut cut_of(std::vector<std::pair<double, Complex>> values) {
+RcsCut cut_of(const std::vector<std::pair<double, Complex>>& values) {
   RcsCut cut{"other", Polarisation::kVv, {}, {}};
   for (const auto& [phi, s] : values) cut.values.push_back({10e9, 90, phi, 10 * std::log10(4 * kPi * std::norm(s)), s});
   return cut;

@@ -15,7 +15,7 @@ namespace seaglint::testing_echoes {
 inline TriangleMesh random_body(std::uint64_t seed) {
   Random random({seed, Stream::kTest, 0});
   const auto between = [&](double low, double high) { return low + (high - low) * random.uniform(); };
-  const auto upright = [&](TriangleMesh mesh, const Vec3& place) {
+  const auto upright = [&](const TriangleMesh& mesh, const Vec3& place) {
     return transformed(mesh, Eigen::AngleAxisd(between(0, 2 * kPi), Vec3::UnitZ()).toRotationMatrix(), place);
   };
   TriangleMesh body = transformed(make_plate(2, 2), Eigen::AngleAxisd(-kPi / 2, Vec3::UnitY()).toRotationMatrix(),

@@ -21,10 +21,10 @@ std::string refusal(const std::string& text) {
 }
 
 TEST(HopCodeText, IsReadWithAnySeparator) {
-  for (const char* text : {"0 7 3 1", "0,7,3,1\n", "0;7;3;1;\r\n", "# code\n0\n7\n\n3\n1\n",
-                           "\xef\xbb\xbf"
-                           "0\t7\t3 \t1\r\n",
-                           "0\r7\r3\r1\r"}) {
+  const char* const marked =
+      "\xef\xbb\xbf"
+      "0\t7\t3 \t1\r\n";
+  for (const char* text : {"0 7 3 1", "0,7,3,1\n", "0;7;3;1;\r\n", "# code\n0\n7\n\n3\n1\n", marked, "0\r7\r3\r1\r"}) {
     EXPECT_EQ(parse_hop_code(text, "hops.txt", 4, 8), (std::vector<int>{0, 7, 3, 1})) << text;
   }
 }
