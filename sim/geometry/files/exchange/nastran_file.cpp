@@ -101,8 +101,10 @@ class NastranReader {
       return;
     }
     if (name.starts_with("CORD")) return frames_.add(cards_);
-    if (name == "INCLUDE") cards_.source().fail({cards_.at(), 0}, "INCLUDE: other files are not read: export one file");
-    if (name.starts_with('=')) cards_.source().fail({cards_.at(), 0}, "replicated cards are not read: write them out");
+    if (name == "INCLUDE")
+      cards_.source().fail({cards_.at(), cards_.at()}, "INCLUDE: other files are not read: export one file");
+    if (name.starts_with('='))
+      cards_.source().fail({cards_.at(), cards_.at()}, "replicated cards are not read: write them out");
     if (name.starts_with("PSHELL") || name.starts_with("PCOMP")) names_.property(cards_.integer(2));
     if (name.starts_with('C')) element(name);
   }
