@@ -74,12 +74,12 @@ LinePlot crest_plot(const SeaSummary& summary, const SeaEnsemble& ensemble) {
     rayleigh.x.push_back(x);
     rayleigh.y.push_back(rayleigh_exceedance(x * height, height));
   }
-  LinePlot plot{
-      .title = fmt::format("Exceedance of {} crests", ensemble.crests.size()),
-      .x = {"crest height / Hs", AxisRange{0, 1.5}},
-      .y = {"probability per crest", AxisRange{0.3 / static_cast<double>(std::max<std::size_t>(count, 10)), 1}, true},
-      .series = {},
-      .legend_above = true};
+  const double lowest = 0.3 / static_cast<double>(std::max<std::size_t>(count, 10));
+  LinePlot plot{.title = fmt::format("Exceedance of {} crests", count),
+                .x = {"crest height / Hs", AxisRange{0, 1.5}},
+                .y = {"probability per crest", AxisRange{lowest, 1}, true},
+                .series = {},
+                .legend_above = true};
   plot.series = {simulated, fit, rayleigh};
   return plot;
 }
