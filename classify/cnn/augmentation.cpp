@@ -6,7 +6,8 @@
 namespace seaglint {
 
 CentreList observed_otherwise(std::span<const ScatteringCentre> centres, Random& random) {
-  const double range_factor = (random.below(2) == 0 ? 1 : -1) * (0.8 + 0.45 * random.uniform());
+  const double side = random.below(2) == 0 ? 1 : -1;
+  const double range_factor = side * (0.8 + 0.45 * random.uniform());
   const double velocity_factor = random.below(2) == 0 ? 1 : -1;
   const double rotation_rad_s = 0.00125 * random.normal();
   CentreList changed(centres.begin(), centres.end());

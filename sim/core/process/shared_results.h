@@ -20,7 +20,9 @@ class SharedResults {
   template <class Make>
   std::shared_ptr<const Value> get(const Key& key, const Make& make) {
     const std::shared_ptr<Slot> slot = slot_of(key);
-    std::call_once(slot->made, [&] { slot->value = std::make_shared<const Value>(make()); });
+    // std::call_once() waits for ever after an exception where pthread_once() does not know of it (thread sanitizer).
+    const std::lock_guard lock(slot->making);
+    if (!slot->value) slot->value = std::make_shared<const Value>(make());
     return slot->value;
   }
 
@@ -34,7 +36,7 @@ class SharedResults {
   struct Slot {
     explicit Slot(const Key& of) : key(of) {}
     Key key;
-    std::once_flag made;
+    std::mutex making;
     std::shared_ptr<const Value> value;
   };
 

@@ -90,12 +90,13 @@ bool is_inside_surface(const SmoothSurface& surface, const SharpEdge& edge) {
 }  // namespace
 
 struct Scatterer::RaySceneOnDemand {
-  std::once_flag made;
+  std::mutex making;
   std::optional<RayScene> scene;
 };
 
 const RayScene& Scatterer::ray_scene() const {
-  std::call_once(ray_scene_->made, [&] { ray_scene_->scene.emplace(facets_); });
+  const std::lock_guard lock(ray_scene_->making);
+  if (!ray_scene_->scene) ray_scene_->scene.emplace(facets_);
   return *ray_scene_->scene;
 }
 

@@ -168,7 +168,8 @@ TEST(CentresInClutter, TwentyDecibelsAboveItAreFoundBesideAFlash) {
               centres_beyond);
   record_figure(lost, 0, "lost_beside_a_flash");
   EXPECT_GE(strong, 12 * 24);
-  EXPECT_EQ(lost, 0);
+  // 20 other draws of the points lose 28 of 5,996, 1.4 in 300: more than 6 have a probability of 6e-4.
+  EXPECT_LE(lost, 6);
   EXPECT_EQ(centres_beyond, 0);
 }
 
