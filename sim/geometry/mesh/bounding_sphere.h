@@ -15,7 +15,7 @@ struct Sphere {
 };
 
 // The smallest sphere that contains all points, to rounding: no point lies outside by more than 1e-12 of the radius. It
-// turns and moves with the points. Zero for no points.
+// turns and moves with the points. Zero for no points, or where none has numbers as coordinates.
 Sphere bounding_sphere(std::span<const Vec3> points);
 
 }  // namespace seaglint

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
 
 #include "sim/core/numbers/random.h"
@@ -75,6 +76,10 @@ TEST(BoundingSphere, OfRepeatedAndCollinearPoints) {
   std::vector<Vec3> line;
   for (int i = 0; i <= 10; ++i) line.push_back(Vec3(1, 1, 1) + i * Vec3(0.1, -0.2, 0.05));
   EXPECT_NEAR(bounding_sphere(line).radius, Vec3(0.5, -1, 0.25).norm(), kRounding);
+}
+
+TEST(BoundingSphere, OfNoNumbersIsThatOfNoPoints) {
+  EXPECT_EQ(bounding_sphere(std::vector<Vec3>(3, Vec3(std::nan(""), 0, 0))).radius, 0);
 }
 
 }  // namespace
