@@ -14,6 +14,12 @@
 namespace seaglint {
 namespace {
 
+// In this order by any compiler.
+Complex complex_normal(Random& random) {
+  const double im = random.normal();
+  return {random.normal(), im};
+}
+
 // Points of a sweep; the computed amplitudes are those of seven point scatterers within a box of 2 x 1 x 0.6 m.
 std::vector<AlignmentPoint> sweep(const std::vector<double>& ghz, const std::vector<double>& azimuths,
                                   const std::vector<double>& elevations, const std::vector<std::size_t>& elements) {
@@ -21,9 +27,10 @@ std::vector<AlignmentPoint> sweep(const std::vector<double>& ghz, const std::vec
   Random random({5, Stream::kTest, 1});
   std::vector<std::pair<Vec3, std::array<Complex, 4>>> scatterers;
   for (int n = 0; n < 7; ++n) {
-    const Vec3 place(2 * random.uniform() - 1, random.uniform() - 0.5, 0.6 * random.uniform());
+    const double z = 0.6 * random.uniform(), y = random.uniform() - 0.5;
+    const Vec3 place(2 * random.uniform() - 1, y, z);
     std::array<Complex, 4> s;
-    for (Complex& value : s) value = Complex(random.normal(), random.normal());
+    for (Complex& value : s) value = complex_normal(random);
     scatterers.emplace_back(place, s);
   }
   for (const std::size_t element : elements) {
@@ -58,7 +65,7 @@ void disturb(std::vector<AlignmentPoint>& points, const Vec3& origin, double pha
   const double noise = std::sqrt(power / static_cast<double>(points.size()) * 1e-3 / 2);
   for (AlignmentPoint& p : points) {
     p.reference_m = p.computed_m * std::pow(10.0, 0.7 / 20) * std::polar(1.0, phase - p.path_gradient.dot(origin)) +
-                    noise * Complex(random.normal(), random.normal());
+                    noise * complex_normal(random);
     if (p.element == 3) p.reference_m *= vv_sign;
     if (conjugate) p.reference_m = std::conj(p.reference_m);
   }
@@ -136,10 +143,10 @@ TEST(Alignment, FindsAFarOrigin) {
   disturb(points, origin, -2, false, 1);
   const Alignment found = fit_alignment(points, 2);
   EXPECT_FALSE(found.conjugated);
+  EXPECT_LT((found.origin_m - origin).head<2>().norm(), kSpeedOfLight / 9.7e9 / 50);
   // One elevation leaves a direction undetermined that is not quite the vertical: the origin's component along it is 0.
   ASSERT_EQ(found.undetermined.size(), 1u);
   const Vec3 axis = found.undetermined[0], determined = origin - axis * axis.dot(origin);
-  EXPECT_LT(found.origin_error_m.norm(), kSpeedOfLight / 9.7e9 / 50);
   EXPECT_LT((found.origin_m - determined).norm(), 4 * found.origin_error_m.norm());
 }
 
