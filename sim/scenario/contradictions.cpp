@@ -108,7 +108,7 @@ void check_spectrum(const SeaSpec& sea, const ScenarioDocument& document) {
     }
   };
   const bool is_table = sea.spectrum == SpectrumKind::kTable;
-  const bool is_jonswap = sea.spectrum == SpectrumKind::kJonswap;
+  const bool is_jonswap = sea.spectrum == SpectrumKind::kJonswap || document.draws("sea.spectrum");
   only("table", is_table, "spectrum: table");
   only("peak_period_s", !is_table, "spectrum: jonswap or bretschneider; a table has its own peak");
   only("gamma", is_jonswap, "spectrum: jonswap");
@@ -239,9 +239,10 @@ void check_speed(const TargetSpec& target, const ScenarioDocument& document) {
 
 // Beams have no distance between them.
 void check_solver(const TargetSpec& target, const ScenarioDocument& document) {
-  if (target.solver.method == SolverMethod::kBeams && target.solver.ray_spacing_m != 0) {
-    document.fail_at(fmt::format("targets.{}.solver.ray_spacing_m", target.name),
-                     "valid only with method: rays or auto; beams have min_patch_m");
+  const std::string path = fmt::format("targets.{}.solver", target.name);
+  if (target.solver.method == SolverMethod::kBeams && target.solver.ray_spacing_m != 0 &&
+      !document.draws(path + ".method")) {
+    document.fail_at(path + ".ray_spacing_m", "valid only with method: rays or auto; beams have min_patch_m");
   }
 }
 

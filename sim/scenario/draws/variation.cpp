@@ -108,6 +108,10 @@ YamlNode& node_at(YamlNode& root, const std::string& path) {
 
 }  // namespace
 
+const char* name(DrawnPer per) {
+  return per == DrawnPer::kSea ? "sea" : per == DrawnPer::kObservation ? "observation" : "map";
+}
+
 std::string Variation::text() const {
   return drawn_as == key_path ? distribution.text() : fmt::format("same({})", drawn_as);
 }
@@ -152,6 +156,7 @@ ScenarioDocument with_values(const ScenarioDocument& document, const std::vector
                              const std::vector<std::string>& values) {
   ScenarioDocument copy = document;
   for (std::size_t i = 0; i < variations.size(); ++i) {
+    copy.drawn_keys.push_back(variations[i].key_path);
     YamlNode& node = node_at(copy.root, variations[i].key_path);
     node.text = values[i];
     node.quoted = false;

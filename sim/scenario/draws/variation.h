@@ -17,6 +17,7 @@ struct ScenarioDocument;
 // and `radar` once per observation, one interval of one sea in one view; those of `clutter` once per map of an
 // observation (dataset.maps_per_interval). Observations and their maps are common to all targets.
 enum class DrawnPer { kSea, kObservation, kMap };
+const char* name(DrawnPer per);  // "sea", "observation", "map"
 
 struct Variation {
   std::string key_path;

@@ -43,6 +43,10 @@ std::vector<std::string> split_path(const std::string& key_path) {
   return keys;
 }
 
+bool ScenarioDocument::draws(const std::string& key_path) const {
+  return std::ranges::find(drawn_keys, key_path) != drawn_keys.end();
+}
+
 std::string ScenarioDocument::place(const Location& location, const std::string& key_path) const {
   if (location.override_index < 0)
     return fmt::format("{}:{}:{}: {}", file_name, location.line, location.column, key_path);

@@ -15,6 +15,10 @@ struct ScenarioDocument {
   std::string file_name;
   std::vector<std::string> override_paths;
   YamlNode root;
+  std::vector<std::string> drawn_keys = {};  // that have drawn values in `root`
+
+  // Whether a key is drawn: keys that belong to another of its values are no contradictions.
+  bool draws(const std::string& key_path) const;
 
   // "file:line:col: key.path" or "--set path: key.path".
   std::string place(const Location& location, const std::string& key_path) const;

@@ -205,5 +205,17 @@ TEST(Variation, SameNamesAnotherDrawnKey) {
   }
 }
 
+// The effective scenario of a drawn spectrum has the keys of all of its choices; other keys that do not apply are
+// refused as ever.
+TEST(Variation, OfAChoiceAllowsTheKeysOfItsOtherValues) {
+  const std::string text =
+      "seaglint: 1\nsea: {spectrum: \"choice(bretschneider, jonswap)\", gamma: 2}\n"
+      "targets: {dot: {label: 0, points: [{position_m: [0, 0, 0]}]}}\n"
+      "dataset: {maps_per_case: 1, realisations_per_case: 1}\n";
+  const Scenario scenario = parse_scenario(text, "spectrum.yaml");
+  EXPECT_EQ(effective_yaml(parse_scenario(effective_yaml(scenario), "effective.yaml")), effective_yaml(scenario));
+  EXPECT_THROW(parse_scenario(text, "spectrum.yaml", {{"sea.spectrum", "bretschneider"}}), InputError);
+}
+
 }  // namespace
 }  // namespace seaglint
