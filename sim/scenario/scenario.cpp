@@ -27,6 +27,12 @@ namespace seaglint {
 
 namespace fs = std::filesystem;
 
+std::string value_text(const Scenario& scenario, const std::string& key_path, std::string value) {
+  const auto drawn = std::ranges::find(scenario.variations, key_path, &Variation::key_path);
+  if (drawn == scenario.variations.end()) return value;
+  return fmt::format("{}, drawn per {}", drawn->text(), name(drawn->per));
+}
+
 std::string place_of(const Scenario& scenario, const std::string& key_path) {
   return scenario.document ? scenario.document->place_of(key_path) : key_path;
 }

@@ -23,6 +23,9 @@ Scenario parse_scenario(const std::string& yaml, const std::string& file_name,
 // variations. Throws InputError for drawn values that contradict each other.
 Scenario drawn_scenario(const Scenario& scenario, const DrawPlace& place);
 
+// What a text states of a key: "uniform(0.5, 2), drawn per sea" where the scenario draws it, else `value`.
+std::string value_text(const Scenario& scenario, const std::string& key_path, std::string value);
+
 // "file:line:col: key.path" of a key or of its closest parent in the file; the key path alone without a file.
 std::string place_of(const Scenario& scenario, const std::string& key_path);
 

@@ -86,8 +86,10 @@ std::string note_of_level(const ordered_json& metrics, const Scenario& scenario)
       "the "
       "network’s input is "
       "divided by its energy. A pipeline with unnormalised maps would look better for the wrong reason.",
-      clutter.enabled ? fmt::format("The clutter follows the target (SCR {:g} dB)", clutter.scr_db)
-                      : "There is no clutter",
+      clutter.enabled
+          ? fmt::format("The clutter follows the target (SCR in dB: {})",
+                        escape_html(value_text(scenario, "clutter.scr_db", fmt::format("{:g}", clutter.scr_db))))
+          : "There is no clutter",
       power, unseen);
 }
 

@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <set>
+
 #include "classify/dataset/format/checksum.h"
 #include "classify/dataset/format/drawn_columns.h"
 #include "classify/dataset/format/layout.h"
@@ -32,7 +35,9 @@ std::string targets_table(const Scenario& scenario, const SamplePlan& plan) {
   for (const TargetSpec& target : scenario.targets) {
     std::string made_of =
         target.mesh.empty() ? fmt::format("{} ideal points", target.points.size()) : markdown_text(target.mesh);
-    if (target.scale != 1) made_of += fmt::format(", scale {:g}", target.scale);
+    const std::string scale = value_text(scenario, "targets." + target.name + ".scale",
+                                         target.scale == 1 ? "" : fmt::format("{:g}", target.scale));
+    if (!scale.empty()) made_of += ", scale " + markdown_text(scale);
     made_of += layout_text(target.layout);
     const bool is_part = target.role == TargetRole::kPart;
     table += fmt::format("| {} | {} | {} | {} |\n", markdown_text(target.name),
@@ -59,30 +64,26 @@ std::string drawn_table(const Scenario& scenario) {
       "observation, common to all targets.\n\n| key | units | distribution | drawn per |\n|---|---|---|---|\n";
   for (const Variation& variation : scenario.variations) {
     table += fmt::format("| `{}` | {} | {} | {} |\n", variation.key_path, drawn_text(variation.key_path).units,
-                         markdown_text(variation.text()),
-                         variation.per == DrawnPer::kSea           ? "sea"
-                         : variation.per == DrawnPer::kObservation ? "observation"
-                                                                   : "map");
+                         markdown_text(variation.text()), name(variation.per));
   }
   return table;
 }
 
-// Unique wave heights of the sea states, also of those from a spectrum table.
-std::vector<double> wave_heights(const SamplePlan& plan) {
-  std::vector<double> heights;
-  for (const SeaState& state : plan.sea_states()) {
-    if (heights.empty() || heights.back() != state.significant_wave_height_m) {
-      heights.push_back(state.significant_wave_height_m);
-    }
-  }
-  return heights;
+// A quantity of the sea states: the distribution of its key, or its values, also those that follow from other keys.
+std::string sea_values(const Scenario& scenario, const SamplePlan& plan, const std::string& key,
+                       double SeaState::*member) {
+  std::set<double> values;
+  for (const SeaState& state : plan.sea_states()) values.insert(state.*member);
+  return markdown_text(value_text(scenario, key, join({values.begin(), values.end()})));
 }
 
-std::string clutter_level(const ClutterSpec& clutter) {
+std::string clutter_level(const Scenario& scenario) {
+  const ClutterSpec& clutter = scenario.clutter;
   if (!clutter.enabled) return "There is no clutter.";
   if (clutter.level == ClutterLevel::kNrl)
     return "The clutter has the sea's own level, so its ratio to the target tells the target's size too (`scr_*_db`).";
-  return fmt::format("The clutter is set relative to the target (SCR {:g} dB).", clutter.scr_db);
+  return fmt::format("The clutter is set relative to the target (SCR in dB: {}).",
+                     markdown_text(value_text(scenario, "clutter.scr_db", fmt::format("{:g}", clutter.scr_db))));
 }
 
 // The arrays of a shard with n samples.
@@ -128,11 +129,15 @@ std::size_t samples_per_target(const SamplePlan& plan) { return plan.size() / pl
 
 std::string data_set_summary(const Scenario& scenario, const SamplePlan& plan, const Manifest& manifest) {
   const std::size_t seas = plan.sea_states().size() * static_cast<std::size_t>(scenario.dataset.realisations_per_case);
+  const bool draws_views = std::ranges::any_of(
+      scenario.variations, [](const Variation& variation) { return variation.key_path.starts_with("view."); });
   return fmt::format(
-      "{} range-velocity maps of {} radar targets at sea ({} independent sea realisations, {} views), for the "
+      "{} range-velocity maps of {} radar targets at sea ({} independent sea realisations, {}), for the "
       "classification of targets by their label. Synthetic: simulated by seaglint {} with seed {}; nothing was "
       "measured.",
-      manifest.samples, plan.classes().size(), seas, plan.views().size(), manifest.program_version, manifest.seed);
+      manifest.samples, plan.classes().size(), seas,
+      draws_views ? "a view drawn for each observation" : fmt::format("{} views", plan.views().size()),
+      manifest.program_version, manifest.seed);
 }
 
 std::string data_card(const Scenario& scenario, const SamplePlan& plan, const Manifest& manifest,
@@ -143,13 +148,18 @@ std::string data_card(const Scenario& scenario, const SamplePlan& plan, const Ma
                   markdown_code(scenario.name), markdown_text(data_set_summary(scenario, plan, manifest)));
   text += targets_table(scenario, plan);
   text += fmt::format(
-      "\n* Significant wave heights: {} m. Views: azimuth {} deg, elevation {} deg.\n"
+      "\n* Sea: significant wave height (m) {}; peak period (s) {}; direction of propagation (deg) {}.\n"
+      "* Views: azimuth (deg) {}; elevation (deg) {}.\n"
       "* {} maps per case (sea state and view) and target, from {} independent seas; intervals {:g} s apart.\n"
       "* A map has {} velocity cells ({:.3f} to {:.3f} m/s, positive = receding) and {} range cells ({:.2f} to {:.2f} "
       "m, positive = farther).\n"
       "* Values are |RV| in metres: a point scatterer of amplitude a = sqrt(sigma / 4 pi) peaks at a.\n\n"
       "## Arrays\n\nOf a shard with n samples:\n\n",
-      join(wave_heights(plan)), join(scenario.view.azimuth_deg), join(scenario.view.elevation_deg), set.maps_per_case,
+      sea_values(scenario, plan, "sea.significant_wave_height_m", &SeaState::significant_wave_height_m),
+      sea_values(scenario, plan, "sea.peak_period_s", &SeaState::peak_period_s),
+      sea_values(scenario, plan, "sea.propagation_deg", &SeaState::propagation_deg),
+      markdown_text(value_text(scenario, "view.azimuth_deg", join(scenario.view.azimuth_deg))),
+      markdown_text(value_text(scenario, "view.elevation_deg", join(scenario.view.elevation_deg))), set.maps_per_case,
       set.realisations_per_case, set.interval_spacing_s, axes.velocity_mps.size(), axes.velocity_mps.front(),
       axes.velocity_mps.back(), axes.range_m.size(), axes.range_m.front(), axes.range_m.back());
   text += arrays_table(scenario, axes) + "\n" + kReading + "## Columns of `samples/`\n\n" + columns_table(set.classes) +
@@ -170,7 +180,7 @@ std::string data_card(const Scenario& scenario, const SamplePlan& plan, const Ma
       "processor\n"
       "({}), for any number of threads and parts. Mesh paths in `scenario.yaml` start at the working directory.\n",
       plan.size() / (plan.sea_states().size() * static_cast<std::size_t>(set.realisations_per_case)),
-      clutter_level(scenario.clutter), markdown_code(fmt::format("{}", fmt::join(manifest.processors, "; "))));
+      clutter_level(scenario), markdown_code(fmt::format("{}", fmt::join(manifest.processors, "; "))));
   return text;
 }
 
