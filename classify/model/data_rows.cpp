@@ -8,6 +8,8 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
+#include <tuple>
 #include <utility>
 
 #include "classify/dataset/format/drawn_columns.h"
@@ -66,6 +68,25 @@ std::optional<ColumnOfRows> drawn_column(std::span<const DataRow> rows, const st
   if (has_words) return words;
   if (has_numbers) return numbers;
   return std::nullopt;
+}
+
+double mean_of(const ColumnOfRows& column, const std::vector<std::size_t>& rows) {
+  double sum = 0;
+  for (const std::size_t row : rows) sum += column.numbers[row];
+  return sum / static_cast<double>(rows.size());
+}
+
+// True for a column of numbers with one value in each case.
+bool is_swept(std::span<const DataRow> rows, const ColumnOfRows& column) {
+  if (column.is_text) return false;
+  std::map<std::tuple<std::size_t, std::int64_t, std::int64_t>, double> value_of_case;
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    const SampleRecord& record = rows[row].record;
+    const double value = column.numbers[row];
+    const auto [first, is_new] = value_of_case.try_emplace({rows[row].data_set, record.sea_state, record.view}, value);
+    if (!is_new && std::isless(std::min(first->second, value), std::max(first->second, value))) return false;
+  }
+  return true;
 }
 
 std::string interval_text(double lowest, double highest) {
@@ -133,7 +154,7 @@ std::vector<ColumnBin> bins_of(const ColumnOfRows& column, std::size_t most_valu
   if (column.is_text) {
     std::map<std::string, std::vector<std::size_t>> by_text;
     for (std::size_t row = 0; row < column.texts.size(); ++row) by_text[column.texts[row]].push_back(row);
-    for (auto& [text, rows] : by_text) result.push_back({text, kNan, kNan, std::move(rows)});
+    for (auto& [text, rows] : by_text) result.push_back({text, kNan, kNan, kNan, std::move(rows)});
     return result;
   }
   std::map<double, std::vector<std::size_t>> by_value;
@@ -154,7 +175,7 @@ std::vector<ColumnBin> bins_of(const ColumnOfRows& column, std::size_t most_valu
   for (const auto& [value, rows] : by_value) {
     // Closer to the part without this value than with it: part - before < before + rows - part.
     if (open && 2 * result.size() * defined < (2 * before + rows.size()) * bins) open = false;
-    if (!open) result.push_back({"", value, value, {}});
+    if (!open) result.push_back({"", value, value, value, {}});
     ColumnBin& bin = result.back();
     bin.highest = value;
     bin.rows.insert(bin.rows.end(), rows.begin(), rows.end());
@@ -163,10 +184,29 @@ std::vector<ColumnBin> bins_of(const ColumnOfRows& column, std::size_t most_valu
   }
   for (ColumnBin& bin : result) {
     std::sort(bin.rows.begin(), bin.rows.end());
+    if (bin.lowest < bin.highest) bin.mean = mean_of(column, bin.rows);
     bin.text = interval_text(bin.lowest, bin.highest);
   }
-  if (!undefined.empty()) result.push_back({"undefined", kNan, kNan, std::move(undefined)});
+  if (!undefined.empty()) result.push_back({"undefined", kNan, kNan, kNan, std::move(undefined)});
   return result;
+}
+
+Condition condition_of(std::span<const DataRow> rows, const std::string& name) {
+  const ColumnOfRows column = column_of(rows, name);
+  const std::size_t most_values = is_swept(rows, column) ? kMostSweptBins : kMostBins;
+  return {name, column.unit, bins_of(column, most_values, kMostBins)};
+}
+
+std::vector<Condition> drawn_conditions(std::span<const DataRow> rows) {
+  if (rows.empty()) return {};
+  std::vector<Condition> conditions{condition_of(rows, kWaveHeightColumn)};
+  std::set<std::string> keys;
+  for (const DataRow& row : rows)
+    visit_drawn(row.record, [&](const std::string& key, const auto&) { keys.insert(key); });
+  keys.erase("sea.significant_wave_height_m");
+  std::erase_if(keys, [](const std::string& key) { return key.ends_with("seed"); });  // their order has no meaning
+  for (const std::string& key : keys) conditions.push_back(condition_of(rows, key));
+  return conditions;
 }
 
 }  // namespace seaglint

@@ -47,11 +47,32 @@ struct ColumnBin {
   std::string text;   // "0.5", "2 to 4.5", "ring"; "undefined" for NaN
   double lowest = 0;  // of the bin's numbers; NaN for text and for undefined values
   double highest = 0;
+  double mean = 0;                // of the bin's numbers; the value itself where there is one
   std::vector<std::size_t> rows;  // ascending
 };
 
 // One bin per value, ascending, for text and for at most most_values numbers; else `bins` bins of numbers with equal
 // numbers of rows, as far as rows of equal values stay together. Undefined values have a bin of their own, the last.
 std::vector<ColumnBin> bins_of(const ColumnOfRows& column, std::size_t most_values, std::size_t bins);
+
+inline constexpr std::size_t kMostBins = 8;         // of a drawn or measured quantity
+inline constexpr std::size_t kMostSweptBins = 100;  // of a swept quantity
+
+// A quantity by which tables, curves and scores are divided: a column with its bins.
+struct Condition {
+  std::string name;
+  std::string unit;  // as that of the column
+  std::vector<ColumnBin> bins;
+};
+
+// A column of these rows. A swept quantity is constant in each case (data set, sea state and view): one bin per value,
+// up to kMostSweptBins of them. Any other quantity: as bins_of() with at most kMostBins values or bins. Errors as
+// column_of().
+Condition condition_of(std::span<const DataRow> rows, const std::string& name);
+
+// The significant wave height, then every key that the scenarios draw, but that of the wave height and seeds.
+std::vector<Condition> drawn_conditions(std::span<const DataRow> rows);
+
+inline constexpr const char* kWaveHeightColumn = "significant_wave_height_m";
 
 }  // namespace seaglint

@@ -183,8 +183,7 @@ LearningTable load_learning_table(const DatasetReader& data, const StopFlag* sto
       table.groups.push_back({record.group, record.sea_state});
       table.samples.push_back(record.sample);
       table.labels.push_back(static_cast<int>(record.label));
-      table.wave_heights_m.push_back(record.significant_wave_height_m);
-      table.azimuths_deg.push_back(record.azimuth_deg);
+      table.maps.push_back({0, record});
       for (const double feature : {record.mwr, record.ccf, record.sigma_r_m, record.sigma_v_mps})
         table.handmade.values.push_back(static_cast<float>(feature));
       table.degenerate += record.degenerate != 0 ? 1 : 0;
@@ -239,8 +238,9 @@ void append(LearningTable& table, LearningTable&& more) {
   move_to(table.groups, more.groups);
   move_to(table.samples, more.samples);
   move_to(table.labels, more.labels);
-  move_to(table.wave_heights_m, more.wave_heights_m);
-  move_to(table.azimuths_deg, more.azimuths_deg);
+  const std::size_t data_set = table.maps.empty() ? 0 : table.maps.back().data_set + 1;
+  for (DataRow& map : more.maps) map.data_set += data_set;
+  move_to(table.maps, more.maps);
   move_to(table.handmade.values, more.handmade.values);
   move_to(table.extended.values, more.extended.values);
   move_to(table.centres, more.centres);

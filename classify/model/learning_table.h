@@ -12,6 +12,7 @@
 #include "classify/cnn/network_input.h"
 #include "classify/dataset/directory/dataset_reader.h"
 #include "classify/model/booster.h"
+#include "classify/model/data_rows.h"
 #include "classify/model/division.h"
 #include "sim/core/process/parallel.h"
 
@@ -41,8 +42,7 @@ struct LearningTable {
   std::vector<RowGroup> groups;
   std::vector<std::int64_t> samples;
   std::vector<int> labels;
-  std::vector<double> wave_heights_m;
-  std::vector<double> azimuths_deg;
+  std::vector<DataRow> maps;        // the columns of each
   FeatureMatrix handmade;           // mwr, ccf, sigma_r, sigma_v
   FeatureMatrix extended;           // the same and motion_features()
   std::vector<CentreList> centres;  // of every map, input of the network
@@ -60,8 +60,8 @@ CentreList centres_of(const Sample& sample);
 // motion_features() of every map.
 FeatureMatrix motion_matrix(std::span<const CentreList> centres);
 
-// Appends the rows of another data set. Throws InputError when the carriers of both differ (in the probe of the hop
-// code).
+// Appends the rows of another data set, which get its number. Throws InputError when the carriers of both differ (in
+// the probe of the hop code).
 void append(LearningTable& table, LearningTable&& more);
 
 // Throws InputError, naming `data`, when a class has no map, or every hand-made feature has one value in all maps.

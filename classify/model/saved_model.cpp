@@ -69,8 +69,8 @@ SavedModel SavedModel::load(const fs::path& directory, const std::string& progra
   return {std::move(card), spec, std::move(network), std::move(trees)};
 }
 
-ModelCard describe_model(const Study& study, const LearningTable& table, std::span<const DataRow> rows,
-                         const Scenario& scenario, const StoredAxes& axes, const std::string& program_version) {
+ModelCard describe_model(const Study& study, const LearningTable& table, const Scenario& scenario,
+                         const StoredAxes& axes, const std::string& program_version) {
   ModelCard card;
   card.program_version = program_version;
   card.seed = scenario.seed;
@@ -84,7 +84,7 @@ ModelCard describe_model(const Study& study, const LearningTable& table, std::sp
   card.train_rows = train.size();
   const auto add_ranges = [&](const std::vector<std::string>& names, std::vector<ValueRange>& ranges) {
     for (const std::string& name : names)
-      ranges.push_back(range_of(column_of(rows, name), train, table.labels, card.classes.size()));
+      ranges.push_back(range_of(column_of(table.maps, name), train, table.labels, card.classes.size()));
   };
   add_ranges(card.features, card.feature_ranges);
   add_ranges(condition_names(card.features), card.condition_ranges);

@@ -35,10 +35,10 @@ struct SavedModel {
   static SavedModel load(const std::filesystem::path& directory, const std::string& program_version);
 };
 
-// Description of a study's model: ranges over the training rows of the group protocol, first repeat. `rows`: those of
-// the table. Checksums are left empty.
-ModelCard describe_model(const Study& study, const LearningTable& table, std::span<const DataRow> rows,
-                         const Scenario& scenario, const StoredAxes& axes, const std::string& program_version);
+// Description of a study's model: ranges over the training rows of the group protocol, first repeat.
+// Checksums are left empty.
+ModelCard describe_model(const Study& study, const LearningTable& table, const Scenario& scenario,
+                         const StoredAxes& axes, const std::string& program_version);
 
 // Writes model.json with the checksums of the model's other files, which must be written before.
 void save_model_card(ModelCard card, const std::filesystem::path& directory);

@@ -6,9 +6,9 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <unordered_map>
 #include <utility>
 
-#include "classify/model/data_rows.h"
 #include "sim/core/numbers/quantile.h"
 #include "sim/core/numbers/random.h"
 
@@ -116,9 +116,8 @@ double Prediction::of(int which) const {
   return by_class[static_cast<std::size_t>(which)];
 }
 
-Prediction prediction_of(std::int64_t sample, std::int64_t group, double wave_height_m, int label,
-                         std::span<const double> outputs) {
-  Prediction prediction{sample, group, wave_height_m, label, outputs[outputs.size() == 1 ? 0 : 1]};
+Prediction prediction_of(std::size_t row, std::int64_t group, int label, std::span<const double> outputs) {
+  Prediction prediction{row, group, label, outputs[outputs.size() == 1 ? 0 : 1]};
   if (outputs.size() > 1) prediction.by_class.assign(outputs.begin(), outputs.end());
   return prediction;
 }
@@ -130,7 +129,7 @@ std::vector<std::vector<RocPoint>> roc_curves(std::span<const Prediction> predic
   for (int label = 0; label < static_cast<int>(classes); ++label) {
     std::vector<Prediction> against_rest;
     for (const Prediction& p : predictions)
-      against_rest.push_back({p.sample, p.group, p.wave_height_m, p.label == label ? 1 : 0, p.of(label)});
+      against_rest.push_back({p.row, p.group, p.label == label ? 1 : 0, p.of(label)});
     curves.push_back(roc_curve(against_rest));
   }
   return curves;
@@ -214,21 +213,19 @@ Calibration calibration(std::span<const Prediction> predictions) {
   return result;
 }
 
-std::vector<WaveHeightScores> score_by_wave_height(std::span<const Prediction> predictions, int bootstrap_samples,
-                                                   std::uint64_t seed, std::uint64_t bootstrap_index) {
-  ColumnOfRows heights{"significant_wave_height_m", "m", false, {}, {}};
-  for (const Prediction& p : predictions) heights.numbers.push_back(p.wave_height_m);
-  std::vector<WaveHeightScores> result;
-  for (const ColumnBin& bin : bins_of(heights, kMostWaveHeights, kWaveHeightBins)) {
-    std::vector<Prediction> rows;
-    double sum = 0;
-    for (const std::size_t row : bin.rows) {
-      rows.push_back(predictions[row]);
-      sum += predictions[row].wave_height_m;
-    }
-    const double mean = std::round(100 * sum / static_cast<double>(rows.size())) / 100;
-    result.push_back({bin.lowest == bin.highest ? bin.lowest : mean,
-                      score(rows, bootstrap_samples, seed, bootstrap_index + 1 + result.size())});
+ConditionScores score_by(const Condition& condition, std::span<const Prediction> predictions, int bootstrap_samples,
+                         std::uint64_t seed, std::uint64_t bootstrap_index) {
+  std::unordered_map<std::size_t, std::size_t> bin_of;  // by row
+  for (std::size_t i = 0; i < condition.bins.size(); ++i)
+    for (const std::size_t row : condition.bins[i].rows) bin_of[row] = i;
+  std::vector<std::vector<Prediction>> of_bin(condition.bins.size());
+  for (const Prediction& prediction : predictions) of_bin[bin_of.at(prediction.row)].push_back(prediction);
+  ConditionScores result{condition.name, condition.unit, {}};
+  for (std::size_t i = 0; i < of_bin.size(); ++i) {
+    if (of_bin[i].empty()) continue;
+    const ColumnBin& bin = condition.bins[i];
+    result.bins.push_back({bin.text, bin.lowest, bin.highest, bin.mean,
+                           score(of_bin[i], bootstrap_samples, seed, bootstrap_index + result.bins.size())});
   }
   return result;
 }

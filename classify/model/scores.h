@@ -6,7 +6,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
+
+#include "classify/model/data_rows.h"
 
 namespace seaglint {
 
@@ -17,9 +20,8 @@ int decision_of(std::span<const double> outputs);
 
 // One prediction of one test row.
 struct Prediction {
-  std::int64_t sample = 0;
+  std::size_t row = 0;  // of the data, from 0
   std::int64_t group = 0;
-  double wave_height_m = 0;
   int label = 0;                      // the truth
   double probability = 0;             // of label 1
   std::vector<double> by_class = {};  // of every label where there are more than two; else empty
@@ -29,8 +31,7 @@ struct Prediction {
   double of(int which) const;  // probability of a label
 };
 // With the outputs of a classifier, of outputs_of() numbers.
-Prediction prediction_of(std::int64_t sample, std::int64_t group, double wave_height_m, int label,
-                         std::span<const double> outputs);
+Prediction prediction_of(std::size_t row, std::int64_t group, int label, std::span<const double> outputs);
 
 struct ConfidenceInterval {
   double low = 0;
@@ -81,19 +82,25 @@ struct Calibration {
 };
 Calibration calibration(std::span<const Prediction> predictions);
 
-struct WaveHeightScores {
-  double wave_height_m = 0;
+// Scores of the predictions in one bin of a condition.
+struct BinnedScores {
+  std::string text;  // as in ColumnBin, with the values of all rows
+  double lowest = 0, highest = 0, mean = 0;
   Scores scores;
+};
+
+struct ConditionScores {
+  std::string name;
+  std::string unit;
+  std::vector<BinnedScores> bins;  // those with predictions, ascending
 };
 
 // Stream kBootstrap of (seed, bootstrap_index).
 Scores score(std::span<const Prediction> predictions, int bootstrap_samples, std::uint64_t seed,
              std::uint64_t bootstrap_index);
 
-// The same per wave height, ascending. More than kMostWaveHeights different heights, which a scenario draws, are
-// divided into at most kWaveHeightBins bins of about equal numbers of rows, whose wave_height_m is the mean to 0.01 m.
-inline constexpr std::size_t kMostWaveHeights = 10, kWaveHeightBins = 4;
-std::vector<WaveHeightScores> score_by_wave_height(std::span<const Prediction> predictions, int bootstrap_samples,
-                                                   std::uint64_t seed, std::uint64_t bootstrap_index);
+// The same for every bin with predictions; the first has the index bootstrap_index, the next one more.
+ConditionScores score_by(const Condition& condition, std::span<const Prediction> predictions, int bootstrap_samples,
+                         std::uint64_t seed, std::uint64_t bootstrap_index);
 
 }  // namespace seaglint

@@ -66,8 +66,8 @@ std::vector<Prediction> predict_rows(const Model& model, const FeatureMatrix& fe
   std::vector<Prediction> predictions;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const std::size_t row = rows[i];
-    predictions.push_back(prediction_of(table.samples[row], table.groups[row].group, table.wave_heights_m[row],
-                                        table.labels[row], {&probabilities[i * outputs], outputs}));
+    predictions.push_back(
+        prediction_of(row, table.groups[row].group, table.labels[row], {&probabilities[i * outputs], outputs}));
   }
   return predictions;
 }
@@ -188,17 +188,28 @@ void refit(Study& study, const LearningTable& table, const LearningSpec& spec, s
 }
 
 // Bootstrap keys: a block of 1000 per evaluation, in the order primary and alternative of the random, then of the group
-// protocol, of each group of features; then the probes.
+// protocol, of each group of features; then the probes. Within a block: the total, the bins of the wave height, from
+// kFirstDrawn on kMostBins for each drawn key.
 constexpr std::uint64_t kBootstrapBlock = 1000;
+constexpr std::uint64_t kFirstDrawn = kMostSweptBins + 1;
 
 class Evaluator {
  public:
-  Evaluator(const LearningSpec& spec, std::uint64_t seed) : spec_(spec), seed_(seed) {}
+  Evaluator(const LearningSpec& spec, std::uint64_t seed, std::vector<Condition> conditions)
+      : spec_(spec), seed_(seed), conditions_(std::move(conditions)) {}
 
-  Evaluation operator()(const std::vector<Prediction>& predictions, std::size_t train_rows) {
+  Evaluation operator()(const std::vector<Prediction>& predictions, std::size_t train_rows,
+                        std::vector<ConditionScores>* by_drawn = nullptr) {
     const std::uint64_t index = kBootstrapBlock * next_++;
-    return {score(predictions, spec_.bootstrap_samples, seed_, index),
-            score_by_wave_height(predictions, spec_.bootstrap_samples, seed_, index), train_rows};
+    Evaluation evaluation{score(predictions, spec_.bootstrap_samples, seed_, index), {}, train_rows};
+    if (conditions_.empty()) return evaluation;
+    const auto by = [&](const Condition& condition, std::uint64_t first) {
+      return score_by(condition, predictions, spec_.bootstrap_samples, seed_, index + first);
+    };
+    evaluation.by_wave_height = by(conditions_.front(), 1).bins;
+    for (std::size_t i = 1; by_drawn != nullptr && i < conditions_.size(); ++i)
+      by_drawn->push_back(by(conditions_[i], kFirstDrawn + kMostBins * (i - 1)));
+    return evaluation;
   }
   // An evaluation that is left out keeps its block.
   void skip() { ++next_; }
@@ -206,6 +217,7 @@ class Evaluator {
  private:
   const LearningSpec& spec_;
   std::uint64_t seed_;
+  std::vector<Condition> conditions_;  // the wave height, then the drawn keys; empty without columns of the maps
   std::uint64_t next_ = 0;
 };
 
@@ -239,15 +251,15 @@ std::vector<ProbeResult> run_probes(const LearningTable& table, const LearningSp
   return results;
 }
 
-std::string splits_csv(const LearningTable& table, std::span<const DataRow> rows, const std::vector<Split>& splits) {
+std::string splits_csv(const LearningTable& table, const std::vector<Split>& splits) {
   std::string text = "data_set,sample,group,seed,sea_key,label,random,by_group\n";
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const auto side = [row](const Split& split) {
       if (std::binary_search(split.train.begin(), split.train.end(), row)) return "train";
       return std::binary_search(split.test.begin(), split.test.end(), row) ? "test" : "unused";
     };
-    const SampleRecord& record = rows[row].record;
-    text += fmt::format("{},{},{},{},{},{},{},{}\n", rows[row].data_set, record.sample, table.groups[row].group,
+    const SampleRecord& record = table.maps[row].record;
+    text += fmt::format("{},{},{},{},{},{},{},{}\n", table.maps[row].data_set, record.sample, table.groups[row].group,
                         record.seed, record.sea_key, table.labels[row], side(splits[0]), side(splits[1]));
   }
   return text;
@@ -307,7 +319,7 @@ Study run_study(const LearningTable& table, const LearningSpec& spec, double tra
   };
   const auto evaluated = [&](Evaluator& evaluate, std::size_t first, std::size_t group,
                              std::vector<Prediction>(JobResult::*kind)[kGroups],
-                             std::vector<std::vector<RocPoint>>* roc = nullptr) -> std::optional<Evaluation> {
+                             Outcome* primary = nullptr) -> std::optional<Evaluation> {
     if (!jobs[first].groups[group]) {
       evaluate.skip();
       return {};
@@ -317,13 +329,13 @@ Study run_study(const LearningTable& table, const LearningSpec& spec, double tra
       const auto& more = (done[first + repeat].*kind)[group];
       predictions.insert(predictions.end(), more.begin(), more.end());
     }
-    if (roc != nullptr) *roc = roc_curves(predictions);
-    return evaluate(predictions, done[first].train_rows[group]);
+    if (primary != nullptr) primary->roc = roc_curves(predictions);
+    return evaluate(predictions, done[first].train_rows[group], primary ? &primary->by_drawn : nullptr);
   };
 
   Study study;
   study.classes = table.classes;
-  Evaluator evaluate(spec, seed);
+  Evaluator evaluate(spec, seed, drawn_conditions(table.maps));
   for (std::size_t group = 0; group < kGroups; ++group) {
     FeatureGroupResult result;
     result.name = kGroupNames[group];
@@ -331,7 +343,7 @@ Study run_study(const LearningTable& table, const LearningSpec& spec, double tra
       Outcome outcome;
       outcome.protocol = kProtocols[protocol];
       const std::size_t place = first_job(protocol, group, true);
-      const auto primary = evaluated(evaluate, place, group, &JobResult::predictions, &outcome.roc);
+      const auto primary = evaluated(evaluate, place, group, &JobResult::predictions, &outcome);
       outcome.alternative = evaluated(evaluate, first_job(protocol, group, false), group, &JobResult::predictions);
       if (!primary) continue;
       outcome.primary = *primary;
@@ -373,12 +385,11 @@ std::vector<std::string> model_files() {
   return files;
 }
 
-void save_models(const Study& study, const LearningTable& table, std::span<const DataRow> rows,
-                 const std::filesystem::path& model_directory) {
+void save_models(const Study& study, const LearningTable& table, const std::filesystem::path& model_directory) {
   for (std::size_t group = 0; group < kGroups; ++group)
     study.trees[group].save(model_directory / fmt::format("{}.json", kGroupNames[group]));
   study.network->save(model_directory / kNetworkFile);
-  write_file(model_directory / kSplitsFile, splits_csv(table, rows, study.splits));
+  write_file(model_directory / kSplitsFile, splits_csv(table, study.splits));
 }
 
 }  // namespace seaglint

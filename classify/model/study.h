@@ -19,7 +19,7 @@ namespace seaglint {
 
 struct Evaluation {
   Scores scores;
-  std::vector<WaveHeightScores> by_wave_height;
+  std::vector<BinnedScores> by_wave_height;
   std::size_t train_rows = 0;  // training rows of the trees, first repeat
 };
 
@@ -32,6 +32,7 @@ struct Outcome {
   std::optional<Evaluation> alternative;   // absent in StudyScope::kPrimary
   Evaluation linear;                       // logistic regression in place of the trees of the primary
   std::vector<std::vector<RocPoint>> roc;  // of the primary: roc_curves()
+  std::vector<ConditionScores> by_drawn;   // of the primary, by each drawn key
 };
 
 struct FeatureGroupResult {
@@ -89,10 +90,9 @@ Study run_study(const LearningTable& table, const LearningSpec& spec, double tra
 // Names of the files that save_models() and save_model_card() write.
 std::vector<std::string> model_files();
 
-// Writes network.bin, handmade.json, cnn.json, fused.json, extended.json and splits.csv of the table's study; `rows`:
-// those of the table. In splits.csv, `random` and `by_group` are train, test or unused. Throws WorkError when a file
+// Writes network.bin, handmade.json, cnn.json, fused.json, extended.json and splits.csv of the table's study. In
+// splits.csv, `random` and `by_group` are train, test or unused. Throws WorkError when a file
 // cannot be written.
-void save_models(const Study& study, const LearningTable& table, std::span<const DataRow> rows,
-                 const std::filesystem::path& model_directory);
+void save_models(const Study& study, const LearningTable& table, const std::filesystem::path& model_directory);
 
 }  // namespace seaglint

@@ -20,11 +20,24 @@ ordered_json to_object(const Evaluation& evaluation, const std::vector<std::stri
   ordered_json json = to_object(evaluation.scores, classes);
   json["train_rows"] = evaluation.train_rows;
   json["by_wave_height"] = ordered_json::array();
-  for (const WaveHeightScores& entry : evaluation.by_wave_height) {
-    ordered_json row;
-    row["significant_wave_height_m"] = entry.wave_height_m;
+  for (const BinnedScores& entry : evaluation.by_wave_height) {
+    ordered_json row{
+        {kWaveHeightColumn, entry.mean}, {"bin", entry.text}, {"lowest", entry.lowest}, {"highest", entry.highest}};
     row.update(to_object(entry.scores, classes));
     json["by_wave_height"].push_back(row);
+  }
+  return json;
+}
+
+ordered_json to_object(const ConditionScores& condition, const std::vector<std::string>& classes) {
+  ordered_json json{{"column", condition.name}, {"units", condition.unit}, {"bins", ordered_json::array()}};
+  for (const BinnedScores& entry : condition.bins) {
+    ordered_json row{{"bin", entry.text},
+                     {"mean", number_or_null(entry.mean)},
+                     {"lowest", number_or_null(entry.lowest)},
+                     {"highest", number_or_null(entry.highest)}};
+    row.update(to_object(entry.scores, classes));
+    json["bins"].push_back(row);
   }
   return json;
 }
@@ -101,6 +114,8 @@ ordered_json to_json(const Study& study, const LearningSpec& spec) {
       entry[name(outcome.protocol)] = to_object(outcome.primary, study.classes);
       entry[name(outcome.protocol)]["roc"] = to_object(outcome.roc, study.classes);
       entry[name(outcome.protocol)]["logistic_regression"] = to_object(outcome.linear, study.classes);
+      for (const ConditionScores& condition : outcome.by_drawn)
+        entry[name(outcome.protocol)]["by_drawn"].push_back(to_object(condition, study.classes));
       if (outcome.alternative) others[name(outcome.protocol)] = to_object(*outcome.alternative, study.classes);
     }
     if (!others.empty()) entry[network ? fusion_name(other) : "fewer_rows"] = others;
@@ -129,10 +144,10 @@ std::string accuracy_table(const Study& study) {
     text += study.groups.front().outcomes[protocol].protocol == Protocol::kRandom
                 ? "random split of the maps (the paper's protocol)\n"
                 : study.division + "\n";
-    text += fmt::format("  {:<10}{:>18}{:>18}{:>18}{:>18}\n", "Hs [m]", "hand-made", "CNN", "fused", "extended");
+    text += fmt::format("  {:<16}{:>18}{:>18}{:>18}{:>18}\n", "Hs [m]", "hand-made", "CNN", "fused", "extended");
     const auto& heights = study.groups.front().outcomes[protocol].primary.by_wave_height;
     for (std::size_t i = 0; i <= heights.size(); ++i) {
-      text += fmt::format("  {:<10}", i < heights.size() ? fmt::format("{:g}", heights[i].wave_height_m) : "all");
+      text += fmt::format("  {:<16}", i < heights.size() ? heights[i].text : "all");
       for (const FeatureGroupResult& group : study.groups) {
         const Evaluation& evaluation = group.outcomes[protocol].primary;
         text += fmt::format("{:>18}",

@@ -46,8 +46,7 @@ ordered_json to_object(const Evaluation& evaluation) {
         {"interval", {number_or_null(scores.accuracy_95.low), number_or_null(scores.accuracy_95.high)}}};
   };
   ordered_json json = figures(evaluation.scores);
-  for (const WaveHeightScores& entry : evaluation.by_wave_height)
-    json["by"][fmt::format("{:g}", entry.wave_height_m)] = figures(entry.scores);
+  for (const BinnedScores& entry : evaluation.by_wave_height) json["by"][entry.text] = figures(entry.scores);
   return json;
 }
 
@@ -56,14 +55,13 @@ std::string rounded(const Scores& scores) { return fmt::format("{:.1f}", 100 * s
 // "80.0 / 99.0 / 99.2", by wave height.
 std::string by_height(const Evaluation& evaluation) {
   std::vector<std::string> values;
-  for (const WaveHeightScores& entry : evaluation.by_wave_height) values.push_back(rounded(entry.scores));
+  for (const BinnedScores& entry : evaluation.by_wave_height) values.push_back(rounded(entry.scores));
   return fmt::format("{}", fmt::join(values, " / "));
 }
 
 std::string heights(const Evaluation& evaluation) {
   std::vector<std::string> values;
-  for (const WaveHeightScores& entry : evaluation.by_wave_height)
-    values.push_back(fmt::format("{:g}", entry.wave_height_m));
+  for (const BinnedScores& entry : evaluation.by_wave_height) values.push_back(entry.text);
   return fmt::format("{}", fmt::join(values, " / "));
 }
 

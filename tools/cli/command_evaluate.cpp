@@ -32,9 +32,10 @@ void add_evaluate(CommandOptions& program, CommandContext& context) {
       .required()
       .repeatable("DATA");
   command
-      .add_option("--by", arguments->by,
-                  "Score by this column of the samples, too; continuous ones in five bins of equal numbers of maps "
-                  "(repeatable)")
+      .add_option(
+          "--by", arguments->by,
+          "Score by this column of the samples, too; drawn and measured ones in eight bins of equal numbers of maps "
+          "(repeatable)")
       .repeatable("COLUMN");
   command.add_flag("--trained-rows", arguments->trained_rows,
                    "Evaluate also the maps that the model was fitted to: no measure of its accuracy on others");

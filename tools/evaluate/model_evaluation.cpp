@@ -16,11 +16,6 @@ namespace seaglint {
 
 namespace {
 
-// Columns with at most this many values, and at least two maps of each on average, are scored value by value, others in
-// bins of equal numbers of maps.
-constexpr std::size_t kMostValues = 8;
-constexpr std::size_t kBins = 5;
-
 // Random indices of the intervals by column: above those of the totals, a block for each column.
 constexpr std::uint64_t kFirstColumnIndex = 1000000;
 constexpr std::uint64_t kColumnBlock = 1000000;
@@ -38,8 +33,8 @@ std::vector<Prediction> predictions_of(const ModelEvaluation& evaluation, std::s
   predictions.reserve(rows.size());
   for (const std::size_t row : rows) {
     const SampleRecord& record = evaluation.applied.rows[row].record;
-    predictions.push_back(prediction_of(record.sample, evaluation.seas[row], record.significant_wave_height_m,
-                                        static_cast<int>(record.label), evaluation.applied.outputs(model, row)));
+    predictions.push_back(prediction_of(row, evaluation.seas[row], static_cast<int>(record.label),
+                                        evaluation.applied.outputs(model, row)));
   }
   return predictions;
 }
@@ -83,7 +78,7 @@ ColumnScores column_scores(const ModelEvaluation& evaluation, const SavedModel& 
 std::vector<ColumnBin> two_bins(const ModelEvaluation& evaluation, const std::string& with, const std::string& without,
                                 const std::function<bool(std::size_t row)>& has) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-  std::vector<ColumnBin> bins{{without, kNan, kNan, {}}, {with, kNan, kNan, {}}};
+  std::vector<ColumnBin> bins{{without, kNan, kNan, kNan, {}}, {with, kNan, kNan, kNan, {}}};
   for (std::size_t i = 0; i < evaluation.evaluated.size(); ++i)
     bins[has(evaluation.evaluated[i]) ? 1 : 0].rows.push_back(i);
   if (bins[0].rows.empty() || bins[1].rows.empty()) bins.clear();
@@ -97,20 +92,19 @@ void score_columns(ModelEvaluation& evaluation, const SavedModel& model, const s
                        std::size_t least) {
     if (bins.size() >= least) evaluation.by.push_back(column_scores(evaluation, model, name, unit, bins));
   };
-  const std::size_t most_values = std::min(kMostValues, std::max<std::size_t>(rows.size() / 2, 1));
   for (const std::string& name : usual_columns()) {
-    const ColumnOfRows column = column_of(rows, name);
-    add(name, column.unit, bins_of(column, most_values, kBins), 2);
+    const Condition condition = condition_of(rows, name);
+    add(name, condition.unit, condition.bins, 2);
   }
   const auto is_outside = [&](std::size_t row) { return !evaluation.outside[row].empty(); };
   add(kTrainingRange, "", two_bins(evaluation, "outside", "inside", is_outside), 2);
   const auto is_seen = [&](std::size_t row) { return evaluation.uses[row] != TrainingUse::kNone; };
   add(kSeaOfTraining, "", two_bins(evaluation, "seen", "unseen", is_seen), 2);
   for (const std::string& name : more) {
-    const ColumnOfRows column = column_of(rows, name);
+    const Condition condition = condition_of(rows, name);
     const bool is_scored = std::any_of(evaluation.by.begin(), evaluation.by.end(),
                                        [&](const ColumnScores& scores) { return scores.column == name; });
-    if (!is_scored) add(name, column.unit, bins_of(column, most_values, kBins), 1);
+    if (!is_scored) add(name, condition.unit, condition.bins, 1);
   }
 }
 

@@ -32,8 +32,9 @@ std::string embeddings_csv(const LearningTable& table, const FeatureMatrix& embe
   }
   text += "\n";
   for (std::size_t row = 0; row < table.rows(); ++row) {
+    const SampleRecord& record = table.maps[row].record;
     text += fmt::format("{},{},{},{:g},{:g}", table.samples[row], table.groups[row].group, table.labels[row],
-                        table.wave_heights_m[row], table.azimuths_deg[row]);
+                        record.significant_wave_height_m, record.azimuth_deg);
     for (const FeatureMatrix* matrix : {&table.handmade, &embeddings}) {
       for (const float value : matrix->row(row)) text += fmt::format(",{}", value);
     }
@@ -55,7 +56,6 @@ nlohmann::ordered_json section_of(const Scenario& scenario, const std::string& s
 // Data sets as they are read for learning.
 struct LearningData {
   LearningTable table;
-  std::vector<DataRow> rows;  // of the table
   StoredAxes axes;
   std::vector<Manifest> manifests;
 };
@@ -107,7 +107,6 @@ void read_data(LearningData& data, const DatasetReader& reader, const Scenario& 
                const std::function<void(const Shard&)>& use) {
   const std::size_t number = data.manifests.size();
   const auto keep = [&](const Shard& shard) {
-    append_rows(data.rows, number, shard);
     if (number == 0) {
       data.axes = shard.axes;
     } else if (const std::string other = grid_difference(grid_of(shard.axes), grid_of(data.axes)); !other.empty()) {
@@ -144,7 +143,7 @@ std::vector<RowGroup> common_seas(std::span<const DataRow> rows, std::span<const
 void divide_rows(LearningData& data, const Scenario& scenario) {
   const DivisionRequest request = division_request(scenario.learning.split);
   LearningTable& table = data.table;
-  if (!request.is_default()) table.other_division = make_division(data.rows, table.groups, table.labels, request);
+  if (!request.is_default()) table.other_division = make_division(table.maps, table.groups, table.labels, request);
   if (!request.is_default() || data.manifests.size() > 1) require_classes(table.division(), table.labels, scenario);
 }
 
@@ -155,7 +154,7 @@ TrainedModel train_on(const LearningData& data, const Scenario& scenario, const 
   model.study = run_study(data.table, scenario.learning, scenario.dataset.train_fraction, scenario.seed,
                           thread_count(threads), stop, scope);
   model.metrics = metrics_json(model.study, data, scenario);
-  ModelCard card = describe_model(model.study, data.table, data.rows, scenario, data.axes, kVersion);
+  ModelCard card = describe_model(model.study, data.table, scenario, data.axes, kVersion);
   for (const Manifest& manifest : data.manifests)
     card.data_sets.push_back({manifest.scenario, manifest.scenario_sha256, manifest.seed, manifest.samples});
 
@@ -164,7 +163,7 @@ TrainedModel train_on(const LearningData& data, const Scenario& scenario, const 
   std::error_code error;
   fs::remove(mark, error);
   if (error) throw WorkError(fmt::format("{}: cannot remove: {}", mark.string(), error.message()));
-  save_models(model.study, data.table, data.rows, model_directory);
+  save_models(model.study, data.table, model_directory);
   save_model_card(std::move(card), model_directory);
   write_file(model_directory / kEmbeddingsFile, embeddings_csv(data.table, model.study.embeddings));
   write_file(mark, model.metrics.dump(2) + "\n");
@@ -242,7 +241,7 @@ TrainedModel train_model(const std::vector<fs::path>& data_sets, const fs::path&
   }
   LearningTable& table = learning.table;
   require_learnable(table, joined(data_sets));
-  if (data_sets.size() > 1) table.groups = common_seas(learning.rows, table.groups);
+  if (data_sets.size() > 1) table.groups = common_seas(table.maps, table.groups);
   divide_rows(learning, scenario);
   return train_on(learning, scenario, model_directory, threads, stop);
 }

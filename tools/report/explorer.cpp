@@ -40,11 +40,11 @@ bool is_feature(std::string_view name) {
   return std::ranges::find(kFeatures, name) != std::end(kFeatures);
 }
 
-// Integers, and the values by which states are chosen, have the digits of single precision.
+// Integers, and the values of the maps' titles, have the digits of single precision.
 int digits_of(const SampleColumn& column) {
-  constexpr std::string_view kChosen[] = {"significant_wave_height_m", "azimuth_deg", "elevation_deg"};
+  constexpr std::string_view kOfTitles[] = {"significant_wave_height_m", "azimuth_deg", "elevation_deg"};
   const bool integer = std::holds_alternative<std::int64_t SampleRecord::*>(column.member);
-  return integer || std::ranges::find(kChosen, column.name) != std::end(kChosen) ? 24 : kColumnDigits;
+  return integer || std::ranges::find(kOfTitles, column.name) != std::end(kOfTitles) ? 24 : kColumnDigits;
 }
 
 ordered_json column_json(const std::string& name, const std::string& unit, const std::vector<double>& values,
@@ -79,6 +79,24 @@ ordered_json columns_of(std::span<const SampleRecord> records) {
   return list;
 }
 
+// Number of the bin of each row; of a row without one that of the first.
+std::vector<std::size_t> bin_of_row(std::span<const ColumnBin> bins, std::size_t rows) {
+  std::vector<std::size_t> numbers(rows, 0);
+  for (std::size_t bin = 0; bin < bins.size(); ++bin)
+    for (const std::size_t row : bins[bin].rows) numbers[row] = bin;
+  return numbers;
+}
+
+// The bins of a quantity by which maps are chosen: their texts, the bin of every row, the one shown first.
+ordered_json choices(std::span<const ColumnBin> bins, std::size_t rows, std::size_t first) {
+  ordered_json json{{"texts", ordered_json::array()}, {"first", first}};
+  for (const ColumnBin& bin : bins) json["texts"].push_back(bin.text);
+  std::vector<std::uint8_t> numbers;
+  for (const std::size_t bin : bin_of_row(bins, rows)) numbers.push_back(static_cast<std::uint8_t>(bin));
+  json["bins"] = packed(numbers);
+  return json;
+}
+
 }  // namespace
 
 ReducedAxis reduced_axis(std::span<const double> cells, std::size_t at_most) {
@@ -107,20 +125,24 @@ ExplorerMap explorer_map(const Sample& sample, const StoredAxes& axes) {
   return map;
 }
 
-std::vector<std::size_t> explorer_order(std::span<const SampleRecord> records) {
-  using State = std::tuple<std::int64_t, std::int64_t, std::int64_t>;
+std::vector<std::size_t> explorer_order(std::span<const SampleRecord> records, std::span<const ColumnBin> heights,
+                                        std::span<const ColumnBin> azimuths) {
+  using State = std::tuple<std::int64_t, std::int64_t, std::int64_t, std::size_t, std::size_t>;
+  const std::vector<std::size_t> of_height = bin_of_row(heights, records.size()),
+                                 of_azimuth = bin_of_row(azimuths, records.size());
   std::map<State, int> seen;
   std::vector<std::pair<int, std::size_t>> order;
   for (std::size_t i = 0; i < records.size(); ++i)
-    order.emplace_back(seen[{records[i].target, records[i].view, records[i].sea_state}]++, i);
+    order.emplace_back(seen[{records[i].target, records[i].view, records[i].sea_state, of_height[i], of_azimuth[i]}]++,
+                       i);
   std::ranges::sort(order);
   std::vector<std::size_t> rows;
   for (const auto& [turn, row] : order) rows.push_back(row);
   return rows;
 }
 
-std::string explorer_json(std::span<const SampleRecord> records, const std::vector<ExplorerMap>& maps,
-                          const StoredAxes& axes, double azimuth_deg, double wave_height_m) {
+std::string explorer_json(const ExplorerData& data) {
+  const auto& [records, maps, axes, heights, azimuths, height, azimuth] = data;
   ordered_json json;
   std::map<std::int64_t, std::string> names;
   for (const SampleRecord& record : records) names[record.target] = record.target_name;
@@ -131,14 +153,14 @@ std::string explorer_json(std::span<const SampleRecord> records, const std::vect
     json[name] = {{"first", axis.first}, {"step", axis.step}, {"count", axis.count}, {"cells", axis.cells}};
   json["floor_db"] = kMapFloorDb;
   json["step_db"] = 1;
-  json["azimuth_deg"] = azimuth_deg;
-  json["wave_height_m"] = wave_height_m;
+  json["heights"] = choices(heights, records.size(), height);
+  json["azimuths"] = choices(azimuths, records.size(), azimuth);
   json["columns"] = columns_of(records);
   json["maps"] = ordered_json::array();
   std::unordered_map<std::int64_t, const ExplorerMap*> of_sample;
   for (const ExplorerMap& map : maps) of_sample[map.sample] = &map;
   std::size_t bytes = 0;
-  for (const std::size_t row : explorer_order(records)) {
+  for (const std::size_t row : explorer_order(records, heights, azimuths)) {
     const auto found = of_sample.find(records[row].sample);
     if (found == of_sample.end()) continue;
     ordered_json centres = ordered_json::array();

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "classify/dataset/format/sample.h"
+#include "classify/model/data_rows.h"
 
 namespace seaglint {
 
@@ -35,12 +36,22 @@ ReducedAxis reduced_axis(std::span<const double> cells, std::size_t at_most);
 // The largest value of each group of cells, in dB relative to the strongest, rounded to 1 dB.
 ExplorerMap explorer_map(const Sample& sample, const StoredAxes& axes);
 
-// Samples in the order in which maps are kept: the first map of every target, aspect and sea state, then the second.
-std::vector<std::size_t> explorer_order(std::span<const SampleRecord> records);
+// Samples in the order in which maps are kept: the first map of every target, view and sea state in every bin of wave
+// height and azimuth, then the second.
+std::vector<std::size_t> explorer_order(std::span<const SampleRecord> records, std::span<const ColumnBin> heights,
+                                        std::span<const ColumnBin> azimuths);
 
-// JSON of report.js. `maps` are any of the records'; those beyond kExplorerBytes in explorer_order are left out.
-// `azimuth_deg`, `wave_height_m`: shown first.
-std::string explorer_json(std::span<const SampleRecord> records, const std::vector<ExplorerMap>& maps,
-                          const StoredAxes& axes, double azimuth_deg, double wave_height_m);
+// What the page shows: all samples, some of their maps, and the states that a user chooses from.
+struct ExplorerData {
+  std::span<const SampleRecord> records;
+  std::span<const ExplorerMap>
+      maps;  // of any of the records; those beyond kExplorerBytes in explorer_order are left out
+  const StoredAxes& axes;
+  std::span<const ColumnBin> heights, azimuths;  // bins of the records by wave height and azimuth
+  std::size_t height = 0, azimuth = 0;           // those shown first
+};
+
+// JSON of report.js.
+std::string explorer_json(const ExplorerData& data);
 
 }  // namespace seaglint

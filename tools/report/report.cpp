@@ -128,8 +128,11 @@ std::string explorer(const ReportData& data) {
   std::vector<SampleRecord> records;
   for (const ReportRow& row : data.rows) records.push_back(row.record);
   const double azimuth_deg = data.shown.empty() ? 0 : data.shown.front().sample.record.azimuth_deg;
+  std::size_t azimuth = 0;
+  while (data.azimuths.bins[azimuth].highest < azimuth_deg) ++azimuth;
   return fmt::format("<div id=\"explorer\"><script type=\"application/json\">{}</script></div>\n",
-                     explorer_json(records, data.maps, data.axes, azimuth_deg, data.shown_wave_height_m));
+                     explorer_json({records, data.maps, data.axes, data.heights.bins, data.azimuths.bins,
+                                    data.shown_height, azimuth}));
 }
 
 // The benchmarks in folders of the run's directory, by name.

@@ -13,9 +13,13 @@
   const mapOf = new Map(set.maps.map((map) => [map.row, map]));
   const unique = (values) => [...new Set(values)].sort((a, b) => a - b);
   const short = (value) => String(Number(value.toPrecision(4)));
+  // A quantity in bins: numbers and texts of these, and the bin of every row.
+  async function choice({ texts, bins, first }) {
+    return { numbers: texts.map((_, i) => i), texts, first, of: new Uint8Array(await seaglint.inflate(bins)) };
+  }
   const label = (target) => columns.label[columns.target.indexOf(target)];
   const targets = unique(columns.target).sort((a, b) => label(a) - label(b) || a - b),  // colours as in the other plots
-     heights = unique(columns.significant_wave_height_m), azimuths = unique(columns.azimuth_deg);
+     heights = await choice(set.heights), azimuths = await choice(set.azimuths);
 
   const { element } = seaglint;
   function boxes(title, values, text) {
@@ -61,20 +65,20 @@
   // Maps of all chosen targets at one aspect and wave height.
   const view = element("div", { className: "interactive" });
   explorer.prepend(view);
-  const ofTargets = boxes("Targets", targets, (t) => set.targets[t]), ofHeight = select("Hs (m)", heights, short);
+  const ofTargets = boxes("Targets", targets, (t) => set.targets[t]), ofHeight = select("Hs (m)", heights.numbers, (i) => heights.texts[i]);
   ofHeight.input.id = "height";
-  const slider = element("input", { type: "range", min: 0, max: azimuths.length - 1, step: 1, value: 0, id: "aspect" });
+  const slider = element("input", { type: "range", min: 0, max: azimuths.texts.length - 1, step: 1, value: azimuths.first, id: "aspect" });
   const output = element("output", { htmlFor: "aspect" });
   const maps = element("div", { className: "maps" });
   view.append(element("div", { className: "controls" }, ofTargets.set, ofHeight.set, element("label", {}, "Azimuth ", slider, " ", output)), maps,
     element("p", { textContent: `Maps of this page: whole decibels; each cell has the strongest of ${set.velocity.cells} by ${set.range.cells} cells (velocity, range) of the data set.`, style: "font-size:13.5px" }));
   async function showMaps() {
-    const azimuth = azimuths[slider.value], height = Number(ofHeight.input.value);
-    output.textContent = short(azimuth) + " deg";
+    const azimuth = Number(slider.value), height = Number(ofHeight.input.value);
+    output.textContent = azimuths.texts[azimuth] + " deg";
     slider.setAttribute("aria-valuetext", output.textContent);
     const shown = ofTargets.chosen(), wanted = [];
     for (const target of shown) {
-      const of = (row) => columns.target[row] === target && columns.azimuth_deg[row] === azimuth && columns.significant_wave_height_m[row] === height;
+      const of = (row) => columns.target[row] === target && azimuths.of[row] === azimuth && heights.of[row] === height;
       const row = set.maps.map((map) => map.row).find(of) ?? columns.target.findIndex((_, row) => of(row));
       wanted.push(row);
     }
@@ -88,16 +92,15 @@
     }
   }
   for (const input of [slider, ofHeight.input, ofTargets.set]) input.addEventListener("input", showMaps);
-  const near = (values, value) => values.reduce((best, x, i) => (Math.abs(x - value) < Math.abs(values[best] - value) ? i : best), 0);
-  slider.value = near(azimuths, set.azimuth_deg);
-  ofHeight.input.value = heights[near(heights, set.wave_height_m)];
+  slider.value = azimuths.first;
+  ofHeight.input.value = heights.first;
   seaglint.whenSeen(explorer, () => seaglint.takePlace(explorer, showMaps));
 
   // Scatter of two columns; a click or the numbered field opens the map of a sample.
   const scatter = document.getElementById("scatter"), plain = element("div", { className: "interactive" });
   scatter.prepend(plain);
   const names = set.columns.filter((column) => column.varies).map((column) => column.name);
-  const ofX = select("x", names, String), ofY = select("y", names, String), byTarget = boxes("Targets", targets, (t) => set.targets[t]), byHeight = boxes("Hs (m)", heights, short);
+  const ofX = select("x", names, String), ofY = select("y", names, String), byTarget = boxes("Targets", targets, (t) => set.targets[t]), byHeight = boxes("Hs (m)", heights.numbers, (i) => heights.texts[i]);
   const log = element("input", { type: "checkbox", checked: true });
   const number = element("input", { type: "number", min: 0, step: 1, id: "sample", style: "width:7em" });
   ofX.input.id = "x-column";
@@ -114,7 +117,7 @@
     const data = targets.filter((t) => shown.has(t)).map((t) => {
       const style = targets.indexOf(t) % 7;
       const picked = [];
-      for (let row = 0; row < rows; ++row) if (columns.target[row] === t && heightsShown.has(columns.significant_wave_height_m[row])) picked.push(row);
+      for (let row = 0; row < rows; ++row) if (columns.target[row] === t && heightsShown.has(heights.of[row])) picked.push(row);
       return { type: "scattergl", mode: "markers", name: set.targets[t], x: picked.map((row) => (log.checked ? Math.max(x[row], FLOOR) : x[row])), y: picked.map((row) => y[row]), customdata: picked,
         text: picked.map(title), hovertemplate: "%{x:.4g}, %{y:.4g}<br>%{text}<extra></extra>", marker: { color: seaglint.COLOURS[style], symbol: seaglint.SYMBOLS[style], size: 6, opacity: 0.7 } };
     });

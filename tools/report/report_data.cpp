@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <utility>
 
 #include "sim/core/numbers/constants.h"
@@ -19,41 +20,21 @@ namespace fs = std::filesystem;
 
 namespace {
 
-template <class Distance>
-int nearest(std::size_t count, Distance distance) {
-  int best = 0;
-  for (std::size_t i = 1; i < count; ++i) {
-    if (distance(i) < distance(static_cast<std::size_t>(best))) best = static_cast<int>(i);
-  }
-  return best;
-}
+constexpr double kShownAzimuths_deg[] = {80, 170}, kShownWaveHeight_m = 1;
 
-// Numbers of the samples that the report shows: every class at two aspects.
-std::vector<std::size_t> shown_samples(const Scenario& scenario, const SamplePlan& plan) {
-  const std::vector<SeaState>& states = plan.sea_states();
-  const std::vector<View>& aspects = plan.views();
-  SampleAddress address;
-  address.sea_state =
-      nearest(states.size(), [&](std::size_t i) { return std::abs(states[i].significant_wave_height_m - 1); });
-  std::vector<int> chosen;
-  for (const double azimuth_deg : {80.0, 170.0}) {
-    chosen.push_back(nearest(aspects.size(), [&](std::size_t i) {
-      return std::abs(std::remainder(aspects[i].azimuth_rad - radians(azimuth_deg), 2 * kPi));
-    }));
-  }
-  if (chosen[0] == chosen[1]) chosen.pop_back();
-  std::vector<std::size_t> samples;
-  for (const int view : chosen) {
-    for (int label = static_cast<int>(scenario.dataset.classes.size()) - 1; label >= 0; --label) {
-      const auto target = std::ranges::find(plan.classes(), label,
-                                            [&](int t) { return scenario.targets[static_cast<std::size_t>(t)].label; });
-      if (target == plan.classes().end()) continue;
-      address.view = view;
-      address.target = *target;
-      samples.push_back(plan.sample(address));
-    }
-  }
-  return samples;
+// Order of preference of a map for an aspect. Wave heights within a quarter of a metre of another count as equal, so
+// that one of several drawn seas has the aspect.
+std::array<double, 8> place_of(const SampleRecord& record, double azimuth_deg) {
+  const double off_m = std::abs(record.significant_wave_height_m - kShownWaveHeight_m);
+  const double off_deg = std::abs(std::remainder(record.azimuth_deg - azimuth_deg, 360));
+  return {std::floor(off_m / 0.25),
+          off_deg,
+          off_m,
+          static_cast<double>(record.sea_state),
+          static_cast<double>(record.view),
+          static_cast<double>(record.realisation),
+          static_cast<double>(record.interval),
+          static_cast<double>(record.target)};
 }
 
 }  // namespace
@@ -82,9 +63,7 @@ LineFit fit_line(const std::vector<StoredCentre>& centres) {
   return fit;
 }
 
-ReportCollector::ReportCollector(const Scenario& scenario, const SamplePlan& plan)
-    : wanted_(shown_samples(scenario, plan)) {
-  data_.shown.resize(wanted_.size());
+ReportCollector::ReportCollector(const Scenario& scenario, const SamplePlan& plan) {
   data_.classes = static_cast<int>(scenario.dataset.classes.size());
   const std::size_t states = plan.classes().size() * plan.views().size() * plan.sea_states().size();
   of_each_state_ = std::max<std::size_t>(1, (kMostMaps + states - 1) / states);
@@ -101,10 +80,10 @@ void ReportCollector::add(const Shard& shard) {
     for (const double value : {record.mwr, record.ccf, record.sigma_r_m, record.sigma_v_mps}) {
       data_.handmade.values.push_back(static_cast<float>(value));
     }
-    const auto place = std::find(wanted_.begin(), wanted_.end(), static_cast<std::size_t>(record.sample));
-    if (place != wanted_.end()) {
-      data_.shown_wave_height_m = record.significant_wave_height_m;
-      data_.shown[static_cast<std::size_t>(place - wanted_.begin())] = {sample, shard.axes};
+    for (std::int64_t aspect = 0; aspect < std::ssize(kShownAzimuths_deg); ++aspect) {
+      const std::array<double, 8> place = place_of(record, kShownAzimuths_deg[aspect]);
+      const auto [nearest, is_first] = nearest_.try_emplace({aspect, -record.label});
+      if (is_first || place < nearest->second.place) nearest->second = {place, {sample, shard.axes}};
     }
   }
 }
@@ -116,6 +95,16 @@ ReportData ReportCollector::with_embeddings(const FeatureMatrix& embeddings) con
 ReportData ReportCollector::with_fused(FeatureMatrix fused) const {
   ReportData data = data_;
   data.fused = std::move(fused);
+  std::set<std::int64_t> samples;
+  for (const auto& [key, nearest] : nearest_)
+    if (samples.insert(nearest.map.sample.record.sample).second) data.shown.push_back(nearest.map);
+  std::vector<DataRow> rows;
+  for (const ReportRow& row : data.rows) rows.push_back({0, row.record});
+  data.heights = condition_of(rows, kWaveHeightColumn);
+  data.azimuths = condition_of(rows, "azimuth_deg");
+  if (data.shown.empty()) return data;
+  const double height = data.shown.front().sample.record.significant_wave_height_m;
+  while (data.heights.bins[data.shown_height].highest < height) ++data.shown_height;
   return data;
 }
 

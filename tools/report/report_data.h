@@ -12,6 +12,7 @@
 
 #include "classify/dataset/directory/dataset_reader.h"
 #include "classify/model/booster.h"
+#include "classify/model/data_rows.h"
 #include "sim/core/process/parallel.h"
 #include "sim/scenario/sample_plan.h"
 #include "tools/report/explorer.h"
@@ -39,17 +40,18 @@ struct ShownMap {
 
 struct ReportData {
   std::vector<ReportRow> rows;
-  std::vector<ShownMap> shown;  // every class, the last label first, at the first aspect, then at the second
-  int classes = 2;              // labels 0 to classes - 1
-  double shown_wave_height_m = 0;
+  std::vector<ShownMap> shown;    // every class, the last label first, at the first aspect, then at the second
+  int classes = 2;                // labels 0 to classes - 1
+  Condition heights, azimuths;    // bins of the rows by wave height and azimuth
+  std::size_t shown_height = 0;   // bin of the first map that is shown
   std::vector<ExplorerMap> maps;  // of every state in turn: at most about kMostMaps, see ReportCollector
   StoredAxes axes;                // of all maps
   FeatureMatrix handmade;         // of all rows
   FeatureMatrix fused;            // the same plus the network's embeddings
 };
 
-// Collects the data of the report from shards, in their order. Maps shown: the first of each class at the aspects
-// nearest 80 and 170 deg azimuth in the sea nearest Hs 1 m (as in the paper's figures).
+// Collects the data of the report from shards, in their order. Maps shown: one of each class at the aspects nearest 80
+// and 170 deg azimuth in the sea nearest Hs 1 m (as in the paper's figures), the first of several.
 // The first maps of every target, view and sea state are kept, reduced: as many of each as make kMostMaps in all.
 class ReportCollector {
  public:
@@ -65,7 +67,13 @@ class ReportCollector {
  private:
   static constexpr std::size_t kMostMaps = 512;
 
-  std::vector<std::size_t> wanted_;                          // samples of the maps shown
+  // The map of a class and aspect that is nearest so far, and its place in the order of preference.
+  struct Nearest {
+    std::array<double, 8> place = {};
+    ShownMap map;
+  };
+
+  std::map<std::array<std::int64_t, 2>, Nearest> nearest_;   // by aspect and minus the label
   std::size_t of_each_state_ = 1;                            // maps that are kept
   std::map<std::array<std::int64_t, 3>, std::size_t> seen_;  // by target, view and sea state
   ReportData data_;

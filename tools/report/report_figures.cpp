@@ -154,6 +154,14 @@ void add_scores(FigureList& list, const nlohmann::ordered_json& metrics) {
                                                              division.by, unseen),
              fmt::format("Accuracy against wave height, {} split", protocol));
   }
+  for (auto& [key, plot] : drawn_accuracy_plots(metrics)) {
+    list.add(
+        "accuracy", "accuracy_by_" + file_word(key), std::move(plot), {640, 400},
+        fmt::format("The same for {} by <code>{}</code>, which is drawn: at most {} bins of equal numbers of maps, "
+                    "at the means of their values.",
+                    unseen, escape_html(key), kMostBins),
+        "Accuracy against " + key);
+  }
   for (const char* protocol : {"random", "group"}) {
     if (!metrics.at("handmade").contains(protocol)) continue;
     std::optional<LinePlot> plot = roc_plot(metrics, protocol);
@@ -244,7 +252,8 @@ void add_features(FigureList& list, const ReportData& data, const ClassNames& cl
 }
 
 void add_aspects(FigureList& list, const ReportData& data, const ClassNames& classes) {
-  const std::vector<double> azimuths = azimuths_deg(data);
+  const std::vector<ColumnBin>& azimuths = data.azimuths.bins;
+  const ColumnBin& height = data.heights.bins[data.shown_height];
   struct Quantity {
     const char* file;
     const char* title;
@@ -266,22 +275,25 @@ void add_aspects(FigureList& list, const ReportData& data, const ClassNames& cla
        "MWR by aspect: median and quartiles."}};
   for (const Quantity& quantity : quantities) {
     LinePlot plot;
-    plot.title = fmt::format("{}, Hs {:g} m", quantity.title, data.shown_wave_height_m);
+    plot.title = fmt::format("{}, Hs {} m", quantity.title, height.text);
     plot.x.label = "azimuth of the radar, 0 = ahead of the bow (deg)";
     plot.y = quantity.axis;
     for (int label = 0; label < data.classes; ++label) {
       Series series;
       series.name = classes[static_cast<std::size_t>(label)];
       series.style = SeriesStyle::kLinesPoints;
-      for (const double azimuth : azimuths) {
-        const Quartiles q = quartiles_of(data, {label, data.shown_wave_height_m, azimuth}, quantity.value);
-        series.x.push_back(azimuth + 2 * label - (data.classes - 1));
+      for (const ColumnBin& azimuth : azimuths) {
+        const Quartiles q = quartiles_of(data, {label, &height, &azimuth}, quantity.value);
+        series.x.push_back(azimuth.mean + 2 * label - (data.classes - 1));
         series.y.push_back(q.median);
         series.interval.push_back({q.lower, q.upper});
       }
       plot.series.push_back(std::move(series));
     }
-    list.add("aspects", quantity.file, std::move(plot), {640, 400}, quantity.caption, quantity.title);
+    const bool is_binned = std::ranges::any_of(azimuths, [](const ColumnBin& bin) { return bin.lowest < bin.highest; });
+    list.add("aspects", quantity.file, std::move(plot), {640, 400},
+             quantity.caption + std::string(is_binned ? " Azimuths in bins of equal numbers of maps." : ""),
+             quantity.title);
   }
 }
 
@@ -303,26 +315,25 @@ LinePlot angle_plot(const std::string& title, const Trajectory& body, const std:
   return plot;
 }
 
+// The sea of the first map that is shown.
 void add_sea(FigureList& list, const Scenario& scenario, const SamplePlan& plan, const std::vector<Target>& targets,
-             double wave_height_m) {
+             const SampleRecord& record) {
   constexpr double kExcerptS = 60;
-  const std::vector<SeaState>& states = plan.sea_states();
-  int state = 0;
-  while (states[static_cast<std::size_t>(state)].significant_wave_height_m != wave_height_m) ++state;
-  const Scene scene = make_scene(scenario, plan, targets, state, 0, kExcerptS);
+  const int state = static_cast<int>(record.sea_state), realisation = static_cast<int>(record.realisation);
+  const Scene scene = make_scene(scenario, plan, targets, state, realisation, kExcerptS);
   std::vector<double> times;
   for (int i = 0; i <= 600; ++i) times.push_back(0.1 * i);
 
   LinePlot waves;
-  waves.title = fmt::format("Sea surface at the reference point, Hs {:g} m, Tp {:g} s", wave_height_m,
-                            states[static_cast<std::size_t>(state)].peak_period_s);
+  waves.title = fmt::format("Sea surface at the reference point, Hs {:g} m, Tp {:g} s",
+                            record.significant_wave_height_m, record.peak_period_s);
   waves.x.label = "time (s)";
   waves.y.label = "elevation (m)";
   Series full{scenario.sea.order == 2 ? "second order" : "linear", times, {}, {}, SeriesStyle::kLines};
   for (const double t : times) full.y.push_back(scene.sea.surface(0, 0, t).elevation);
   waves.series.push_back(std::move(full));
   list.add("sea", "sea_surface", std::move(waves), {640, 330},
-           "One minute of the first sea realisation; all targets and aspects see this sea.",
+           fmt::format("One minute of sea realisation {}, common to all targets and aspects.", realisation + 1),
            "Elevation of the sea against time");
   for (std::size_t t = 0; t < targets.size(); ++t) {
     if (scene.bodies[t].empty()) continue;
@@ -366,7 +377,7 @@ std::vector<ReportFigure> draw_report_figures(const fs::path& directory, const S
   add_scores(list, metrics);
   add_features(list, data, classes, scenario.seed);
   add_aspects(list, data, classes);
-  add_sea(list, scenario, plan, targets, data.shown_wave_height_m);
+  if (!data.shown.empty()) add_sea(list, scenario, plan, targets, data.shown.front().sample.record);
   add_targets(list, targets);
   return list.draw(threads, stop);
 }

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "classify/model/data_rows.h"
 #include "radar/waveform/pulse_train.h"
 #include "tools/page/html.h"
 #include "tools/pipeline/metrics.h"
@@ -54,11 +55,11 @@ bool rises(const ordered_json& scores) {
   return scores.at("by_wave_height").size() > 1;
 }
 
-// Median of a feature of class `label` in the entry of `list` with `key` equal to `at`; NaN if there is none.
-double median_at(const ordered_json& metrics, const char* list, const char* key, double at, int label,
+// Median of a feature of class `label` in a bin of `list`; NaN if there is none.
+double median_in(const ordered_json& metrics, const char* list, const std::string& bin, int label,
                  const char* feature) {
   for (const auto& entry : metrics.at("report").at(list)) {
-    if (entry.at(key) == at && entry.at("label") == label) return value_or_nan(entry.at(feature).at("median"));
+    if (entry.at("bin") == bin && entry.at("label") == label) return value_or_nan(entry.at(feature).at("median"));
   }
   return std::nan("");
 }
@@ -89,6 +90,34 @@ std::string pooled_splits(int repeats, std::size_t protocols) {
       "there "
       "may be more predictions than maps. A test sea counts once.</p>\n",
       repeats, each);
+}
+
+// Accuracy under each protocol by the bins of every drawn key; empty without drawn keys.
+std::string drawn_table(const ordered_json& metrics, const std::vector<const char*>& protocols) {
+  std::string html;
+  for (const char* protocol : protocols) {
+    const auto of = [&](const char* group) -> const ordered_json& { return metrics.at(group).at(protocol); };
+    if (!of("handmade").contains("by_drawn")) continue;
+    Rows rows{{"drawn key", "values", "hand-made", "CNN", "fused", "test predictions", "test seas"}};
+    for (std::size_t key = 0; key < of("handmade").at("by_drawn").size(); ++key) {
+      const auto& condition = of("handmade").at("by_drawn").at(key);
+      const std::string units = condition.at("units");
+      for (std::size_t bin = 0; bin < condition.at("bins").size(); ++bin) {
+        const auto& counts = condition.at("bins").at(bin);
+        rows.push_back({escape_html(condition.at("column").get<std::string>()),
+                        escape_html(counts.at("bin").get<std::string>()) +
+                            (units.empty() || units == "1" ? "" : " " + escape_html(units))});
+        for (const char* group : kGroups)
+          rows.back().push_back(accuracy_cell(of(group).at("by_drawn").at(key).at("bins").at(bin)));
+        rows.back().push_back(fmt::format("{}", counts.at("rows").get<std::size_t>()));
+        rows.back().push_back(fmt::format("{}", counts.at("groups").get<std::size_t>()));
+      }
+    }
+    html += fmt::format("<details><summary>By drawn quantity, {}</summary>\n{}</details>\n",
+                        protocol == kRandom ? "random split" : escape_html(division_words(metrics).heading),
+                        html_table(rows));
+  }
+  return html;
 }
 
 std::string item(const std::string& text) { return "<li>" + text + "</li>\n"; }
@@ -125,8 +154,7 @@ std::string accuracy_tables(const ordered_json& metrics, const ClassNames& class
     const auto& heights = metrics.at("handmade").at(protocol).at("by_wave_height");
     for (std::size_t i = 0; i <= heights.size(); ++i) {
       const bool total = i == heights.size();
-      std::vector<std::string> row{
-          total ? "all" : fmt::format("{:g}", heights.at(i).at("significant_wave_height_m").get<double>())};
+      std::vector<std::string> row{total ? "all" : heights.at(i).at("bin").get<std::string>()};
       for (const char* group : kGroups) {
         const auto& evaluation = metrics.at(group).at(protocol);
         row.push_back(accuracy_cell(total ? evaluation : evaluation.at("by_wave_height").at(i)));
@@ -139,6 +167,7 @@ std::string accuracy_tables(const ordered_json& metrics, const ClassNames& class
     html += html_table(rows);
   }
 
+  html += drawn_table(metrics, protocols);
   html += "<h3>Further figures of merit, all wave heights</h3>\n";
   const bool has_both = metrics.at("handmade").contains("fewer_rows");  // fusions
   const bool two = classes.size() == 2;
@@ -235,11 +264,9 @@ std::string claims_table(const ordered_json& metrics, const ClassNames& classes)
   std::string residuals;
   bool array_scatters = true;
   for (const auto& row : metrics.at("handmade").at("group").at("by_wave_height")) {
-    const double height = row.at("significant_wave_height_m");
-    const auto mwr = [&](int label) {
-      return median_at(metrics, "features_by_wave_height", "significant_wave_height_m", height, label, "mwr");
-    };
-    residuals += fmt::format("{}{:g} m: {:.2g} / {:.2g}", residuals.empty() ? "" : "; ", height, mwr(1), mwr(0));
+    const std::string height = row.at("bin");
+    const auto mwr = [&](int label) { return median_in(metrics, "features_by_wave_height", height, label, "mwr"); };
+    residuals += fmt::format("{}{} m: {:.2g} / {:.2g}", residuals.empty() ? "" : "; ", height, mwr(1), mwr(0));
     array_scatters = array_scatters && mwr(0) > 2 * mwr(1);
   }
   rows.push_back(
@@ -261,8 +288,8 @@ std::string feature_table(const ordered_json& metrics, const ClassNames& classes
     return fmt::format("{} <small>({}–{})</small>", number("median"), number("lower"), number("upper"));
   };
   for (const auto& e : metrics.at("report").at("features_by_wave_height")) {
-    rows.push_back({fmt::format("{}, {:g} m", escape_html(classes.at(e.at("label").get<std::size_t>())),
-                                e.at("significant_wave_height_m").get<double>()),
+    rows.push_back({fmt::format("{}, {} m", escape_html(classes.at(e.at("label").get<std::size_t>())),
+                                e.at("bin").get<std::string>()),
                     cell(e.at("mwr"), "{:.3g}", 1), cell(e.at("ccf"), "{:.2f}", 1),
                     cell(e.at("sigma_r_m"), "{:.1f}", 1), cell(e.at("sigma_v_mps"), "{:.3f}", 1),
                     cell(e.at("centres"), "{:.0f}", 1), cell(e.at("line_explained"), "{:.0f} %", 100)});
@@ -339,26 +366,25 @@ std::string expert_notes(const ordered_json& metrics, const Scenario& scenario) 
   // The random code's pedestal and the velocity cell determine what the features can resolve.
   const PulseTrain train = make_pulse_train(scenario.radar, scenario.map.range_span_m, scenario.seed, 0);
   const double cell = train.velocity_resolution_mps();
-  const double shown = metrics.at("report").at("features_by_azimuth").at(0).at("significant_wave_height_m");
+  const std::string shown = metrics.at("report").at("features_by_azimuth").at(0).at(kWaveHeightColumn);
   const std::string residuals = by_class(classes, [&](int label) {
-    return fmt::format("{:.2g}",
-                       median_at(metrics, "features_by_wave_height", "significant_wave_height_m", shown, label, "mwr"));
+    return fmt::format("{:.2g}", median_in(metrics, "features_by_wave_height", shown, label, "mwr"));
   });
   html +=
       item(fmt::format("<b>Scale of the residual.</b> One velocity cell is {:.3f} m/s; a spread over one cell alone "
-                       "gives an MWR of {:.2g} (m/s)². At H<sub>s</sub> {:g} m "
+                       "gives an MWR of {:.2g} (m/s)². At H<sub>s</sub> {} m "
                        "the medians are {} (m/s)².",
                        cell, cell * cell / 12, shown, residuals));
   std::string aspects;
   for (const auto& e : metrics.at("report").at("features_by_azimuth")) {
     if (e.at("label") != 1) continue;
-    const double azimuth = e.at("azimuth_deg");
+    const std::string azimuth = e.at("bin");
     std::vector<std::string> explained;
     for (int label = static_cast<int>(classes.size()) - 1; label >= 0; --label) {
-      const double line = median_at(metrics, "features_by_azimuth", "azimuth_deg", azimuth, label, "line_explained");
+      const double line = median_in(metrics, "features_by_azimuth", azimuth, label, "line_explained");
       explained.push_back(fmt::format("{:.0f}", 100 * line));
     }
-    aspects += fmt::format("{}{:g}°: {} %", aspects.empty() ? "" : ", ", azimuth, fmt::join(explained, " / "));
+    aspects += fmt::format("{}{}°: {} %", aspects.empty() ? "" : ", ", azimuth, fmt::join(explained, " / "));
   }
   std::vector<std::string> names;
   for (auto name = classes.rbegin(); name != classes.rend(); ++name) names.push_back(escape_html(*name));
@@ -368,7 +394,7 @@ std::string expert_notes(const ordered_json& metrics, const Scenario& scenario) 
                   "height breaks it, and it fades near bow and stern. A flat line (nothing moves) explains no variance "
                   "and is a line all the same: there MWR is what is small. Velocity variance explained by the line "
                   "(adjusted for the number of centres, 0 for loose points), "
-                  "medians of {} at H<sub>s</sub> {:g} m: {}.",
+                  "medians of {} at H<sub>s</sub> {} m: {}.",
                   fmt::join(names, " / "), shown, aspects));
   if (scenario.radar.hop_code != HopCode::kStepped) {
     html += item(

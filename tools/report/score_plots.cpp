@@ -5,13 +5,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "classify/model/data_rows.h"
 #include "tools/pipeline/metrics.h"
 
 namespace seaglint {
 namespace {
+
+constexpr std::size_t kMostDrawnPlots = 12;  // of one report; metrics.json has the others, too
 
 constexpr std::pair<const char*, const char*> kGroups[3] = {
     {"handmade", "hand-made"}, {"cnn", "CNN"}, {"fused", "fused"}};
@@ -45,25 +49,28 @@ LinePlot rest_roc_plot(const nlohmann::ordered_json& curves, const std::string& 
   return plot;
 }
 
-}  // namespace
-
-LinePlot accuracy_plot(const nlohmann::ordered_json& metrics, const std::string& protocol) {
+// Accuracy of each group of features over the values `x` of the bins of bins_of(group).
+template <class BinsOf>
+LinePlot binned_accuracy_plot(std::string title, FigureAxis axis, const char* x, BinsOf bins_of) {
   LinePlot plot;
-  plot.title = "Accuracy, " + split_name(metrics, protocol);
-  plot.x.label = "significant wave height (m)";
-  double span = 0, lowest = 50;
-  for (const auto& row : metrics.at("handmade").at(protocol).at("by_wave_height"))
-    span = std::max(span, row.at("significant_wave_height_m").get<double>());
+  plot.title = std::move(title);
+  plot.x = std::move(axis);
+  double least = std::numeric_limits<double>::infinity(), most = -least, lowest = 50;
+  for (const auto& row : bins_of(kGroups[0].first)) {
+    least = std::min(least, value_or_nan(row.at(x)));
+    most = std::max(most, value_or_nan(row.at(x)));
+  }
+  const double span = most > least ? most - least : std::max(most, 0.0);
   double shift = -0.012 * span;  // offset, so that the error bars do not overlap
   for (const auto& [group, label] : kGroups) {
     Series series;
     series.name = label;
     series.style = SeriesStyle::kLinesPoints;
-    for (const auto& row : metrics.at(group).at(protocol).at("by_wave_height")) {
+    for (const auto& row : bins_of(group)) {
       const double accuracy = 100 * value_or_nan(row.at("accuracy"));
       const double low = 100 * value_or_nan(row.at("accuracy_95").at(0)),
                    high = 100 * value_or_nan(row.at("accuracy_95").at(1));
-      series.x.push_back(row.at("significant_wave_height_m").get<double>() + shift);
+      series.x.push_back(value_or_nan(row.at(x)) + shift);
       series.y.push_back(accuracy);
       series.interval.push_back({std::isfinite(low) ? low : accuracy, std::isfinite(high) ? high : accuracy});
       lowest = std::min(lowest, series.interval.back()[0]);
@@ -73,6 +80,35 @@ LinePlot accuracy_plot(const nlohmann::ordered_json& metrics, const std::string&
   }
   plot.y = {"accuracy on test maps (%)", AxisRange{std::floor(lowest / 10) * 10, 102}, false};
   return plot;
+}
+
+}  // namespace
+
+LinePlot accuracy_plot(const nlohmann::ordered_json& metrics, const std::string& protocol) {
+  return binned_accuracy_plot(
+      "Accuracy, " + split_name(metrics, protocol), {"significant wave height (m)", {}, false},
+      kWaveHeightColumn, [&](const char* group) -> const auto& {
+        return metrics.at(group).at(protocol).at("by_wave_height");
+      });
+}
+
+std::vector<std::pair<std::string, LinePlot>> drawn_accuracy_plots(const nlohmann::ordered_json& metrics) {
+  std::vector<std::pair<std::string, LinePlot>> plots;
+  const auto& handmade = metrics.at("handmade").at("group");
+  if (!handmade.contains("by_drawn")) return plots;
+  for (std::size_t i = 0; i < handmade.at("by_drawn").size() && plots.size() < kMostDrawnPlots; ++i) {
+    const auto& condition = handmade.at("by_drawn").at(i);
+    const std::string key = condition.at("column"), units = condition.at("units");
+    const auto& bins = condition.at("bins");
+    if (bins.size() < 2 || !bins.front().at("mean").is_number()) continue;  // words and single values have no axis
+    plots.emplace_back(key, binned_accuracy_plot(
+                                "Accuracy, " + split_name(metrics, "group"),
+                                {units == "1" ? key : fmt::format("{} ({})", key, units), {}, false},
+                                "mean", [&](const char* group) -> const auto& {
+                                  return metrics.at(group).at("group").at("by_drawn").at(i).at("bins");
+                                }));
+  }
+  return plots;
 }
 
 std::optional<LinePlot> roc_plot(const nlohmann::ordered_json& metrics, const std::string& protocol) {

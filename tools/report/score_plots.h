@@ -6,6 +6,8 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "tools/figure/figure.h"
 
@@ -13,6 +15,9 @@ namespace seaglint {
 
 // Accuracy of the three groups of features under a protocol (random, group), %, with 95 % intervals.
 LinePlot accuracy_plot(const nlohmann::ordered_json& metrics, const std::string& protocol);
+
+// The same under the group protocol over the drawn keys of numbers, by key: over the means of their bins.
+std::vector<std::pair<std::string, LinePlot>> drawn_accuracy_plots(const nlohmann::ordered_json& metrics);
 
 // Detections over false alarms, %; none for the metrics of an earlier version, which have no curves.
 std::optional<LinePlot> roc_plot(const nlohmann::ordered_json& metrics, const std::string& protocol);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/report/summary.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <set>
+#include <vector>
 
 #include "sim/core/text/json_number.h"
 
@@ -17,10 +18,11 @@ ordered_json to_object(const Quartiles& q) {
   return {{"lower", number_or_null(q.lower)}, {"median", number_or_null(q.median)}, {"upper", number_or_null(q.upper)}};
 }
 
-bool holds(const RowFilter& filter, const SampleRecord& record) {
-  return (!filter.label || *filter.label == record.label) &&
-         (!filter.wave_height_m || *filter.wave_height_m == record.significant_wave_height_m) &&
-         (!filter.azimuth_deg || *filter.azimuth_deg == record.azimuth_deg);
+bool holds(const RowFilter& filter, std::size_t row, const SampleRecord& record) {
+  const auto is_in = [row](const ColumnBin* bin) {
+    return bin == nullptr || std::ranges::binary_search(bin->rows, row);
+  };
+  return (!filter.label || *filter.label == record.label) && is_in(filter.height) && is_in(filter.azimuth);
 }
 
 struct NamedValue {
@@ -38,11 +40,9 @@ constexpr NamedValue kValues[] = {
     {"scr_per_pulse_db", [](const ReportRow& row) { return row.record.scr_per_pulse_db; }},
 };
 
-template <class Member>
-std::vector<double> distinct(const ReportData& data, Member member) {
-  std::set<double> values;
-  for (const ReportRow& row : data.rows) values.insert(row.record.*member);
-  return {values.begin(), values.end()};
+// Members of a bin of a quantity: its mean under `name`, its text, its ends.
+ordered_json to_object(const char* name, const ColumnBin& bin) {
+  return {{name, bin.mean}, {"bin", bin.text}, {"lowest", bin.lowest}, {"highest", bin.highest}};
 }
 
 }  // namespace
@@ -50,34 +50,32 @@ std::vector<double> distinct(const ReportData& data, Member member) {
 Quartiles quartiles_of(const ReportData& data, const RowFilter& filter,
                        const std::function<double(const ReportRow&)>& value) {
   std::vector<double> values;
-  for (const ReportRow& row : data.rows) {
-    if (holds(filter, row.record)) values.push_back(value(row));
+  for (std::size_t row = 0; row < data.rows.size(); ++row) {
+    if (holds(filter, row, data.rows[row].record)) values.push_back(value(data.rows[row]));
   }
   return quartiles(std::move(values));
 }
 
-std::vector<double> wave_heights_m(const ReportData& data) {
-  return distinct(data, &SampleRecord::significant_wave_height_m);
-}
-std::vector<double> azimuths_deg(const ReportData& data) { return distinct(data, &SampleRecord::azimuth_deg); }
-
 ordered_json report_numbers(const ReportData& data) {
   ordered_json json;
   json["features_by_wave_height"] = ordered_json::array();
-  for (const double height : wave_heights_m(data)) {
+  for (const ColumnBin& height : data.heights.bins) {
     for (int label = data.classes - 1; label >= 0; --label) {
-      ordered_json entry{{"significant_wave_height_m", height}, {"label", label}};
-      for (const NamedValue& v : kValues) entry[v.name] = to_object(quartiles_of(data, {label, height, {}}, v.value));
+      ordered_json entry = to_object(kWaveHeightColumn, height);
+      entry["label"] = label;
+      for (const NamedValue& v : kValues) entry[v.name] = to_object(quartiles_of(data, {label, &height}, v.value));
       json["features_by_wave_height"].push_back(entry);
     }
   }
   json["features_by_azimuth"] = ordered_json::array();
-  for (const double azimuth : azimuths_deg(data)) {
+  const ColumnBin* height = data.heights.bins.empty() ? nullptr : &data.heights.bins[data.shown_height];
+  for (const ColumnBin& azimuth : data.azimuths.bins) {
     for (int label = data.classes - 1; label >= 0; --label) {
-      ordered_json entry{
-          {"azimuth_deg", azimuth}, {"significant_wave_height_m", data.shown_wave_height_m}, {"label", label}};
+      ordered_json entry = to_object("azimuth_deg", azimuth);
+      entry[kWaveHeightColumn] = height->text;
+      entry["label"] = label;
       for (const NamedValue& v : kValues)
-        entry[v.name] = to_object(quartiles_of(data, {label, data.shown_wave_height_m, azimuth}, v.value));
+        entry[v.name] = to_object(quartiles_of(data, {label, height, &azimuth}, v.value));
       json["features_by_azimuth"].push_back(entry);
     }
   }

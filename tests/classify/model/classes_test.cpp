@@ -25,7 +25,7 @@ using Values = std::vector<double>;
 const std::vector<std::string> kClasses{"decoys", "ship", "guarded ship"};
 
 Prediction row(int label, const Values& probabilities, std::int64_t number = 0) {
-  return prediction_of(number, number, 1, label, probabilities);
+  return prediction_of(static_cast<std::size_t>(number), number, label, probabilities);
 }
 
 std::vector<Prediction> five_rows() {
@@ -52,7 +52,7 @@ TEST(ScoresOfClasses, OfAClassWithoutRowsAreThoseOfTheOtherTwo) {
     Random random({3, Stream::kTest, static_cast<std::uint64_t>(i)});
     const int label = static_cast<int>(random.below(2));
     const double p = std::round(20 * (0.3 * label + 0.7 * random.uniform())) / 20;
-    two.push_back({i, i, 1, label, p});
+    two.push_back({static_cast<std::size_t>(i), i, label, p});
     three.push_back(row(label, {1 - p, p, 0}, i));
   }
   const Scores a = score(two, 200, 7, 0), b = score(three, 200, 7, 0);
@@ -73,7 +73,7 @@ TEST(RocOfClasses, IsOneOfEachAgainstTheRest) {
   ASSERT_EQ(curves[2].size(), 3u);
   EXPECT_EQ(curves[2][1].false_alarms, 0);
   EXPECT_EQ(curves[2][1].detections, 1);
-  EXPECT_EQ(roc_curves(std::vector<Prediction>{{0, 0, 1, 1, 0.9}, {1, 1, 1, 0, 0.2}}).size(), 1u);
+  EXPECT_EQ(roc_curves(std::vector<Prediction>{{0, 0, 1, 0.9}, {1, 1, 0, 0.2}}).size(), 1u);
 }
 
 // Largest probabilities 0.6 right; 0.7 wrong and 0.7 right; 0.5 right and 0.5 wrong.

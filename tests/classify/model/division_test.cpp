@@ -212,7 +212,7 @@ TEST(ValueRange, OfAnUndefinedColumnExcludesEveryValue) {
 TEST(Calibration, OfASmallExampleByHand) {
   std::vector<Prediction> predictions;
   for (const auto& [probability, label] : {std::pair(0.05, 0), {0.15, 0}, {0.95, 1}, {0.95, 0}})
-    predictions.push_back({0, 0, 1, label, probability});
+    predictions.push_back({0, 0, label, probability});
   const Calibration result = calibration(predictions);
   ASSERT_EQ(result.bins.size(), 10u);
   EXPECT_EQ(result.bins[9].rows, 2u);

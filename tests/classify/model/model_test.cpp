@@ -111,7 +111,7 @@ std::vector<Prediction> predictions_of(std::initializer_list<std::pair<int, doub
   std::vector<Prediction> predictions;
   for (const auto& [label, probability] : rows) {
     const std::int64_t number = static_cast<std::int64_t>(predictions.size());
-    predictions.push_back({number, number, 1.0, label, probability});
+    predictions.push_back({static_cast<std::size_t>(number), number, label, probability});
   }
   return predictions;
 }
@@ -131,21 +131,45 @@ TEST(Scores, AreThoseOfASmallExampleByHand) {
   EXPECT_EQ(scores.confusion[0][1], 1u);
 }
 
-// 40 drawn heights 0.05, 0.10, ... 2.00 m: four bins of ten, with the means 0.275, 0.775, ... m; few heights as they
-// are.
-TEST(Scores, OfManyWaveHeightsAreThoseOfBins) {
+// 40 drawn heights 0.05, 0.10, ... 2.00 m: eight bins of five, with the means 0.15, 0.40, ... m.
+TEST(Scores, OfADrawnQuantityAreThoseOfEightBinsOfEqualCount) {
+  std::vector<DataRow> rows(40);
   std::vector<Prediction> predictions;
-  for (int i = 1; i <= 40; ++i) predictions.push_back({i, i, 0.05 * i, i % 2, i <= 10 ? 0.5 : i % 2 == 1 ? 0.9 : 0.1});
-  const std::vector<WaveHeightScores> bins = score_by_wave_height(predictions, 10, 1, 0);
-  ASSERT_EQ(bins.size(), 4u);
-  const double means[] = {0.28, 0.78, 1.28, 1.78};
-  for (std::size_t i = 0; i < 4; ++i) {
-    EXPECT_NEAR(bins[i].wave_height_m, means[i], 0.0051);
-    EXPECT_EQ(bins[i].scores.rows, 10u);
-    EXPECT_NEAR(bins[i].scores.accuracy, i == 0 ? 0.5 : 1, 1e-12);
+  for (std::size_t i = 0; i < 40; ++i) {
+    rows[i].record.significant_wave_height_m = 0.05 * static_cast<double>(i + 1);
+    rows[i].record.realisation = static_cast<std::int64_t>(i);
+    const int label = i % 2 == 0 ? 0 : 1;
+    predictions.push_back({i, static_cast<std::int64_t>(i), label, i < 10 ? 0.5 : label == 1 ? 0.9 : 0.1});
   }
-  const std::vector<WaveHeightScores> few = score_by_wave_height(std::span(predictions).first(3), 10, 1, 0);
-  EXPECT_EQ(few.size(), 3u);
+  const Condition heights = condition_of(rows, kWaveHeightColumn);
+  const ConditionScores all = score_by(heights, predictions, 10, 1, 0);
+  ASSERT_EQ(all.bins.size(), 8u);
+  for (std::size_t i = 0; i < 8; ++i) {
+    EXPECT_NEAR(all.bins[i].mean, 0.15 + 0.25 * static_cast<double>(i), 1e-12);
+    EXPECT_EQ(all.bins[i].scores.rows, 5u);
+    EXPECT_EQ(all.bins[i].scores.accuracy, i < 2 ? 0.4 : 1) << i;
+  }
+  EXPECT_EQ(all.bins[1].text, "0.3 to 0.5");
+  // Bins are those of all maps: predictions of a few have the same ones, without the empty bins.
+  const ConditionScores last = score_by(heights, std::span(predictions).last(7), 10, 1, 0);
+  ASSERT_EQ(last.bins.size(), 2u);
+  EXPECT_EQ(last.bins.back().text, all.bins.back().text);
+}
+
+// Twelve swept heights, each of which is the only one of its sea state.
+TEST(Scores, OfASweptQuantityAreThoseOfItsValues) {
+  std::vector<DataRow> rows(48);
+  for (std::size_t i = 0; i < 48; ++i) {
+    rows[i].record.sea_state = static_cast<std::int64_t>(i / 4);
+    rows[i].record.significant_wave_height_m = 0.1 * static_cast<double>(i / 4 + 1);
+  }
+  const Condition heights = condition_of(rows, kWaveHeightColumn);
+  ASSERT_EQ(heights.bins.size(), 12u);
+  EXPECT_EQ(heights.bins[2].text, "0.3");
+  EXPECT_EQ(heights.bins[2].rows.size(), 4u);
+  // With one more value in a case the quantity is drawn.
+  rows[0].record.significant_wave_height_m = 0.11;
+  EXPECT_EQ(condition_of(rows, kWaveHeightColumn).bins.size(), 8u);
 }
 
 TEST(Roc, IsThatOfASmallExampleByHand) {
@@ -167,7 +191,8 @@ TEST(Roc, HasTheAreaOfMannAndWhitney) {
   Random random({42, Stream::kBootstrap, 0});
   for (std::int64_t i = 0; i < 5000; ++i) {
     const int label = i % 3 == 0 ? 1 : 0;
-    predictions.push_back({i, i, 1.0, label, std::round(1000 * (0.3 * label + 0.7 * random.uniform())) / 1000});
+    predictions.push_back(
+        {static_cast<std::size_t>(i), i, label, std::round(1000 * (0.3 * label + 0.7 * random.uniform())) / 1000});
   }
   const double auc = score(predictions, 1, 1, 0).auc;
   const auto area = [](const std::vector<RocPoint>& curve) {
@@ -191,7 +216,7 @@ TEST(Scores, HaveNoIntervalFromOneSea) {
 
 TEST(Scores, BootstrapIntervalOfIndependentRowsIsTheBinomialOne) {
   std::vector<Prediction> predictions;
-  for (int i = 0; i < 400; ++i) predictions.push_back({i, i, 1.0, 1, i % 5 == 0 ? 0.1 : 0.9});
+  for (int i = 0; i < 400; ++i) predictions.push_back({0, i, 1, i % 5 == 0 ? 0.1 : 0.9});
   const Scores scores = score(predictions, 4000, 1, 0);
   // Accuracy 0.8, standard error sqrt(0.8 0.2 / 400) = 0.02; the bootstrap's own error of a 2.5 % point at 4000 draws
   // is below 5 % of the half width, and one row is 0.0025.
@@ -201,7 +226,7 @@ TEST(Scores, BootstrapIntervalOfIndependentRowsIsTheBinomialOne) {
 
 TEST(Scores, BootstrapIntervalGrowsWhenRowsOfASeaAgree) {
   std::vector<Prediction> predictions;
-  for (int i = 0; i < 400; ++i) predictions.push_back({i, i / 20, 1.0, 1, (i / 20) % 5 == 0 ? 0.1 : 0.9});
+  for (int i = 0; i < 400; ++i) predictions.push_back({0, i / 20, 1, (i / 20) % 5 == 0 ? 0.1 : 0.9});
   const Scores scores = score(predictions, 4000, 1, 0);
   // Twenty independent seas instead of 400 rows: the standard error is sqrt(0.8 0.2 / 20) = 0.089.
   EXPECT_GT(scores.accuracy_95.high - scores.accuracy_95.low, 0.25);

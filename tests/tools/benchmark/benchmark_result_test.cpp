@@ -28,9 +28,9 @@ Scores scores_of(double accuracy, double half = 0.02) {
 Evaluation evaluation_of(std::vector<double> by_height, double half = 0.02) {
   Evaluation evaluation;
   double sum = 0;
-  const double heights[] = {0.1, 1, 2};
+  const char* const heights[] = {"0.1", "1", "2"};
   for (std::size_t i = 0; i < by_height.size(); ++i) {
-    evaluation.by_wave_height.push_back({heights[i], scores_of(by_height[i], half)});
+    evaluation.by_wave_height.push_back({heights[i], 0, 0, 0, scores_of(by_height[i], half)});
     sum += by_height[i];
   }
   evaluation.scores = scores_of(sum / static_cast<double>(by_height.size()), half);

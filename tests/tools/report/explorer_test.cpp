@@ -56,7 +56,21 @@ SampleRecord record(std::int64_t sample, std::int64_t target, const char* name) 
 
 TEST(Explorer, KeepsTheFirstMapOfEveryStateFirst) {
   const std::vector<SampleRecord> records{record(0, 0, "a"), record(1, 0, "a"), record(2, 1, "b"), record(3, 1, "b")};
-  EXPECT_EQ(explorer_order(records), (std::vector<std::size_t>{0, 2, 1, 3}));
+  EXPECT_EQ(explorer_order(records, {}, {}), (std::vector<std::size_t>{0, 2, 1, 3}));
+  // Of one state with drawn wave heights: the first of every bin.
+  const std::vector<ColumnBin> heights{{"0.1 to 0.2", 0.1, 0.2, 0.15, {0, 1}}, {"0.3 to 0.4", 0.3, 0.4, 0.35, {2}}};
+  const std::vector<SampleRecord> drawn{record(0, 0, "a"), record(1, 0, "a"), record(2, 0, "a")};
+  EXPECT_EQ(explorer_order(drawn, heights, {}), (std::vector<std::size_t>{0, 2, 1}));
+}
+
+TEST(Explorer, ChoosesAmongBinsByTheBinOfEveryRow) {
+  const std::vector<SampleRecord> records{record(0, 0, "a"), record(1, 0, "a"), record(2, 0, "a")};
+  const StoredAxes axes{cells(4, 0, 1), cells(4, 0, 1)};
+  const std::vector<ColumnBin> heights{{"0.1 to 0.2", 0.1, 0.2, 0.15, {0, 2}}, {"0.3", 0.3, 0.3, 0.3, {1}}};
+  const auto json = nlohmann::json::parse(explorer_json({records, {}, axes, heights, {}, 1, 0}));
+  EXPECT_EQ(json.at("heights").at("texts"), (std::vector<std::string>{"0.1 to 0.2", "0.3"}));
+  EXPECT_EQ(json.at("heights").at("first"), 1);
+  EXPECT_EQ(json.at("heights").at("bins"), packed(std::vector<std::uint8_t>{0, 1, 0}));
 }
 
 TEST(Explorer, TakesTargetsAndColumnsFromTheRecordsAndOmitsKeysBeyondSinglePrecision) {
@@ -68,7 +82,8 @@ TEST(Explorer, TakesTargetsAndColumnsFromTheRecordsAndOmitsKeysBeyondSinglePreci
   ExplorerMap too_large = explorer_map(large, axes);
   too_large.sample = 0;
   too_large.packed.assign(kExplorerBytes + 1, 'A');
-  const std::string text = explorer_json(records, {explorer_map(large, axes)}, axes, 80, 1);
+  const std::vector<ExplorerMap> small{explorer_map(large, axes)}, too_many{too_large};
+  const std::string text = explorer_json({records, small, axes, {}, {}});
   EXPECT_EQ(text.find('<'), std::string::npos);
   const auto json = nlohmann::json::parse(text);
   EXPECT_EQ(json.at("targets"), nlohmann::json::parse(R"({"0": "</script>", "3": "tanker"})"));
@@ -79,7 +94,7 @@ TEST(Explorer, TakesTargetsAndColumnsFromTheRecordsAndOmitsKeysBeyondSinglePreci
     if (column.at("name") == "mwr") mwr = column.at("varies");
   }
   EXPECT_TRUE(mwr);
-  EXPECT_TRUE(nlohmann::json::parse(explorer_json(records, {too_large}, axes, 80, 1)).at("maps").empty());
+  EXPECT_TRUE(nlohmann::json::parse(explorer_json({records, too_many, axes, {}, {}})).at("maps").empty());
 }
 
 // 10,200 samples whose columns are all different, and maps of noise, which no packing makes smaller.
@@ -108,7 +123,7 @@ TEST(Explorer, OfTenThousandSamplesTakesLessThanHalfOfAPage) {
     sample.centre_list.assign(40, {1, 2, 0.5F});
     maps.push_back(explorer_map(sample, axes));
   }
-  const std::string text = explorer_json(records, maps, axes, 80, 1);
+  const std::string text = explorer_json({records, maps, axes, {}, {}});
   EXPECT_LT(text.size(), 1'500'000u);  // 820 kB of maps, 14 columns of 10,200 numbers at most 48 kB each
   EXPECT_GT(nlohmann::json::parse(text).at("maps").size(), 100u);
 }

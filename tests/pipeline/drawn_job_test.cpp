@@ -1,0 +1,371 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The whole job (data set, learning, report, cards, evaluation, benchmark) with every key that can be drawn.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "classify/dataset/cards/cards.h"
+#include "classify/dataset/directory/dataset_reader.h"
+#include "sim/core/numbers/random.h"
+#include "sim/core/process/file.h"
+#include "sim/scenario/key_list.h"
+#include "tests/temporary_folder.h"
+#include "tools/benchmark/benchmark.h"
+#include "tools/evaluate/evaluate.h"
+#include "tools/report/report.h"
+#include "tools/report/run.h"
+
+namespace seaglint {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::HasSubstr;
+
+// A hull with its motion in waves, floating reflectors and ideal points; 24 maps of 8 seas.
+constexpr const char* kScenario = R"yaml(seaglint: 1
+name: drawn
+radar: {pulses: 16, hop_count: 2, bandwidth_mhz: 5, hop_step_mhz: 5, sampling_mhz: 10}
+view: {azimuth_deg: 40, elevation_deg: 5}
+sea: {significant_wave_height_m: 1, peak_period_s: 8, components: 16, order: 1}
+targets:
+  hull: {label: 1, mesh: hull.obj, motion: {model: ship, spin_up_s: 10}}
+  corner: {label: 0, mesh: corner.obj, layout: {line: {count: 2, spacing_m: 20}}, motion: {model: float, spin_up_s: 10}}
+  dots: {label: 0, points: [{position_m: [0, 0, 2], amplitude_m: 1}]}
+dataset: {maps_per_case: 8, realisations_per_case: 8, maps_per_shard: 12}
+learning: {epochs: 1, trees: 4, bootstrap_samples: 20, embedding_size: 2}
+)yaml";
+
+// A box, 24 x 4 x 3 m with 1 m of draught, and a trihedral of three triangles on a float.
+constexpr const char* kHull = R"obj(v -12 -2 -1
+v 12 -2 -1
+v 12 2 -1
+v -12 2 -1
+v -12 -2 2
+v 12 -2 2
+v 12 2 2
+v -12 2 2
+f 1 4 3 2
+f 5 6 7 8
+f 1 2 6 5
+f 2 3 7 6
+f 3 4 8 7
+f 4 1 5 8
+)obj";
+constexpr const char* kCorner = R"obj(v 0 0 0.2
+v 0.6 0 0.2
+v 0 0.6 0.2
+v 0 0 0.8
+f 1 2 3
+f 1 3 4
+f 1 4 2
+)obj";
+
+struct DrawnKey {
+  std::string key;  // NAME stands for the target
+  std::string distribution;
+  std::string target = "hull";
+  std::vector<Override> with = {};  // what the key needs
+
+  std::string path() const {
+    const auto replaced = [](const std::string& text, const std::string& part, const std::string& value) {
+      const std::size_t at = text.find(part);
+      if (at == std::string::npos) return text;
+      return fmt::format("{}{}{}", text.substr(0, at), value, text.substr(at + part.size()));
+    };
+    return replaced(replaced(key, "NAME", target), ".N.", ".0.");
+  }
+};
+
+const std::vector<DrawnKey>& drawn_job_keys() {
+  const Override area{"targets.corner.layout", "{area: {count: 3, length_m: 60, width_m: 20}}"};
+  const Override spread{"sea.spreading.kind", "cos2s"}, wrapped{"sea.spreading.kind", "wrapped_normal"};
+  const Override wind{"sea.peak_period_s", "wind_and_fetch"};
+  const Override swell{"sea.swell.significant_wave_height_m", "0.5"};
+  const Override swell_spread{"sea.swell.spreading.kind", "cos2s"};
+  const Override wrapped_swell{"sea.swell.spreading.kind", "wrapped_normal"};
+  const Override reflection{"sea_reflection.enabled", "true"};
+  const Override of_sea{"clutter.level", "nrl"}, budget{"radar.link_budget", "{}"}, range{"radar.range_km", "10"};
+  const Override companion{"targets.corner.companions", "[{target: dots, x_m: 3, y_m: 1}]"};
+  const Override bretschneider{"sea.spectrum", "bretschneider"};
+  static const std::vector<DrawnKey> keys{
+      {"view.azimuth_deg", "uniform(10, 170)"},
+      {"view.elevation_deg", "uniform(2, 6)"},
+      {"radar.hop_code", "choice(random, balanced, stepped)"},
+      {"radar.pri_jitter_us", "uniform(0, 5)"},
+      {"radar.polarisation", "choice(hh, hv, vv)"},
+      {"sea.spectrum", "choice(jonswap, bretschneider)"},
+      {"sea.significant_wave_height_m", "loguniform(0.5, 2)"},
+      {"sea.peak_period_s", "uniform(7, 10)"},
+      {"sea.wind.speed_mps", "uniform(5, 9)", "", {wind}},
+      {"sea.wind.fetch_km", "uniform(50, 200)", "", {wind}},
+      {"sea.gamma", "normal(3.3, 0.5, 1, 7)"},
+      {"sea.normalisation", "choice(exact, dnv)"},
+      {"sea.propagation_deg", "uniform(0, 360)"},
+      {"sea.spreading.kind", "choice(none, cos2s)"},
+      {"sea.spreading.s", "uniform(5, 20)", "", {spread}},
+      {"sea.spreading.width_deg", "uniform(10, 40)", "", {wrapped}},
+      {"sea.swell.significant_wave_height_m", "uniform(0, 1)"},
+      {"sea.swell.peak_period_s", "uniform(11, 14)", "", {swell}},
+      {"sea.swell.gamma", "uniform(3, 7)", "", {swell}},
+      {"sea.swell.propagation_deg", "uniform(0, 360)", "", {swell}},
+      {"sea.swell.components", "integers(8, 16)", "", {swell}},
+      {"sea.swell.spreading.kind", "choice(none, cos2s)", "", {swell}},
+      {"sea.swell.spreading.s", "uniform(5, 20)", "", {swell, swell_spread}},
+      {"sea.swell.spreading.width_deg", "uniform(10, 40)", "", {swell, wrapped_swell}},
+      {"sea.depth_m", "uniform(20, 50)"},
+      {"sea.amplitude", "choice(fixed, random)"},
+      {"sea.order", "integers(1, 2)"},
+      {"sea.components", "integers(12, 20)"},
+      {"sea.cutoff_rad_s", "uniform(4, 8)"},
+      {"sea.second_order_cutoff_rad_s", "uniform(2, 3)", "", {{"sea.order", "2"}}},
+      {"sea_reflection.enabled", "choice(true, false)"},
+      {"sea_reflection.surface", "choice(sea_water, conductor)", "", {reflection}},
+      {"sea_reflection.temperature_c", "uniform(0, 25)", "", {reflection}},
+      {"sea_reflection.salinity_psu", "uniform(5, 35)", "", {reflection}},
+      {"sea_reflection.roughness", "choice(miller_brown_vegh, ament, none)", "", {reflection}},
+      {"sea_reflection.paths", "choice(all, direct_only)", "", {reflection}},
+      {"targets.NAME.points.N.amplitude_m", "loguniform(0.5, 2)", "dots"},
+      {"targets.NAME.mesh", "choice(hull.obj, corner.obj)", "hull", {{"targets.hull.motion.model", "fixed"}}},
+      {"targets.NAME.unit", "choice(m, ft)", "corner"},
+      {"targets.NAME.scale", "uniform(0.8, 1.2)"},
+      {"targets.NAME.material", "choice(pec, aluminium)"},
+      {"targets.NAME.sheet_thickness_mm", "uniform(0, 2)", "corner"},
+      {"targets.NAME.layout.line.count", "integers(1, 3)", "corner"},
+      {"targets.NAME.layout.line.spacing_m", "uniform(10, 30)", "corner"},
+      {"targets.NAME.layout.line.centre_x_m", "uniform(-5, 5)", "corner"},
+      {"targets.NAME.layout.line.centre_y_m", "uniform(-5, 5)", "corner"},
+      {"targets.NAME.layout.area.shape", "choice(line, ring, random)", "corner", {area}},
+      {"targets.NAME.layout.area.count", "integers(2, 4)", "corner", {area}},
+      {"targets.NAME.layout.area.length_m", "uniform(40, 80)", "corner", {area}},
+      {"targets.NAME.layout.area.width_m", "uniform(10, 30)", "corner", {area}},
+      {"targets.NAME.layout.area.min_distance_m", "uniform(0, 5)", "corner", {area}},
+      {"targets.NAME.layout.area.centre_x_m", "uniform(-5, 5)", "corner", {area}},
+      {"targets.NAME.layout.area.centre_y_m", "uniform(-5, 5)", "corner", {area}},
+      {"targets.NAME.layout.bodies",
+       "choice(independent, rigid)",
+       "corner",
+       {{"targets.corner.motion", "{model: fixed}"}}},
+      {"targets.NAME.layout.heights.lowest_m",
+       "uniform(0, 0.5)",
+       "corner",
+       {{"targets.corner.layout.heights.highest_m", "1"}}},
+      {"targets.NAME.layout.heights.highest_m", "uniform(0, 0.5)", "corner"},
+      {"targets.NAME.layout.headings.lowest_deg",
+       "uniform(0, 90)",
+       "corner",
+       {{"targets.corner.layout.headings.highest_deg", "180"}}},
+      {"targets.NAME.layout.headings.highest_deg", "uniform(0, 90)", "corner"},
+      {"targets.NAME.layout.scales.lowest", "uniform(0.5, 1)", "corner"},
+      {"targets.NAME.layout.scales.highest", "uniform(1, 2)", "corner"},
+      {"targets.NAME.layout.seed", "integers(0, 1000000)", "corner", {area}},
+      {"targets.NAME.motion.model", "choice(fixed, ship)"},
+      {"targets.NAME.motion.translations", "choice(true, false)"},
+      {"targets.NAME.motion.roll_period_s", "uniform(5, 9)"},
+      {"targets.NAME.motion.pitch_period_s", "uniform(4, 6)"},
+      {"targets.NAME.motion.yaw_period_s", "uniform(20, 40)"},
+      {"targets.NAME.motion.roll_damping", "uniform(0.05, 0.2)"},
+      {"targets.NAME.motion.roll_quadratic_damping", "uniform(0, 0.5)"},
+      {"targets.NAME.motion.pitch_damping", "uniform(0.1, 0.3)", "corner"},
+      {"targets.NAME.motion.yaw_damping", "uniform(0.05, 0.2)"},
+      {"targets.NAME.motion.yaw_rate_std_deg_s", "uniform(1, 3)", "corner"},
+      {"targets.NAME.motion.length_m", "uniform(22, 26)"},
+      {"targets.NAME.motion.beam_m", "uniform(3.5, 4.5)"},
+      {"targets.NAME.motion.draught_m", "uniform(0.8, 1.2)"},
+      {"targets.NAME.motion.heave_period_s",
+       "uniform(1, 2)",
+       "corner",
+       {{"targets.corner.motion.translations", "true"}}},
+      {"targets.NAME.motion.heave_damping",
+       "uniform(0.1, 0.3)",
+       "corner",
+       {{"targets.corner.motion.translations", "true"}}},
+      {"targets.NAME.motion.metacentric_height_m", "uniform(0.5, 1.5)"},
+      {"targets.NAME.motion.roll_gyradius_m", "uniform(1.3, 1.8)"},
+      {"targets.NAME.motion.pitch_gyradius_m", "uniform(5, 7)"},
+      {"targets.NAME.motion.yaw_gyradius_m", "uniform(5, 7)"},
+      {"targets.NAME.motion.speed_mps", "uniform(0, 5)"},
+      {"targets.NAME.motion.diameter_m", "uniform(0.5, 1)", "corner"},
+      {"targets.NAME.motion.origin_above_waterline_m", "uniform(0.5, 1)", "corner"},
+      {"targets.NAME.motion.waves", "choice(same_field, independent)"},
+      {"targets.NAME.motion.step_s", "choice(0.02, 0.05)", "corner"},
+      {"targets.NAME.motion.spin_up_s", "uniform(5, 20)"},
+      {"targets.NAME.solver.method", "choice(beams, rays)", "corner"},
+      {"targets.NAME.solver.ray_spacing_m",
+       "uniform(0.01, 0.02)",
+       "corner",
+       {{"targets.corner.solver.method", "rays"}}},
+      {"targets.NAME.solver.min_patch_m", "uniform(0.01, 0.02)"},
+      {"targets.NAME.solver.max_bounces", "integers(1, 6)", "corner"},
+      {"targets.NAME.solver.max_aspect_change_deg", "uniform(0.1, 0.5)"},
+      {"targets.NAME.solver.shared_traces", "choice(true, false)"},
+      {"targets.NAME.solver.crease_deg", "choice(auto, 10)"},
+      {"targets.NAME.solver.edges", "choice(true, false)"},
+      {"targets.NAME.solver.wavefront_range_m", "uniform(5000, 20000)"},
+      {"targets.NAME.companions.N.x_m", "uniform(1, 5)", "corner", {companion}},
+      {"targets.NAME.companions.N.y_m", "uniform(1, 5)", "corner", {companion}},
+      {"clutter.level", "choice(scr, nrl)", "", {budget, range}},
+      {"clutter.scr_db", "uniform(10, 25)"},
+      {"clutter.scr_definition", "choice(per_pulse, peak_cell, extent)"},
+      {"clutter.enabled", "choice(true, false)"},
+      {"clutter.noise_level", "choice(cnr, snr)"},
+      {"clutter.cnr_db", "uniform(10, 30)"},
+      {"clutter.snr_db", "uniform(10, 30)", "", {{"clutter.noise_level", "snr"}}},
+      {"clutter.texture_shape", "uniform(0.5, 5)"},
+      {"clutter.texture_correlation_time_s", "uniform(1, 5)"},
+      {"clutter.doppler", "choice(prescribed, sea_state)"},
+      {"clutter.doppler_mean_mps", "uniform(-1, 1)"},
+      {"clutter.doppler_spread_mps", "uniform(0.2, 1)"},
+      {"clutter.hh_velocity_factor",
+       "uniform(1, 2)",
+       "",
+       {{"radar.polarisation", "hh"}, {"clutter.doppler", "sea_state"}}},
+      {"clutter.sea_state", "uniform(1, 4)", "", {of_sea, budget, range}},
+  };
+  return keys;
+}
+
+// Keys of files, of lists of numbers, and of what another key of the list selects.
+constexpr const char* kNotDrawn[] = {
+    "targets.NAME.label",
+    "targets.NAME.role",
+    "targets.NAME.points.N.position_m",
+    "targets.NAME.points.N.velocity_mps",
+    "targets.NAME.part_materials.N.part",
+    "targets.NAME.part_materials.N.material",
+    "targets.NAME.companions.N.target",
+    "targets.NAME.motion.rotation_centre_m",
+    "targets.NAME.motion.file",
+    "targets.NAME.motion.series_start_s",
+    "targets.NAME.motion.wamit_ulen_m",
+    "targets.NAME.motion.wamit_heading",
+    "targets.NAME.motion.wamit_time_factor",
+    "targets.NAME.motion.sections",
+    "sea.table",
+};
+
+class DrawnJob : public testing::Test {
+ protected:
+  DrawnJob() {
+    write_file(folder_.path() / "scenario.yaml", kScenario);
+    write_file(folder_.path() / "hull.obj", kHull);
+    write_file(folder_.path() / "corner.obj", kCorner);
+  }
+
+  static std::vector<Override> overrides_of(const std::vector<DrawnKey>& keys) {
+    std::vector<Override> overrides;
+    for (const DrawnKey& key : keys) overrides.insert(overrides.end(), key.with.begin(), key.with.end());
+    for (const DrawnKey& key : keys) overrides.push_back({key.path(), "\"" + key.distribution + "\""});
+    return overrides;
+  }
+
+  // The data set, learning, report, cards and evaluation, and what they state of the keys.
+  void do_job(const std::vector<DrawnKey>& keys) {
+    const Scenario scenario = read_scenario(folder_.path() / "scenario.yaml", overrides_of(keys));
+    const fs::path run = folder_.path() / "run";
+    fs::remove_all(run);
+    run_scenario(scenario, run, {.resume = false, .threads = 1});
+    write_cards(DatasetReader(run / "data"), {});
+    EvaluateRequest request;
+    request.model = run / "model";
+    request.data_sets = {run / "data"};
+    request.trained_rows = true;
+    for (const DrawnKey& key : keys) request.by.push_back(key.path());
+    const json evaluation = json::parse(evaluate_model(request).json);
+    const json metrics = json::parse(read_file(run / "metrics.json"));
+    const std::string card = read_file(run / "data" / "README.md"), page = read_file(run / "report.html");
+    for (const DrawnKey& key : keys) {
+      EXPECT_THAT(card, HasSubstr("`" + key.path() + "`"));
+      const auto by = std::ranges::find_if(evaluation.at("by"),
+                                           [&](const json& column) { return column.at("column") == key.path(); });
+      ASSERT_NE(by, evaluation.at("by").end());
+      EXPECT_LE(by->at("bins").size(), 8u);
+      if (key.key == "sea.significant_wave_height_m" || key.path().ends_with("seed")) continue;
+      const json& drawn = metrics.at("fused").at("group").at("by_drawn");
+      EXPECT_TRUE(std::ranges::any_of(drawn, [&](const json& c) { return c.at("column") == key.path(); }));
+    }
+    EXPECT_LE(metrics.at("handmade").at("group").at("by_wave_height").size(), 8u);
+    EXPECT_THAT(page, HasSubstr("</html>"));
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(DrawnJob, HasADistributionForEveryKeyThatCanBeDrawn) {
+  for (const KeyEntry& entry : scenario_keys()) {
+    const std::string section = entry.key.substr(0, entry.key.find('.'));
+    const bool is_of_radar =
+        entry.key == "radar.hop_code" || entry.key == "radar.pri_jitter_us" || entry.key == "radar.polarisation";
+    if (section != "view" && section != "sea" && section != "sea_reflection" && section != "targets" &&
+        section != "clutter" && !is_of_radar)
+      continue;
+    if (std::ranges::find(kNotDrawn, entry.key) != std::end(kNotDrawn)) continue;
+    EXPECT_NE(std::ranges::find(drawn_job_keys(), entry.key, &DrawnKey::key), drawn_job_keys().end()) << entry.key;
+  }
+}
+
+// Every key once, in jobs of several keys that do not contradict each other; of one key where the variable is 1.
+TEST_F(DrawnJob, IsDoneWithEveryKey) {
+  const char* const text = std::getenv("SEAGLINT_KEYS_PER_JOB");
+  const std::size_t most = text != nullptr ? std::stoul(text) : 12;
+  std::vector<std::vector<DrawnKey>> jobs;
+  for (const DrawnKey& key : drawn_job_keys()) {
+    const auto fits = [&](std::vector<DrawnKey> job) {
+      job.push_back(key);
+      try {
+        return job.size() <= most &&
+               read_scenario(folder_.path() / "scenario.yaml", overrides_of(job)).variations.size() == job.size();
+      } catch (const InputError&) {
+        return false;
+      }
+    };
+    const auto job = std::ranges::find_if(jobs, fits);
+    if (job != jobs.end()) {
+      job->push_back(key);
+    } else {
+      jobs.push_back({key});
+    }
+  }
+  for (const std::vector<DrawnKey>& job : jobs) {
+    std::string paths;
+    for (const DrawnKey& key : job) paths += fmt::format(" {}", key.path());
+    SCOPED_TRACE(paths);
+    try {
+      do_job(job);
+    } catch (const std::exception& error) {
+      ADD_FAILURE() << error.what();
+    }
+  }
+}
+
+// Pairs that contradict each other are refused; they are drawn again.
+TEST_F(DrawnJob, AndItsBenchmarkAreDoneWithRandomPairs) {
+  const std::vector<DrawnKey>& all = drawn_job_keys();
+  Random random({1, Stream::kTest, 0});
+  for (int pairs = 0, tries = 0; pairs < 3 && tries < 60; ++tries) {
+    const std::vector<DrawnKey> pair{all[random.below(static_cast<std::uint32_t>(all.size()))],
+                                     all[random.below(static_cast<std::uint32_t>(all.size()))]};
+    SCOPED_TRACE(fmt::format("{}, {}", pair[0].path(), pair[1].path()));
+    if (pair[0].path() == pair[1].path()) continue;
+    std::optional<Scenario> scenario;
+    try {
+      scenario = read_scenario(folder_.path() / "scenario.yaml", overrides_of(pair));
+    } catch (const InputError&) {
+      continue;
+    }
+    ++pairs;
+    do_job(pair);
+    write_report(folder_.path() / "run", *scenario, 1, nullptr);
+    fs::remove_all(folder_.path() / "benchmark");
+    EXPECT_THAT(run_benchmark(*scenario, false, folder_.path() / "benchmark", false, 1), HasSubstr("claims"));
+  }
+}
+
+}  // namespace
+}  // namespace seaglint
