@@ -274,7 +274,8 @@ class Reader : public FieldVisitor {
   std::string path_of(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
 
   [[noreturn]] void fail(const YamlNode& node, const std::string& path, const std::string& bound) const {
-    document_.fail(node.location, path, fmt::format("{}: {}", value_text(node), bound));
+    const std::string note = node.kind == YamlNode::Kind::kScalar ? lookalike_note(node.text) : "";
+    document_.fail(node.location, path, fmt::format("{}: {}{}", value_text(node), bound, note));
   }
 
   // A value of an earlier version is refused by its new name.
@@ -309,7 +310,11 @@ class Reader : public FieldVisitor {
       if (std::find(allowed.keys.begin(), allowed.keys.end(), entry.key) != allowed.keys.end()) continue;
       if (const auto renamed = renamed_key(path_of(entry.key), entry.value.text))
         document_.fail(entry.location, path_of(entry.key), *renamed);
-      document_.fail(entry.location, path_of(entry.key), "unknown key: " + suggestion(entry.key, allowed.keys));
+      const std::string lookalike = lookalike_in(entry.key);
+      document_.fail(
+          entry.location, path_of(entry.key),
+          "unknown key: " + (lookalike.empty() ? suggestion(entry.key, allowed.keys)
+                                               : fmt::format("it has {}; keys are indented by blanks", lookalike)));
     }
   }
 

@@ -14,9 +14,10 @@ constexpr std::pair<std::string_view, std::string_view> kUnits[] = {
     {"degree", "deg"}, {"degrees", "deg"}, {"radian", "rad"}, {"radians", "rad"}, {"sec", "s"},    {"second", "s"},
     {"seconds", "s"},  {"meter", "m"},     {"meters", "m"},   {"metre", "m"},     {"metres", "m"}, {"hertz", "hz"}};
 
-constexpr std::string_view kUsualUnits[] = {
-    "s",     "ms",  "min",   "h",    "deg", "rad", "m",    "mm",    "cm",       "km", "ft", "in",   "hz", "ghz",  "mhz",
-    "rad_s", "m_s", "deg_s", "m_s2", "m2",  "m3",  "m2_s", "m2_hz", "m2_s_rad", "n",  "kn", "dbsm", "db", "grad", "1"};
+constexpr std::string_view kUsualUnits[] = {"s",        "ms",    "min",  "h",    "deg", "rad",  "m",     "mm",
+                                            "cm",       "km",    "ft",   "in",   "hz",  "ghz",  "mhz",   "rad_s",
+                                            "m_s",      "deg_s", "m_s2", "m2",   "m3",  "m2_s", "m2_hz", "m2_s_rad",
+                                            "m2_rad_s", "n",     "kn",   "dbsm", "db",  "grad", "1"};
 
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'); }
 

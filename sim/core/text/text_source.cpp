@@ -18,6 +18,31 @@ using namespace std::string_view_literals;
 
 bool is_text_byte(unsigned char c) { return c >= 0x20 ? c != 0x7f : c == '\n' || c == '\r' || c == '\t' || c == '\f'; }
 
+// Minus signs and blanks of typesetting as the characters of ASCII; each stays one character of its line.
+std::string with_plain_signs(std::string text) {
+  constexpr std::pair<std::string_view, char> kSigns[] = {
+      {"\xe2\x88\x92", '-'},  // U+2212, minus sign
+      {"\xc2\xa0", ' '},      // U+00A0, no-break space
+      {"\xe2\x80\x87", ' '},  // U+2007, figure space
+      {"\xe2\x80\x89", ' '},  // U+2009, thin space
+      {"\xe2\x80\xaf", ' '},  // U+202F, narrow no-break space
+  };
+  const auto is_ascii = [](char c) { return static_cast<unsigned char>(c) < 0x80; };
+  if (std::all_of(text.begin(), text.end(), is_ascii)) return text;
+  std::size_t end = 0;
+  for (std::size_t i = 0; i < text.size(); ++end) {
+    const std::string_view rest = std::string_view(text).substr(i);
+    const auto sign = std::find_if(std::begin(kSigns), std::end(kSigns),
+                                   [&](const auto& known) { return rest.starts_with(known.first); });
+    const bool known = sign != std::end(kSigns);
+    const char c = known ? sign->second : text[i];
+    i += known ? sign->first.size() : 1;
+    text[end] = c;
+  }
+  text.resize(end);
+  return text;
+}
+
 std::string text_of(const std::string& name, std::string bytes) {
   const std::string_view kind = foreign_kind(bytes);
   if (!kind.empty()) throw InputError(fmt::format("{}: no plain text: it is {}", name, kind));
@@ -31,7 +56,7 @@ std::string text_of(const std::string& name, std::string bytes) {
                                  std::count(bytes.begin(), strange, '\n') + 1, static_cast<unsigned char>(*strange)));
   }
   if (bytes.find('\n') == std::string::npos) std::replace(bytes.begin(), bytes.end(), '\r', '\n');
-  return utf8_prefix(bytes) == bytes.size() ? bytes : utf8_of(bytes);
+  return with_plain_signs(utf8_prefix(bytes) == bytes.size() ? std::move(bytes) : utf8_of(bytes));
 }
 
 }  // namespace

@@ -12,7 +12,8 @@
 namespace seaglint {
 
 // A text in UTF-8 with line ends \n or \r\n. Of what other programs write, a byte order mark is removed, a text in
-// Latin-1 is converted, line ends \r alone become \n, and a Ctrl-Z at the end is removed. Copies share the text.
+// Latin-1 is converted, line ends \r alone become \n, a Ctrl-Z at the end is removed, a minus sign (U+2212) becomes -
+// and a no-break, figure or thin space a blank. Copies share the text.
 class TextSource {
  public:
   // Throws InputError for UTF-16, UTF-32 and binary files, naming what they are.

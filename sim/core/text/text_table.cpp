@@ -50,6 +50,32 @@ std::size_t required_among(const std::vector<TableColumn>& columns) {
       std::count_if(columns.begin(), columns.end(), [](const TableColumn& column) { return column.required; }));
 }
 
+// The keys of a column that name a quantity in some unit, without the quantity: {"deg", "rad"}; none of another
+// quantity.
+std::vector<std::string> units_of(const TableColumn& column, const std::string& quantity) {
+  std::vector<std::string> units;
+  for (const std::string& key : column.keys) {
+    if (quantity.empty() || key.size() <= quantity.size() || !key.starts_with(quantity + "_")) continue;
+    const std::string unit = key.substr(quantity.size() + 1);
+    if (is_unit(unit)) units.push_back(unit);
+  }
+  return units;
+}
+
+// The name of a column without the unit in its brackets, as a key.
+std::string quantity_of(std::string_view name) {
+  return column_key(name.substr(0, name.size() - bracketed_unit(name).size()));
+}
+
+// "unit '(grad)' of PtfmRoll: must be deg or rad".
+std::string unit_refusal(std::string_view name, std::string_view unit, const std::vector<std::string>& units) {
+  const std::string quantity = quantity_of(name);
+  return unit.empty()
+             ? fmt::format("{} has no unit: must be named {}_{}, or have a row of units below", shown(name), quantity,
+                           fmt::join(units, " or " + quantity + "_"))
+             : fmt::format("unit {} of {}: must be {}", in_quotes(unit), shown(name), fmt::join(units, " or "));
+}
+
 bool has_key(const std::vector<std::string>& keys, const TableColumn& column) {
   return std::any_of(column.keys.begin(), column.keys.end(),
                      [&](const std::string& key) { return std::find(keys.begin(), keys.end(), key) != keys.end(); });
@@ -63,8 +89,9 @@ struct TextTable::Header {
   char separator = ',';
   std::vector<std::string_view> names, units;
   std::vector<std::string> keys;
-  std::string_view rows;  // the text below
-  std::size_t found = 0;  // required columns
+  std::string_view rows;       // the text below
+  std::size_t found = 0;       // required columns
+  std::size_t quantities = 0;  // required columns in whatever unit
 
   // The names in the row at the front of `text`, with the row of units below them. Fewer names than `least` have no
   // keys.
@@ -86,16 +113,23 @@ struct TextTable::Header {
     while (!below.empty() && trimmed(below.substr(0, below.find('\n'))).empty()) next_line(below);
     TextRow units = next_row(below, separator);
     drop_empty_ends(units.cells, header.names.size());
+    // Most are usual ones; other columns may have any ("INVALID" of OpenFAST).
+    const auto usual = static_cast<std::size_t>(std::count_if(units.cells.begin(), units.cells.end(), is_unit));
     const bool are_units = units.open_quote.empty() && units.cells.size() == header.names.size() &&
-                           std::all_of(units.cells.begin(), units.cells.end(), is_unit) && !has_number(units.cells) &&
-                           !is_empty(units.cells);
+                           2 * usual > units.cells.size() && !has_number(units.cells) && !is_empty(units.cells);
     if (are_units) {
       header.units = units.cells;
       header.rows = below;
     }
     for (std::size_t i = 0; i < header.names.size(); ++i)
       header.keys.push_back(column_key(header.names[i], are_units ? header.units[i] : std::string_view()));
-    for (const TableColumn& column : columns) header.found += column.required && has_key(header.keys, column) ? 1 : 0;
+    for (const TableColumn& column : columns) {
+      if (!column.required) continue;
+      header.found += has_key(header.keys, column) ? 1 : 0;
+      header.quantities += std::any_of(header.names.begin(), header.names.end(), [&](std::string_view name) {
+        return !units_of(column, quantity_of(name)).empty();
+      });
+    }
     return header;
   }
 };
@@ -107,6 +141,8 @@ TextTable::TextTable(TextSource source, std::vector<TableColumn> columns, std::s
   if (!header) refuse_names();
   separator_ = header->separator;
   for (const std::string_view name : header->names) names_.push_back(shown(name));
+  name_cells_ = header->names;
+  unit_cells_ = header->units;
   place_columns(header->keys);
   read_rows(header->rows);
   if (rows() < min_rows) {
@@ -152,8 +188,9 @@ void TextTable::refuse_names() const {
     if (trimmed(line).empty() || is_comment(line)) continue;
     for (const char separator : kSeparators) {
       Header header = Header::of(text, separator, columns_, 0);
-      const bool better = header.found > best.found || (header.found == best.found && best.line == header.line &&
-                                                        header.names.size() > best.names.size());
+      const auto fit = std::pair(header.found, header.quantities), best_fit = std::pair(best.found, best.quantities);
+      const bool better =
+          fit > best_fit || (fit == best_fit && best.line == header.line && header.names.size() > best.names.size());
       if (best.line.data() == nullptr || better) best = std::move(header);
     }
   }
@@ -164,26 +201,21 @@ void TextTable::refuse_names() const {
     if (!column.required || has_key(best.keys, column)) continue;
     for (std::size_t i = 0; i < best.names.size(); ++i) {
       // The same quantity in another unit.
+      const std::vector<std::string> units = units_of(column, quantity_of(best.names[i]));
+      if (units.empty()) continue;
       const std::string_view in_name = bracketed_unit(best.names[i]);
       const std::string_view unit = best.units.empty() || !in_name.empty() ? in_name : best.units[i];
-      const std::string quantity = column_key(best.names[i].substr(0, best.names[i].size() - in_name.size()));
-      std::vector<std::string> units;
-      for (const std::string& key : column.keys) {
-        if (key.size() > quantity.size() && key.starts_with(quantity + "_"))
-          units.push_back(key.substr(quantity.size() + 1));
-      }
-      if (units.empty() || quantity.empty()) continue;
-      source_.fail(best.names[i],
-                   unit.empty() ? fmt::format("{} has no unit: must be named {}_{}, or have a row of units below",
-                                              shown(best.names[i]), quantity, fmt::join(units, " or " + quantity + "_"))
-                                : fmt::format("unit {} of {}: must be {}", in_quotes(unit), shown(best.names[i]),
-                                              fmt::join(units, " or ")));
+      source_.fail(best.names[i], unit_refusal(best.names[i], unit, units));
     }
-    const std::vector<std::string> others(column.keys.begin() + 1, column.keys.end());
+    constexpr std::size_t kMostNames = 6;
+    const std::vector<std::string> others(
+        column.keys.begin() + 1, column.keys.begin() + static_cast<long>(std::min(column.keys.size(), kMostNames)));
     source_.fail(trimmed(best.line),
                  fmt::format("no column {}; the columns are {}{}", column.keys.front(),
                              shown(fmt::format("{}", fmt::join(best.names, ", "))),
-                             others.empty() ? "" : fmt::format(" (it may be called {})", fmt::join(others, ", "))));
+                             others.empty() ? ""
+                                            : fmt::format(" (it may be called {}{})", fmt::join(others, ", "),
+                                                          column.keys.size() > kMostNames ? " and more" : "")));
   }
   source_.fail(trimmed(best.line), "no names of columns");
 }
@@ -293,6 +325,17 @@ void TextTable::require(std::size_t column) const {
                                shown(fmt::format("{}", fmt::join(names_, ", ")))));
 }
 
+void TextTable::require_unit(std::size_t column) const {
+  if (has(column)) return;
+  for (std::size_t i = 0; i < name_cells_.size(); ++i) {
+    const std::vector<std::string> units = units_of(columns_[column], quantity_of(name_cells_[i]));
+    if (units.empty()) continue;
+    const std::string_view in_name = bracketed_unit(name_cells_[i]);
+    const std::string_view unit = unit_cells_.empty() || !in_name.empty() ? in_name : unit_cells_[i];
+    source_.fail(name_cells_[i], unit_refusal(name_cells_[i], unit, units));
+  }
+}
+
 const std::string& TextTable::key(std::size_t column) const { return keys_[column]; }
 
 std::string_view TextTable::text(std::size_t row, std::size_t column) const {
@@ -309,7 +352,7 @@ void TextTable::fail(std::size_t row, std::size_t column, const std::string& wha
 double TextTable::number(std::size_t row, std::size_t column, double lowest, double highest) const {
   const std::string_view cell = text(row, column);
   const std::optional<double> value = parse_written_number(cell);
-  if (!value || !std::isfinite(*value)) fail(row, column, "must be a finite number");
+  if (!value || !std::isfinite(*value)) fail(row, column, "must be a finite number" + lookalike_note(cell));
   const std::size_t mark = mark_in(cell);
   if (mark != std::string_view::npos && cell[mark] != decimal_) {
     fail(row, column,

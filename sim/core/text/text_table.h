@@ -34,9 +34,9 @@ struct TableColumn {
 class TextTable {
  public:
   // A table with names. They stand in the first line that has all required columns with any separator (; tab , or
-  // blanks), below any lines of text, or in a comment as numpy.savetxt writes them; a row of units may follow. Other
-  // columns are ignored. Throws InputError for a missing column or a requested one that appears twice, for rows of
-  // another length, numbers above the names, and fewer than min_rows rows.
+  // blanks), below any lines of text, or in a comment as numpy.savetxt writes them; a row of units may follow, most of
+  // them usual ones. Other columns are ignored. Throws InputError for a missing column or a requested one that appears
+  // twice, for rows of another length, numbers above the names, and fewer than min_rows rows.
   TextTable(TextSource source, std::vector<TableColumn> columns, std::size_t min_rows = 2);
   // A table without names: exactly these columns, by any separator, below any lines without a number.
   static TextTable without_names(TextSource source, std::vector<TableColumn> columns);
@@ -46,7 +46,9 @@ class TextTable {
   std::size_t rows() const { return lines_.size(); }
   // Of a requested column, by its place in the request:
   bool has(std::size_t column) const { return places_[column].has_value(); }
-  void require(std::size_t column) const;            // throws InputError unless has(column)
+  void require(std::size_t column) const;  // throws InputError unless has(column)
+  // Throws InputError where a column that is not required is in the table in a unit that is not read, or without one.
+  void require_unit(std::size_t column) const;
   const std::string& key(std::size_t column) const;  // the key by which the table has it
   std::string_view text(std::size_t row, std::size_t column) const;
   // Throws InputError "FILE:LINE:COLUMN: name: value 'x': must be ..." for anything but a finite number within both.
@@ -80,6 +82,7 @@ class TextTable {
   std::vector<std::optional<std::size_t>> places_;  // of the requested columns among those of the file
   std::vector<std::string> keys_;                   // of the requested columns
   std::vector<std::string> names_;
+  std::vector<std::string_view> name_cells_, unit_cells_;  // of a table with names; units of a row of their own
   char separator_ = ',';
   char decimal_ = 0;                     // . or ,; 0: no number has either
   int decimal_line_ = 0;                 // the first that has it

@@ -14,7 +14,9 @@
 
 #include "sim/core/process/error.h"
 #include "sim/core/process/utf8.h"
+#include "sim/core/text/shown.h"
 #include "sim/core/text/text_source.h"
+#include "sim/core/text/words.h"
 
 namespace seaglint {
 
@@ -239,7 +241,10 @@ YamlNode parse_yaml(const std::string& text, const std::string& name) {
     }
     return root;
   } catch (const YAML::Exception& error) {
-    fail(name, location_of(error.mark), "not valid YAML: " + error.msg);
+    const Location location = location_of(error.mark);
+    std::string_view rest = text, line;
+    for (int n = 0; n < location.line; ++n) line = next_line(rest);
+    fail(name, location, "not valid YAML: " + error.msg + lookalike_note(line));
   }
 }
 

@@ -52,5 +52,23 @@ TEST(ScenarioYaml, OtherEncodingsAreNamed) {
             "folder/file.yaml: no plain text: it is a text in UTF-16: save it as UTF-8");
 }
 
+TEST(ScenarioYaml, CharactersThatLookLikeOthersAreNamed) {
+  const std::string file = SEAGLINT_SOURCE_DIR "/tests/cases/tables/nbsp_indent.yaml";
+  try {
+    read_scenario(file);
+    ADD_FAILURE() << file;
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("nbsp_indent.yaml:3:1: "));
+    EXPECT_THAT(error.what(), HasSubstr("unknown key: it has U+00A0, a no-break space; keys are indented by blanks"));
+  }
+  EXPECT_THAT(complaint_about(kShort + "radar: {pulses: 64\xc2\xa0}"), HasSubstr("; it has U+00A0, a no-break space"));
+  EXPECT_THAT(complaint_about(kShort + "view: {elevation_deg: \xe2\x88\x92"
+                                       "2}"),
+              HasSubstr("; it has U+2212, a minus sign"));
+  EXPECT_THAT(complaint_about(kShort + "sea:\n  order: 1\n \xc2\xa0"
+                                       "components: 3\n"),
+              HasSubstr("U+00A0"));
+}
+
 }  // namespace
 }  // namespace seaglint
