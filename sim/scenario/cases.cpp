@@ -6,6 +6,7 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/reproducible_functions.h"
+#include "sim/scenario/jonswap.h"
 
 namespace seaglint {
 
@@ -43,9 +44,57 @@ Sweep gammas(const SeaSpec& spec, double height, double period) {
   return spec.gamma_rule == PeakEnhancement::kDnvRule ? Sweep{dnv_gamma(height, period)} : spec.gamma;
 }
 
+// Peak period and enhancement of a spectrum.
+struct Peak {
+  double period = 0;
+  double gamma = 1;
+};
+
+// Those of the mean periods `periods`, with the ratio of the mean to the peak period. With the rule of DNV, gamma
+// depends on the peak period and so on itself: a fixed point, approached by a fifth in every step.
+void add_peaks(const SeaSpec& spec, double height, const Sweep& periods, double (*ratio)(double gamma),
+               std::vector<Peak>& peaks) {
+  for (const double period : periods) {
+    if (spec.spectrum == SpectrumKind::kJonswap && spec.gamma_rule == PeakEnhancement::kDnvRule) {
+      double gamma = 1;
+      for (int i = 0; i < 40; ++i) gamma = dnv_gamma(height, period / ratio(gamma));
+      peaks.push_back({period / ratio(gamma), gamma});
+      continue;
+    }
+    for (const double gamma : gammas(spec, height, period)) peaks.push_back({period / ratio(gamma), gamma});
+  }
+}
+
+// Of one significant wave height: periods slowest.
+std::vector<Peak> peaks_of(const SeaSpec& spec, double height) {
+  std::vector<Peak> peaks;
+  add_peaks(spec, height, spec.energy_period_s, energy_period_ratio, peaks);
+  add_peaks(spec, height, spec.zero_crossing_period_s, zero_crossing_period_ratio, peaks);
+  if (!peaks.empty()) return peaks;
+  for (const double period : peak_periods(spec, height)) {
+    for (const double gamma : gammas(spec, height, period)) peaks.push_back({period, gamma});
+  }
+  return peaks;
+}
+
+// The direction that waves travel towards, of that which they come from, deg within [-360, 360].
+double towards_deg(double coming_from_deg) {
+  return coming_from_deg < 180 ? coming_from_deg + 180 : coming_from_deg - 180;
+}
+
+Sweep propagations_deg(const SeaSpec& spec) {
+  if (spec.coming_from_deg.empty()) return spec.propagation_deg;
+  Sweep directions;
+  for (const double from : spec.coming_from_deg) directions.push_back(towards_deg(from));
+  return directions;
+}
+
 WaveSystemState swell_of(const SwellSpec& spec) {
-  return {spec.significant_wave_height_m, spec.peak_period_s, spec.gamma,
-          radians(spec.propagation_deg),  spec.spreading,     spec.components};
+  double period = spec.peak_period_s;
+  if (spec.energy_period_s) period = *spec.energy_period_s / energy_period_ratio(spec.gamma);
+  if (spec.zero_crossing_period_s) period = *spec.zero_crossing_period_s / zero_crossing_period_ratio(spec.gamma);
+  const double propagation = spec.coming_from_deg ? towards_deg(*spec.coming_from_deg) : spec.propagation_deg;
+  return {spec.significant_wave_height_m, period, spec.gamma, radians(propagation), spec.spreading, spec.components};
 }
 
 double default_cutoff(const SeaSpec& spec, double period) {
@@ -72,29 +121,29 @@ std::vector<SeaState> sea_states(const SeaSpec& spec) {
   const Sweep heights = spec.height_rule == WaveHeight::kFromTable && spec.table_values
                             ? Sweep{4 * std::sqrt(spec.table_values->energy())}
                             : spec.significant_wave_height_m;
+  const Sweep directions = propagations_deg(spec);
+  const WaveSystemState swell = swell_of(spec.swell);
   for (const double height : heights) {
-    for (const double period : peak_periods(spec, height)) {
-      for (const double gamma : gammas(spec, height, period)) {
-        for (const double propagation : spec.propagation_deg) {
-          SeaState state;
-          state.significant_wave_height_m = height;
-          state.peak_period_s = period;
-          state.gamma = gamma;
-          state.propagation_rad = radians(propagation);
-          state.propagation_deg = propagation;
-          state.order = spec.order;
-          state.components = spec.components;
-          state.spreading = spec.spreading;
-          state.normalisation = spec.normalisation;
-          state.table = spec.table_values;
-          state.swell = swell_of(spec.swell);
-          state.depth_m = spec.depth_m.value_or(kDeepWater);
-          state.amplitude = spec.amplitude;
-          state.cutoff_rad_s = spec.cutoff_rad_s > 0 ? spec.cutoff_rad_s : default_cutoff(spec, period);
-          state.second_order_cutoff_rad_s =
-              spec.second_order_cutoff_rad_s > 0 ? spec.second_order_cutoff_rad_s : convergent_cutoff(state);
-          states.push_back(state);
-        }
+    for (const Peak& peak : peaks_of(spec, height)) {
+      for (const double propagation : directions) {
+        SeaState state;
+        state.significant_wave_height_m = height;
+        state.peak_period_s = peak.period;
+        state.gamma = peak.gamma;
+        state.propagation_rad = radians(propagation);
+        state.propagation_deg = propagation;
+        state.order = spec.order;
+        state.components = spec.components;
+        state.spreading = spec.spreading;
+        state.normalisation = spec.normalisation;
+        state.table = spec.table_values;
+        state.swell = swell;
+        state.depth_m = spec.depth_m.value_or(kDeepWater);
+        state.amplitude = spec.amplitude;
+        state.cutoff_rad_s = spec.cutoff_rad_s > 0 ? spec.cutoff_rad_s : default_cutoff(spec, peak.period);
+        state.second_order_cutoff_rad_s =
+            spec.second_order_cutoff_rad_s > 0 ? spec.second_order_cutoff_rad_s : convergent_cutoff(state);
+        states.push_back(state);
       }
     }
   }

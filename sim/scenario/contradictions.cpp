@@ -12,6 +12,7 @@
 #include "sim/core/numbers/dispersion.h"
 #include "sim/core/process/error.h"
 #include "sim/scenario/cases.h"
+#include "sim/scenario/files/override.h"
 #include "sim/scenario/layout/layout.h"
 
 namespace seaglint {
@@ -98,6 +99,27 @@ void check_clutter(const Scenario& scenario, const std::vector<SeaState>& states
   }
 }
 
+// Keys that state one quantity: at most one of them.
+void check_alternatives(const ScenarioDocument& document) {
+  for (const Alternatives& group : kAlternatives) {
+    const YamlNode* section = &document.root;
+    for (const std::string& key : split_path(group.section)) {
+      if (section != nullptr) section = section->find(key);
+    }
+    if (section == nullptr) continue;
+    std::string_view first;
+    for (const std::string_view key : group.keys) {
+      if (key.empty() || section->find(key) == nullptr) continue;
+      if (first.empty()) {
+        first = key;
+        continue;
+      }
+      document.fail_at(fmt::format("{}.{}", group.section, key),
+                       fmt::format("not allowed here: valid only without {}.{}", group.section, first));
+    }
+  }
+}
+
 // Keys that do not apply to this spectrum are errors.
 void check_spectrum(const SeaSpec& sea, const ScenarioDocument& document) {
   const YamlNode* node = document.root.find("sea");
@@ -110,7 +132,10 @@ void check_spectrum(const SeaSpec& sea, const ScenarioDocument& document) {
   const bool is_table = sea.spectrum == SpectrumKind::kTable;
   const bool is_jonswap = sea.spectrum == SpectrumKind::kJonswap || document.draws("sea.spectrum");
   only("table", is_table, "spectrum: table");
+  only("table_time", is_table, "spectrum: table");
   only("peak_period_s", !is_table, "spectrum: jonswap or bretschneider; a table has its own peak");
+  for (const char* mean : {"energy_period_s", "zero_crossing_period_s"})
+    only(mean, !is_table, "spectrum: jonswap or bretschneider; a table has its own peak");
   only("gamma", is_jonswap, "spectrum: jonswap");
   only("normalisation", is_jonswap, "spectrum: jonswap");
   only("wind", sea.period_rule == PeakPeriod::kWindAndFetch, "peak_period_s: wind_and_fetch");
@@ -132,9 +157,23 @@ void check_breaking(const std::string& key, double height, double period, double
   }
 }
 
+// The peak period of a mean period has the bounds of a peak period that is given.
+void check_mean_period(const std::string& section, bool energy, bool zero_crossing, double peak_period_s,
+                       const ScenarioDocument& document) {
+  constexpr double kShortest = 0.5, kLongest = 40;
+  if (!(energy || zero_crossing) || (peak_period_s >= kShortest && peak_period_s <= kLongest)) return;
+  document.fail_at(
+      fmt::format("{}.{}", section, energy ? "energy_period_s" : "zero_crossing_period_s"),
+      fmt::format("its peak period is {:.4g} s: must be within {} and {}", peak_period_s, kShortest, kLongest));
+}
+
 void check_sea(const SeaSpec& sea, const std::vector<SeaState>& states, const ScenarioDocument& document) {
   for (const SeaState& state : states) {
     const double height = state.significant_wave_height_m;
+    check_mean_period("sea", !sea.energy_period_s.empty(), !sea.zero_crossing_period_s.empty(), state.peak_period_s,
+                      document);
+    check_mean_period("sea.swell", sea.swell.energy_period_s.has_value(), sea.swell.zero_crossing_period_s.has_value(),
+                      state.swell.peak_period_s, document);
     if (sea.period_rule == PeakPeriod::kDnvWindSea && height == 0) {
       document.fail_at("sea.significant_wave_height_m", "must be greater than 0 with peak_period_s: dnv_wind_sea");
     }
@@ -337,8 +376,9 @@ void check_case_count(const Scenario& scenario, const ScenarioDocument& document
   constexpr double kMaxMaps = 1e9;
   const SeaSpec& sea = scenario.sea;
   double cases = 1;
-  for (const Sweep* sweep : {&scenario.view.azimuth_deg, &scenario.view.elevation_deg, &sea.significant_wave_height_m,
-                             &sea.peak_period_s, &sea.gamma, &sea.propagation_deg}) {
+  for (const Sweep* sweep :
+       {&scenario.view.azimuth_deg, &scenario.view.elevation_deg, &sea.significant_wave_height_m, &sea.peak_period_s,
+        &sea.energy_period_s, &sea.zero_crossing_period_s, &sea.gamma, &sea.propagation_deg, &sea.coming_from_deg}) {
     cases *= std::max(1.0, static_cast<double>(sweep->size()));
   }
   if (cases > kMaxCases)
@@ -369,6 +409,8 @@ void check_contradictions(const Scenario& scenario, const ScenarioDocument& docu
   check_case_count(scenario, document);
   check_directions("view.azimuth_deg", scenario.view.azimuth_deg, document);
   check_directions("sea.propagation_deg", scenario.sea.propagation_deg, document);
+  check_directions("sea.coming_from_deg", scenario.sea.coming_from_deg, document);
+  check_alternatives(document);
   check_spectrum(scenario.sea, document);
   const std::vector<SeaState> states = sea_states(scenario.sea);
   check_clutter(scenario, states, document);

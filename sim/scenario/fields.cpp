@@ -83,11 +83,29 @@ void visit(WindSpec& spec, FieldVisitor& v) {
 // The energy of lower waves would underflow.
 constexpr Bound kWaveHeights = zero_or_within(1e-6, 30);
 
+constexpr Bound kPeakPeriods = within(0.5, 40), kMeanPeriods = within(0.3, 40), kDirections = within(-360, 360);
+
+// A number in the place of that of another key.
+void visit_alternative(FieldVisitor& v, const char* key, std::optional<double>& value, const Bound& bound) {
+  if (!v.optional(key, value.has_value())) return;
+  if (!value) value.emplace();
+  v.number(key, *value, bound);
+}
+
+void visit_alternative(FieldVisitor& v, const char* key, Sweep& values, const Bound& bound) {
+  if (v.optional(key, !values.empty())) v.sweep(key, values, bound);
+}
+
 void visit(SwellSpec& spec, FieldVisitor& v) {
   v.number("significant_wave_height_m", spec.significant_wave_height_m, kWaveHeights);
-  v.number("peak_period_s", spec.peak_period_s, within(0.5, 40));
+  if (v.optional("peak_period_s", !spec.energy_period_s && !spec.zero_crossing_period_s))
+    v.number("peak_period_s", spec.peak_period_s, kPeakPeriods);
+  visit_alternative(v, "energy_period_s", spec.energy_period_s, kMeanPeriods);
+  visit_alternative(v, "zero_crossing_period_s", spec.zero_crossing_period_s, kMeanPeriods);
   v.number("gamma", spec.gamma, within(1, 20));
-  v.number("propagation_deg", spec.propagation_deg, within(-360, 360));
+  if (v.optional("propagation_deg", !spec.coming_from_deg))
+    v.number("propagation_deg", spec.propagation_deg, kDirections);
+  visit_alternative(v, "coming_from_deg", spec.coming_from_deg, kDirections);
   v.integer("components", spec.components, within(1, 100000));
   v.section("spreading", [&](FieldVisitor& spreading) { visit(spec.spreading, spreading); });
 }
@@ -96,12 +114,15 @@ void visit(SeaSpec& spec, FieldVisitor& v) {
   // A table replaces peak period and shape; Bretschneider's spectrum has gamma 1.
   visit_choice(v, "spectrum", spec.spectrum, {"jonswap", "bretschneider", "table"});
   if (v.optional("table", !spec.table.empty())) v.text("table", spec.table);
+  if (v.optional("table_time", !spec.table_time.empty())) v.text("table_time", spec.table_time);
   visit_sweep(v, "significant_wave_height_m", spec.significant_wave_height_m, kWaveHeights, spec.height_rule,
               {"from_table"});
-  if (v.optional("peak_period_s", spec.spectrum != SpectrumKind::kTable)) {
-    visit_sweep(v, "peak_period_s", spec.peak_period_s, within(0.5, 40), spec.period_rule,
+  const bool has_mean_period = !spec.energy_period_s.empty() || !spec.zero_crossing_period_s.empty();
+  if (v.optional("peak_period_s", spec.spectrum != SpectrumKind::kTable && !has_mean_period))
+    visit_sweep(v, "peak_period_s", spec.peak_period_s, kPeakPeriods, spec.period_rule,
                 {"dnv_wind_sea", "wind_and_fetch"});
-  }
+  visit_alternative(v, "energy_period_s", spec.energy_period_s, kMeanPeriods);
+  visit_alternative(v, "zero_crossing_period_s", spec.zero_crossing_period_s, kMeanPeriods);
   if (v.optional("wind", spec.period_rule == PeakPeriod::kWindAndFetch)) {
     v.section("wind", [&](FieldVisitor& wind) { visit(spec.wind, wind); });
   }
@@ -111,7 +132,9 @@ void visit(SeaSpec& spec, FieldVisitor& v) {
   if (v.optional("normalisation", spec.spectrum == SpectrumKind::kJonswap)) {
     visit_choice(v, "normalisation", spec.normalisation, {"exact", "dnv"});
   }
-  v.sweep("propagation_deg", spec.propagation_deg, within(-360, 360));
+  if (v.optional("propagation_deg", spec.coming_from_deg.empty()))
+    v.sweep("propagation_deg", spec.propagation_deg, kDirections);
+  visit_alternative(v, "coming_from_deg", spec.coming_from_deg, kDirections);
   v.section("spreading", [&](FieldVisitor& spreading) { visit(spec.spreading, spreading); });
   v.section("swell", [&](FieldVisitor& swell) { visit(spec.swell, swell); });
   if (v.optional("depth_m", spec.depth_m.has_value())) {

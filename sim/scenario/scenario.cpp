@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <set>
+#include <utility>
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/reproducible_functions.h"
@@ -56,8 +57,11 @@ fs::path file_of(const Scenario& scenario, const std::string& name, const std::s
 // Reads the file of `sea.table`, unless `known` has read it; null without a table.
 std::shared_ptr<const SpectrumTable> find_spectrum_table(const Scenario& scenario, const Scenario* known) {
   if (scenario.sea.spectrum != SpectrumKind::kTable || scenario.sea.table.empty()) return nullptr;
-  if (known && known->sea.table_values && known->sea.table == scenario.sea.table) return known->sea.table_values;
-  return std::make_shared<SpectrumTable>(read_spectrum_table(file_of(scenario, scenario.sea.table, "sea.table")));
+  const auto file_and_time = [](const SeaSpec& sea) { return std::pair(sea.table, sea.table_time); };
+  if (known && known->sea.table_values && file_and_time(known->sea) == file_and_time(scenario.sea))
+    return known->sea.table_values;
+  return std::make_shared<SpectrumTable>(
+      read_spectrum_table(file_of(scenario, scenario.sea.table, "sea.table"), scenario.sea.table_time));
 }
 
 // Reads the file of `radar.hop_code_file`, likewise.

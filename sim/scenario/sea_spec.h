@@ -44,8 +44,11 @@ struct SwellSpec {
   double significant_wave_height_m = 0;  // 0 = none, or 1e-6 <= x <= 30
   double peak_period_s = 12;             // 0.5 <= x <= 40
   double gamma = 5;                      // 1 <= x <= 20
-  double propagation_deg = 120;          // as of the sea, -360 <= x <= 360
-  int components = 128;                  // 1 <= x <= 100000
+  // In the place of peak_period_s: mean periods as of the sea, 0.3 <= x <= 40
+  std::optional<double> energy_period_s, zero_crossing_period_s;
+  double propagation_deg = 120;           // as of the sea, -360 <= x <= 360
+  std::optional<double> coming_from_deg;  // in its place, as of the sea
+  int components = 128;                   // 1 <= x <= 100000
   SpreadingSpec spreading;
 };
 
@@ -54,14 +57,19 @@ struct SeaSpec {
   WaveHeight height_rule = WaveHeight::kGiven;
   Sweep peak_period_s{8};  // 0.5 <= x <= 40; empty when a rule gives it
   PeakPeriod period_rule = PeakPeriod::kGiven;
+  // In the place of peak_period_s: the mean periods Te = 2 pi m_-1/m_0 and Tz = 2 pi sqrt(m_0/m_2) of the whole
+  // spectrum without a cut-off, 0.3 <= x <= 40; empty: not given. The peak period that they give is within its bounds.
+  Sweep energy_period_s, zero_crossing_period_s;
   WindSpec wind;
   SpectrumKind spectrum = SpectrumKind::kJonswap;
-  std::string table;  // file of spectrum: table, in the scenario's folder or the working directory
+  std::string table;       // file of spectrum: table, in the scenario's folder or the working directory
+  std::string table_time;  // of a file of several spectra: "2018-01-01 00:40"
   std::shared_ptr<const SpectrumTable> table_values;  // contents of that file
   Sweep gamma{3.3};                                   // peak enhancement, 1 <= x <= 20; empty when a rule gives it
   PeakEnhancement gamma_rule = PeakEnhancement::kGiven;
   SpectrumNormalisation normalisation = SpectrumNormalisation::kExact;
   Sweep propagation_deg{120};  // direction the waves travel towards, in the target frame, -360 <= x <= 360
+  Sweep coming_from_deg;       // in its place: direction the waves come from, likewise; empty: not given
   SpreadingSpec spreading;
   SwellSpec swell;
   std::optional<double> depth_m;  // 0.5 <= x <= 12000; deep water without it

@@ -9,24 +9,13 @@
 #include <utility>
 
 #include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/quadrature.h"
 #include "sim/core/numbers/reproducible_functions.h"
 #include "sim/core/process/error.h"
+#include "sim/scenario/jonswap.h"
 #include "sim/scenario/scenario.h"
-#include "sim/sea/quadrature.h"
 
 namespace seaglint {
-
-namespace {
-
-// Peak enhancement gamma^r - 1, r = exp(-(u-1)^2 / (2 s^2)), s = 0.07 below the peak and 0.09 above (Hasselmann et al.
-// 1973, "Measurements of wind-wave growth and swell decay during JONSWAP", Deutsche Hydrogr. Z. A8(12), eq. 2.4.1).
-double enhancement(double u, double gamma) {
-  const double s = u <= 1 ? 0.07 : 0.09;
-  const double z = (u - 1) / s;
-  return reproducible_exp(reproducible_log(gamma) * reproducible_exp(-0.5 * z * z)) - 1;
-}
-
-}  // namespace
 
 JonswapSpectrum::JonswapSpectrum(double significant_wave_height_m, double peak_period_s, double gamma,
                                  SpectrumNormalisation normalisation)
@@ -51,17 +40,16 @@ JonswapSpectrum::JonswapSpectrum(double significant_wave_height_m, double peak_p
 double JonswapSpectrum::shape(double u) const {
   if (!(u > 0)) return 0;
   const double u4 = u * u * u * u;
-  return reproducible_exp(-1.25 / u4) / (u4 * u) * (1 + enhancement(u, gamma_));
+  return reproducible_exp(-1.25 / u4) / (u4 * u) * (1 + jonswap_enhancement(u, gamma_));
 }
 
 double JonswapSpectrum::density(double omega) const { return scale_ / peak_omega_ * shape(omega / peak_omega_); }
 
-// Contribution of the peak enhancement to the integral of the shape; below u = 0.3 and above 1.9 (ten standard
-// deviations) it is below double precision.
+// Contribution of the peak enhancement to the integral of the shape.
 double JonswapSpectrum::enhancement_integral(double lower, double upper) const {
   const auto added = [this](double u) {
     const double u4 = u * u * u * u;
-    return reproducible_exp(-1.25 / u4) / (u4 * u) * enhancement(u, gamma_);
+    return reproducible_exp(-1.25 / u4) / (u4 * u) * jonswap_enhancement(u, gamma_);
   };
   constexpr double kPiece = 0.02;
   const auto part = [&](double a, double b) {
@@ -69,7 +57,7 @@ double JonswapSpectrum::enhancement_integral(double lower, double upper) const {
     const double to = std::min(b, upper);
     return from < to ? integrate(from, to, kPiece, added) : 0.0;
   };
-  return part(0.3, 1) + part(1, 1.9);  // s jumps at the peak
+  return part(kEnhancementBegin, 1) + part(1, kEnhancementEnd);  // s jumps at the peak
 }
 
 double JonswapSpectrum::energy(double lower, double upper) const {

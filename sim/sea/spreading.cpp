@@ -7,11 +7,11 @@
 #include <cmath>
 
 #include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/quadrature.h"
 #include "sim/core/numbers/random.h"
 #include "sim/core/numbers/reproducible_functions.h"
 #include "sim/core/numbers/unit_phasors.h"
 #include "sim/core/process/error.h"
-#include "sim/sea/quadrature.h"
 
 namespace seaglint {
 

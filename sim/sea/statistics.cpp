@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/sea/quadrature.h"
+#include "sim/core/numbers/quadrature.h"
 #include "sim/sea/spectrum.h"
 
 namespace seaglint {

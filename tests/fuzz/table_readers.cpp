@@ -44,6 +44,7 @@ void fuzz_spectrum(const std::string& bytes) {
     table.energy();
     table.peak_omega();
   });
+  is_refused([&] { parse_spectrum_table(bytes, "spectrum.csv", "2018-01-01 01:40"); });
 }
 
 void fuzz_hop_code(const std::string& bytes) {

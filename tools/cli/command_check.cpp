@@ -68,6 +68,7 @@ void add_check(CommandOptions& program, CommandContext& context) {
       print_error(summary(scenario, pipeline.plan()) + shared_classes(scenario, pipeline.plan()) +
                   figures_of_merit_text(train, scenario.radar));
       report_motion_files(pipeline);
+      report_spectrum_table(scenario);
       warn(mesh_warnings(pipeline));
       warn(motion_warnings(pipeline));
       warn(sea_warnings(scenario, pipeline.plan().sea_states()));

@@ -62,6 +62,7 @@ void write_echo(const Arguments& arguments) {
     throw InputError(fmt::format("--sample {}: the scenario has samples 0 to {}", arguments.sample, plan.size() - 1));
   const Pipeline pipeline(scenario, plan);
   report_motion_files(pipeline);
+  report_spectrum_table(scenario);
   warn(mesh_warnings(pipeline));
   warn(motion_warnings(pipeline));
   warn(sea_warnings(scenario, plan.sea_states()));

@@ -69,6 +69,7 @@ void show_map(const Arguments& arguments) {
     throw InputError(fmt::format("--sample {}: the scenario has samples 0 to {}", sample, plan.size() - 1));
   const Pipeline pipeline(scenario, plan);
   report_motion_files(pipeline);
+  report_spectrum_table(scenario);
   warn(mesh_warnings(pipeline));
   warn(motion_warnings(pipeline));
   warn(sea_warnings(scenario, plan.sea_states()));

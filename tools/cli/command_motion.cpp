@@ -66,6 +66,7 @@ void write_motion(const MotionArguments& arguments, const CommandContext& contex
   require_outputs(outputs, {arguments.scenario.file, arguments.rao_reference});
   const Scenario scenario = arguments.scenario.read();
   require_outputs(outputs, files_of(scenario));
+  report_spectrum_table(scenario);
   warn(sea_warnings(scenario, sea_states(scenario.sea)));
   const std::size_t count = uniform_time_count(arguments.duration_s, arguments.step_s);
   const MovingBodies scene =

@@ -125,6 +125,7 @@ void write_sea(const SeaArguments& arguments, const CommandContext& context) {
   require_outputs(outputs, {arguments.scenario.file});
   const Scenario scenario = arguments.scenario.read();
   require_outputs(outputs, files_of(scenario));
+  report_spectrum_table(scenario);
   warn(sea_warnings(scenario, sea_states(scenario.sea)));
   const auto [state, field] = choose_sea(scenario, {});
   const SeaSummary summary = summarise(state, field);

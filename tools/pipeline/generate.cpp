@@ -41,6 +41,7 @@ GenerateResult generate_dataset(const Pipeline& pipeline, const std::filesystem:
   const Scenario& scenario = pipeline.scenario();
   const SamplePlan& plan = pipeline.plan();
   report_motion_files(pipeline);
+  report_spectrum_table(scenario);
   warn(mesh_warnings(pipeline));
   warn(motion_warnings(pipeline));
   warn(sea_warnings(scenario, plan.sea_states()));

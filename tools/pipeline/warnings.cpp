@@ -10,6 +10,7 @@
 #include "classify/dataset/directory/merged.h"
 #include "radar/waveform/figures_of_merit.h"
 #include "radar/waveform/pulse_train.h"
+#include "sim/core/numbers/constants.h"
 #include "sim/core/process/printable.h"
 #include "sim/core/process/standard_error.h"
 #include "sim/sea/realisation.h"
@@ -79,6 +80,16 @@ std::string motion_file_note(const TargetSpec& target, const Body& body) {
 void report_motion_file(const TargetSpec& target, const Body& body) {
   const std::string note = motion_file_note(target, body);
   if (!note.empty()) print_error(on_one_line(note) + "\n");
+}
+
+void report_spectrum_table(const Scenario& scenario) {
+  if (scenario.sea.table_values == nullptr) return;
+  const SpectrumTable& table = *scenario.sea.table_values;
+  print_error(
+      on_one_line(fmt::format("sea.table: {}: {}; {} frequencies, {:.4g} to {:.4g} rad/s, Hs {:.4g} m, Tp {:.4g} s",
+                              scenario.sea.table, table.reading, table.omega.size(), table.omega.front(),
+                              table.omega.back(), 4 * std::sqrt(table.energy()), 2 * kPi / table.peak_omega())) +
+      "\n");
 }
 
 void report_motion_files(const Pipeline& pipeline) {

@@ -31,6 +31,9 @@ void report_motion_file(const TargetSpec& target, const Body& body);
 // The same for every target.
 void report_motion_files(const Pipeline& pipeline);
 
+// Prints how the file of sea.table was understood, with its height and peak period; nothing without such a file.
+void report_spectrum_table(const Scenario& scenario);
+
 // One line per wave system of the scenario's sea states with so few components that its mean period varies between
 // realisations.
 std::vector<std::string> sea_warnings(const Scenario& scenario, std::span<const SeaState> states);

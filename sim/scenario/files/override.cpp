@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "sim/core/process/error.h"
 #include "sim/core/process/utf8.h"
@@ -31,6 +33,17 @@ void mark_as_override(YamlNode& node, int index) {
   for (YamlEntry& entry : node.entries) {
     entry.location.override_index = index;
     mark_as_override(entry.value, index);
+  }
+}
+
+// Removes the alternatives of a key from the section that contains it.
+void remove_alternatives(YamlNode& section, const std::string& section_path, const std::string& key) {
+  for (const Alternatives& group : kAlternatives) {
+    const auto is_of_group = [&](const std::string& name) {
+      return std::find(std::begin(group.keys), std::end(group.keys), name) != std::end(group.keys);
+    };
+    if (section_path != group.section || !is_of_group(key)) continue;
+    std::erase_if(section.entries, [&](const YamlEntry& entry) { return entry.key != key && is_of_group(entry.key); });
   }
 }
 
@@ -75,6 +88,14 @@ void apply_override(ScenarioDocument& document, const Override& override_value) 
     node = child;
   }
   *node = std::move(value);
+  const std::size_t dot = override_value.key_path.rfind('.');
+  if (dot == std::string::npos) return;
+  const std::string section_path = override_value.key_path.substr(0, dot);
+  YamlNode* section = &document.root;
+  for (const std::string& key : split_path(section_path)) {
+    if (section != nullptr) section = section->find(key);
+  }
+  if (section != nullptr) remove_alternatives(*section, section_path, override_value.key_path.substr(dot + 1));
 }
 
 }  // namespace seaglint

@@ -193,6 +193,12 @@ void make_consistent(Scenario& scenario) {
   for (double& height : scenario.sea.significant_wave_height_m) height *= 1e-3;
   scenario.sea.swell.significant_wave_height_m *= 1e-3;
   scenario.sea.cutoff_rad_s = scenario.sea.period_rule == PeakPeriod::kGiven ? 20 + 0.7 * scenario.sea.cutoff_rad_s : 0;
+  // Their peak periods are within bounds.
+  SwellSpec& swell = scenario.sea.swell;
+  for (Sweep* periods : {&scenario.sea.energy_period_s, &scenario.sea.zero_crossing_period_s})
+    for (double& period : *periods) period = 0.6 + 0.65 * period;
+  for (std::optional<double>* period : {&swell.energy_period_s, &swell.zero_crossing_period_s})
+    if (*period) **period = 0.6 + 0.65 * **period;
   scenario.sea.components = 1 + scenario.sea.components % 1000;
   scenario.sea.swell.components = 1 + scenario.sea.swell.components % 1000;
   if (scenario.sea_reflection.enabled) {
@@ -225,6 +231,16 @@ TEST(RoundTrip, EveryFieldComesBackToTheBit) {
     if (round % 4 == 2) {
       scenario.sea.period_rule = PeakPeriod::kWindAndFetch;
       scenario.sea.peak_period_s.clear();
+    }
+    if (round % 8 == 1) {
+      scenario.sea.energy_period_s = {7};
+      scenario.sea.coming_from_deg = {10};
+      scenario.sea.swell.zero_crossing_period_s = 9;
+      scenario.sea.swell.coming_from_deg = 20;
+    }
+    if (round % 8 == 5) {
+      scenario.sea.zero_crossing_period_s = {6};
+      scenario.sea.swell.energy_period_s = 9;
     }
     // The choice after a table is JONSWAP, which has most keys; a table needs its file (spectrum_table_test.cpp).
     if (round % 2 == 0) scenario.sea.spectrum = SpectrumKind::kTable;

@@ -13,6 +13,7 @@
 #include "sim/core/process/data_folder.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
+#include "sim/scenario/jonswap.h"
 #include "sim/scenario/scenario.h"
 #include "sim/scenario/writer.h"
 
@@ -50,6 +51,97 @@ TEST(SpectrumTable, IsReadAsOtherProgramsWriteIt) {
   EXPECT_DOUBLE_EQ(other.peak_omega(), 2 * kPi * 0.1);
 }
 
+// One triangle of 1.5 m^2/Hz from 0.05 to 0.2 Hz.
+void expect_triangle(const std::string& text, const std::string& time = "") {
+  const SpectrumTable table = parse_spectrum_table(text, "s.csv", time);
+  EXPECT_NEAR(table.energy(), 0.5 * 1.5 * 0.15, 1e-12) << text;
+  EXPECT_NEAR(table.peak_omega(), 2 * kPi * 0.1, 1e-12) << text;
+}
+
+TEST(SpectrumTable, IsReadByTheNamesOfOtherPrograms) {
+  expect_triangle(",\"JONSWAP (2.5m,8.0s)\"\n0.05,0\n0.1,1.5\n0.2,0\n");
+  expect_triangle("Frequency,Bretschneider (2.5m)\n0.05,0\n0.1,1.5\n0.2,0\n");
+  expect_triangle("f,S\n0.05,0\n0.1,1.5\n0.2,0\n");
+  expect_triangle("Frequency (Hz),Energy Density (m^2/Hz)\n0.05,0\n0.1,1.5\n0.2,0\n");
+  expect_triangle("freq [Hz];spectral density [m\xc2\xb2/Hz]\n0.05;0\n0.1;1.5\n0.2;0\n");
+  const std::string omega =
+      fmt::format("omega,S\n{},0\n{},{}\n{},0\n", 2 * kPi * 0.05, 2 * kPi * 0.1, 1.5 / (2 * kPi), 2 * kPi * 0.2);
+  expect_triangle(omega);
+  EXPECT_EQ(parse_spectrum_table("f,S\n0.05,0\n0.1,1.5\n", "s.csv").reading, "f in Hz, s in m^2/Hz");
+}
+
+constexpr const char* kHistorical =
+    "#YY  MM DD hh mm  .0500  .1000  .2000\n"
+    "2018 01 01 00 40   0.00   1.00   0.00\n"
+    "2018 01 01 01 40   0.00   1.50   0.00\n"
+    "2018 01 01 02 40 999.00   1.50   0.00\n";
+
+TEST(SpectrumTable, IsReadFromFilesOfNdbc) {
+  expect_triangle(kHistorical, "2018-01-01 01:40");
+  expect_triangle(kHistorical, "2018-01-01T01:40:00");
+  EXPECT_EQ(parse_spectrum_table(kHistorical, "s.txt", "201801010140").reading,
+            "NDBC, Hz and m^2/Hz, of 2018-01-01 01:40");
+  expect_triangle("YY MM DD hh .05 .10 .20\n96 12 31 23 0.0 1.5 0.0\n");
+  expect_triangle(
+      "#YY  MM DD hh mm Sep_Freq  < spec_1 (freq_1) spec_2 (freq_2) ... >\n"
+      "2026 07 30 01 50 0.120 0.000 (0.050) 1.500 (0.100) 0.000 (0.200)\n");
+  const auto complaint = [](const std::string& time) {
+    try {
+      parse_spectrum_table(kHistorical, "s.txt", time);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_EQ(complaint(""), "s.txt: 3 spectra, 2018-01-01 00:40 to 2018-01-01 02:40: sea.table_time must choose one");
+  EXPECT_EQ(complaint("2018-01-01 01:41"),
+            "s.txt: 3 spectra, 2018-01-01 00:40 to 2018-01-01 02:40: none of sea.table_time '2018-01-01 01:41'");
+  EXPECT_EQ(complaint("2018-01-01 02:40"), "s.txt:4:18: spectral density: missing in this spectrum");
+}
+
+std::string swan(const std::string& directions, const std::string& unit, const std::string& rows) {
+  return "SWAN   1                                Swan standard spectral file, version\n"
+         "$   Data produced by SWAN version 41.31\n"
+         "TIME                                    time-dependent data\n     1        time coding option\n"
+         "LOCATIONS                               locations in x-y-space\n     1     number of locations\n 10.0 20.0\n"
+         "AFREQ                                   absolute frequencies in Hz\n     3\n 0.05\n 0.1\n 0.2\n" +
+         directions + "QUANT\n" + unit + rows;
+}
+
+TEST(SpectrumTable, IsReadFromFilesOfSwan) {
+  const std::string three =
+      "     3      number of quantities in table\nVaDens      variance densities in m2/Hz\nm2/Hz        unit\n"
+      "   -0.9900E+02      exception value\nNDIR\ndegr\n   -0.9990E+03\nDSPRDEGR\ndegr\n   -0.9000E+01\n";
+  const std::string rows =
+      "19680606.030000                         date and time\nLOCATION     1\n 0.0 190.1 24.9\n 0.15E+01 190 25\n 0 "
+      "190 "
+      "25\n";
+  expect_triangle(swan("", three, rows));
+  expect_triangle(swan("", three, rows), "1968-06-06 03:00");
+  // Joules per square metre are rho g times the variance.
+  const std::string energy = "     1\nEnDens\nJ/m2/Hz\n -99\n";
+  expect_triangle(swan("", energy, fmt::format("19680606.0300\nLOCATION 1\n0\n{}\n0\n", 1.5 * 1025 * 9.81)));
+  // Four directions of 90 deg, with a factor.
+  const std::string directions = "NDIR\n     4\n 0\n 90\n 180\n 270\n", density = "     1\nVaDens\nm2/Hz/degr\n -99\n";
+  expect_triangle(
+      swan(directions, density, fmt::format("19680606.0300\nFACTOR\n{}\n 0 0 0 0\n 1 2 3 4\n 0 0 0 0\n", 1.5 / 900)));
+  const auto complaint = [](const std::string& text, const char* time = "") {
+    try {
+      parse_spectrum_table(text, "s.spc", time);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_EQ(complaint(swan("", three, rows + "19680606.040000\nLOCATION     1\nNODATA\n")),
+            "s.spc: 2 spectra, 1968-06-06 03:00 to 1968-06-06 04:00: sea.table_time must choose one");
+  EXPECT_EQ(complaint(swan("", three, rows + "19680606.040000\nLOCATION     1\nNODATA\n"), "1968-06-06 04"),
+            "s.spc: no data in this spectrum");
+  EXPECT_EQ(complaint(swan("", "     1\nHsig\nm\n -99\n", rows)), "s.spc: no quantity VaDens or EnDens");
+  EXPECT_EQ(complaint(swan("", three, "19680606.03\nLOCATION 1\n 0 1 2\n -99 1 2\n 0 1 2\n")),
+            "s.spc:27:2: variance density: the exception value, no data");
+}
+
 TEST(SpectrumTable, IsRefusedForEveryMistake) {
   const std::string header = "omega_rad_s,density_m2_s\n";
   EXPECT_EQ(complaint(""), "s.csv: 0 rows: the file is empty: must be a table with a header");
@@ -58,7 +150,7 @@ TEST(SpectrumTable, IsRefusedForEveryMistake) {
             "a row of units below");
   EXPECT_EQ(complaint("omega_rad_s,energy\n1,2\n"),
             "s.csv:1:1: no column density_m2_s; the columns are omega_rad_s, energy (it may be called "
-            "density_m2_s_rad, density_m2_hz)");
+            "density_m2_s_rad, density_m2_hz, s_m2_hz, s_m2_s_rad, s_m2_rad_s and more)");
   EXPECT_EQ(complaint(header + "1,2\n"), "s.csv: 1 rows of numbers below the names: must be at least 2");
   EXPECT_EQ(complaint(header + "1,2\n1,3\n"), "s.csv:3:1: omega_rad_s: value '1': must be greater than 1 of line 2");
   EXPECT_EQ(complaint(header + "1,2\n\n0.5,3\n"),
@@ -119,6 +211,83 @@ TEST_F(SeaKeys, RulesSetPeriodAndGamma) {
   EXPECT_NEAR(sea_states(fetch.sea)[0].peak_period_s, 10 / 9.81 / 3.5 * std::pow(9810, 0.33), 1e-12);
   EXPECT_NEAR(sea_states(fetch.sea)[0].peak_period_s, 6.0, 0.1);
   EXPECT_EQ(sea_states(read("spectrum: bretschneider").sea)[0].gamma, 1);
+}
+
+// Ratios of Te and Tz to Tp: closed forms at gamma 1, the fit of DNV-RP-C205 (2010), 3.5.5.4, otherwise, and moments of
+// the spectrum that the sea is made of.
+TEST_F(SeaKeys, MeanPeriodsGiveThePeakPeriod) {
+  EXPECT_NEAR(energy_period_ratio(1), 1.25 * std::tgamma(1.25) * std::pow(1.25, -1.25), 1e-12);
+  EXPECT_NEAR(zero_crossing_period_ratio(1), std::sqrt(0.8 / std::sqrt(kPi / 1.25)), 1e-12);
+  for (const double gamma : {1.0, 2.0, 3.3, 5.0, 7.0}) {
+    const double fit = 0.6673 + 0.05037 * gamma - 0.006230 * gamma * gamma + 0.0003341 * gamma * gamma * gamma;
+    EXPECT_NEAR(zero_crossing_period_ratio(gamma), fit, 2e-3) << gamma;
+    double before = 0, mean = 0, squares = 0;
+    for (int n = 1; n < 400000; ++n) {
+      const double u = 1e-4 * n, r = std::exp(-0.5 * std::pow((u - 1) / (u <= 1 ? 0.07 : 0.09), 2));
+      const double density = std::pow(u, -5) * std::exp(-1.25 * std::pow(u, -4)) * std::pow(gamma, r);
+      before += density / u, mean += density, squares += density * u * u;
+    }
+    EXPECT_NEAR(energy_period_ratio(gamma), before / mean, 1e-5) << gamma;
+    EXPECT_NEAR(zero_crossing_period_ratio(gamma), std::sqrt(mean / squares), 4e-4) << gamma;  // the tail above u = 40
+  }
+  const SeaState energy = sea_states(read("energy_period_s: 8, gamma: 3.3").sea)[0];
+  EXPECT_NEAR(energy.peak_period_s, 8 / energy_period_ratio(3.3), 1e-12);
+  EXPECT_EQ(energy.gamma, 3.3);
+  const SeaState crossing = sea_states(read("spectrum: bretschneider, zero_crossing_period_s: 6").sea)[0];
+  EXPECT_NEAR(crossing.peak_period_s, 6 / 0.71042, 1e-3);
+  // A sweep of periods and gammas has all pairs, periods slowest.
+  const auto states = sea_states(read("energy_period_s: [7, 9], gamma: [1, 5]").sea);
+  ASSERT_EQ(states.size(), 4u);
+  EXPECT_NEAR(states[1].peak_period_s, 7 / energy_period_ratio(5), 1e-12);
+  EXPECT_NEAR(states[2].peak_period_s, 9 / energy_period_ratio(1), 1e-12);
+  // The rule for gamma holds for the peak period that follows.
+  const SeaState rule = sea_states(read("significant_wave_height_m: 4, energy_period_s: 7.4, gamma: dnv_rule").sea)[0];
+  EXPECT_NEAR(rule.peak_period_s, 7.4 / energy_period_ratio(rule.gamma), 1e-9);
+  EXPECT_NEAR(rule.gamma, std::exp(5.75 - 1.15 * rule.peak_period_s / 2), 1e-9);
+  const SeaState swell = sea_states(
+      read("swell: {significant_wave_height_m: 1, zero_crossing_period_s: 9, gamma: 5, coming_from_deg: 10}").sea)[0];
+  EXPECT_NEAR(swell.swell.peak_period_s, 9 / zero_crossing_period_ratio(5), 1e-12);
+  EXPECT_NEAR(swell.swell.propagation_rad, radians(190), 1e-12);
+}
+
+// Waves that come from ahead (0) are a head sea, propagation 180 (CONVENTIONS.md, "Frames").
+TEST_F(SeaKeys, WavesComeFromTheOppositeOfTheirPropagation) {
+  const auto states = sea_states(read("coming_from_deg: [0, 90, 180, 270, -30, 350]").sea);
+  ASSERT_EQ(states.size(), 6u);
+  const double towards[] = {180, 270, 0, 90, 150, 170};
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(states[i].propagation_deg, towards[i]) << i;
+}
+
+TEST_F(SeaKeys, ThatStateOneQuantityExcludeEachOther) {
+  EXPECT_EQ(complaint("peak_period_s: 8, energy_period_s: 7"),
+            "sea.energy_period_s: value '7': not allowed here: valid only without sea.peak_period_s");
+  EXPECT_EQ(complaint("propagation_deg: 8, coming_from_deg: 7"),
+            "sea.coming_from_deg: value '7': not allowed here: valid only without sea.propagation_deg");
+  EXPECT_EQ(
+      complaint("swell: {zero_crossing_period_s: 8, peak_period_s: 7}"),
+      "sea.swell.zero_crossing_period_s: value '8': not allowed here: valid only without sea.swell.peak_period_s");
+  EXPECT_EQ(complaint("coming_from_deg: [10, -350]"),
+            "sea.coming_from_deg: -350 and 10 are the same direction: list it once");
+  EXPECT_EQ(complaint("zero_crossing_period_s: 39"),
+            "sea.zero_crossing_period_s: value '39': its peak period is 50.17 s: must be within 0.5 and 40");
+  EXPECT_EQ(complaint("spectrum: table, table: buoy.csv, energy_period_s: 8"),
+            "sea.energy_period_s: value '8': not allowed here: valid only with spectrum: jonswap or bretschneider; a "
+            "table has its own peak");
+  EXPECT_EQ(complaint("spectrum: table, table: buoy.csv, table_time: 2018"), "sea.table_time is not allowed here");
+  // --set of one replaces another.
+  const Scenario set = parse_scenario(
+      "seaglint: 1\ntargets: {a: {label: 1, mesh: a.glb}}\nsea: {peak_period_s: 8, propagation_deg: 10}\n", "file.yaml",
+      {{"sea.energy_period_s", "7"}, {"sea.coming_from_deg", "20"}});
+  EXPECT_EQ(sea_states(set.sea)[0].propagation_deg, 200);
+  EXPECT_NEAR(sea_states(set.sea)[0].peak_period_s, 7 / energy_period_ratio(3.3), 1e-12);
+  EXPECT_EQ(effective_yaml(set).find("\n  peak_period_s"), std::string::npos);
+  // They are drawn as the others are.
+  const Scenario drawn = read("energy_period_s: uniform(6 8), coming_from_deg: uniform(0 360)");
+  EXPECT_EQ(drawn.variations.size(), 2u);
+  const SeaState state = sea_states(drawn_scenario(drawn, {3, 0, 0}).sea)[0];
+  EXPECT_NE(state.propagation_deg, sea_states(drawn.sea)[0].propagation_deg);
+  EXPECT_GE(state.peak_period_s, 6 / energy_period_ratio(3.3));
+  EXPECT_LE(state.peak_period_s, 8 / energy_period_ratio(3.3));
 }
 
 TEST_F(SeaKeys, DepthAndSwellReachTheState) {
