@@ -2,9 +2,12 @@
 #include "sim/motion/body.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/data_folder.h"
@@ -29,22 +32,37 @@ double given_or(double value, double derived) { return value > 0 ? value : deriv
 bool is_wamit(const std::filesystem::path& file) { return file.extension() == ".4"; }
 
 // Reads a table of responses: speed and reference point come from the file (VERES) or from the spec (WAMIT).
-RaoTable read_table_of(const MotionSpec& spec, const std::filesystem::path& file, const Vec3& reference) {
+RaoTable read_table_of(const MotionSpec& spec, const std::filesystem::path& file, const Vec3& reference,
+                       const BodyShape& shape) {
+  const Vec3 size = shape.box.upper - shape.box.lower;
+  const double side_m = shape.is_raft ? 0 : std::max({size.x(), size.y(), 0.0});
   if (is_wamit(file)) {
     if (spec.speed_mps > 0) {
       throw InputError(fmt::format("motion.speed_mps: value {}: must be 0 with {}: its responses are without speed",
                                    spec.speed_mps, file.string()));
     }
-    return read_wamit_rao(file, {spec.wamit_ulen_m, spec.wamit_heading, spec.wamit_time_factor}, reference);
+    const bool per_slope =
+        spec.rao_rotations == RaoRotations::kSlope || spec.rao_rotations == RaoRotations::kSlopeDegrees;
+    if (per_slope && spec.wamit_ulen_m != 1) {
+      throw InputError(fmt::format("motion.wamit_ulen_m: value {}: must be 1 with motion.rao_rotations per slope",
+                                   spec.wamit_ulen_m));
+    }
+    return read_wamit_rao(file, spec, reference, side_m);
   }
   if (spec.rotation_centre_m) {
     throw InputError(fmt::format("motion.rotation_centre_m: not allowed here: {} gives it", file.string()));
   }
-  if (spec.wamit_heading != HeadingConvention::kTowards)
-    throw InputError(fmt::format("motion.wamit_heading: not allowed here: {} is of VERES", file.string()));
-  if (spec.wamit_time_factor != TimeFactor::kPlus)
-    throw InputError(fmt::format("motion.wamit_time_factor: not allowed here: {} is of VERES", file.string()));
-  return read_veres_rao(file, spec.speed_mps);
+  const MotionSpec standard;
+  const std::pair<const char*, bool> of_wamit[] = {
+      {"wamit_heading", spec.wamit_heading != standard.wamit_heading},
+      {"wamit_time_factor", spec.wamit_time_factor != standard.wamit_time_factor},
+      {"wamit_body", spec.wamit_body != standard.wamit_body},
+      {"wamit_xbody_m", spec.wamit_xbody_m != standard.wamit_xbody_m},
+      {"wamit_first_column", spec.wamit_first_column != standard.wamit_first_column}};
+  for (const auto& [key, is_given] : of_wamit) {
+    if (is_given) throw InputError(fmt::format("motion.{}: not allowed here: {} is of VERES", key, file.string()));
+  }
+  return read_veres_rao(file, spec.speed_mps, spec, side_m);
 }
 
 // Shortest natural period of the oscillating degrees of freedom of a body, s; infinite without any.
@@ -77,18 +95,34 @@ const char* heading_of(const MotionSpec& spec, bool wamit) {
                                                         : "WAMIT: the direction of propagation";
 }
 
+// What the longest waves of a table say about its conventions and units.
+std::string long_wave_reading(const RaoTable& table, const MotionSpec& spec) {
+  if (!spec.rao_follows_long_waves) return "its long waves are not checked (motion.rao_follows_long_waves: false)";
+  const LongWaveLimits limits = long_wave_limits(table);
+  const LongWaves sign = long_waves_of(table);
+  if (sign == LongWaves::kTooShort && limits.heave && std::abs(*limits.heave - 1.0) > 0.05) {
+    return fmt::format("heave in its longest waves, {:.4g} s, is {:.2g} where a free body has 1", limits.period_s,
+                       std::abs(*limits.heave));
+  }
+  if (sign == LongWaves::kTooShort)
+    return fmt::format("its longest waves, {:.4g} s, are too short to confirm that", limits.period_s);
+  if (sign == LongWaves::kDisagree)
+    return fmt::format("its longest waves, {:.4g} s, contradict the sign of pitch", limits.period_s);
+  std::vector<const char*> confirmed;
+  if (limits.heave) confirmed.push_back("heave");
+  confirmed.push_back(limits.pitch ? "pitch" : "the sign of pitch");
+  if (limits.roll) confirmed.push_back("roll");
+  return fmt::format("its longest waves, {:.4g} s, confirm {}", limits.period_s, fmt::join(confirmed, ", "));
+}
+
 std::string reading_of(const RaoTable& table, const MotionSpec& spec) {
   const auto& [headings, omegas] = std::pair(table.headings(), table.omegas());
-  const LongWaves waves = long_waves_of(table);
   return fmt::format(
       "{} headings of waves towards {:.4g} to {:.4g} deg ({}), {} frequencies {:.4g} to {:.4g} rad/s, "
       "speed {:.4g} m/s, time factor e^{{{}iwt}}; {}",
       headings.size(), degrees(headings.front()), degrees(headings.back()), heading_of(spec, is_wamit(table.source())),
       omegas.size(), omegas.front(), omegas.back(), table.speed(),
-      spec.wamit_time_factor == TimeFactor::kMinus ? '-' : '+',
-      waves == LongWaves::kAgree      ? "pitch in its longest waves agrees"
-      : waves == LongWaves::kDisagree ? "pitch in its longest waves does NOT agree"
-                                      : "its longest waves are too short to confirm that");
+      spec.wamit_time_factor == TimeFactor::kMinus ? '-' : '+', long_wave_reading(table, spec));
 }
 
 }  // namespace
@@ -136,6 +170,12 @@ Body make_body(const MotionSpec& spec, const BodyShape& shape, const std::filesy
                                                         ? "this key is missing: model series and rao need it"
                                                         : "not allowed here: valid only with model: series or rao"));
   }
+  if (spec.model != MotionModel::kSeries && spec.heading != MeanRule::kAuto)
+    throw InputError("motion.heading: not allowed here: valid only with model: series");
+  if (spec.model != MotionModel::kSeries && spec.position != MeanRule::kAuto)
+    throw InputError("motion.position: not allowed here: valid only with model: series");
+  if (!spec.translations && spec.position != MeanRule::kAuto)
+    throw InputError("motion.position: not allowed here: valid only with translations: true");
   Body body{spec, {}, Vec3::Zero()};
   if (spec.model == MotionModel::kShip) {
     const ShipParticulars ship = ship_particulars(spec, ship_sections(spec, shape, folder));
@@ -149,9 +189,11 @@ Body make_body(const MotionSpec& spec, const BodyShape& shape, const std::filesy
   }
   if (spec.rotation_centre_m) body.rotation_centre = Eigen::Map<const Vec3>(spec.rotation_centre_m->data());
   if (spec.model == MotionModel::kSeries) {
-    body.model = read_attitude_series(find_file(spec.file, folder, "motion.file"));
+    body.model = read_attitude_series(find_file(spec.file, folder, "motion.file"),
+                                      {spec.translations, spec.heading, spec.position});
   } else if (spec.model == MotionModel::kRao) {
-    const RaoTable table = read_table_of(spec, find_file(spec.file, folder, "motion.file"), body.rotation_centre);
+    const RaoTable table =
+        read_table_of(spec, find_file(spec.file, folder, "motion.file"), body.rotation_centre, shape);
     body.rotation_centre = table.reference();
     body.model = table;
   }

@@ -228,8 +228,17 @@ void visit(MotionSpec& spec, FieldVisitor& v) {
   v.number("yaw_gyradius_m", spec.yaw_gyradius_m, within(0, 500));
   v.number("speed_mps", spec.speed_mps, within(0, 40));
   if (v.optional("file", !spec.file.empty())) v.text("file", spec.file);
-  v.number("series_start_s", spec.series_start_s, within(-1e6, 1e6));
+  v.number("series_start_s", spec.series_start_s, within(-1e10, 1e10));
+  visit_choice(v, "heading", spec.heading, {"auto", "keep", "remove"});
+  visit_choice(v, "position", spec.position, {"auto", "keep", "remove"});
+  v.number("rao_scale", spec.rao_scale, above_up_to(0, 1e6));
+  v.number("rao_phase_deg", spec.rao_phase_deg, within(-360, 360));
+  visit_choice(v, "rao_rotations", spec.rao_rotations, {"radians", "degrees", "slope", "slope_degrees"});
+  v.flag("rao_follows_long_waves", spec.rao_follows_long_waves);
   v.number("wamit_ulen_m", spec.wamit_ulen_m, above_up_to(0, 1000));
+  v.integer("wamit_body", spec.wamit_body, within(0, 100));
+  v.triple("wamit_xbody_m", spec.wamit_xbody_m, within(-1e5, 1e5));
+  visit_choice(v, "wamit_first_column", spec.wamit_first_column, {"period", "omega"});
   visit_choice(v, "wamit_heading", spec.wamit_heading, {"towards", "from"});
   visit_choice(v, "wamit_time_factor", spec.wamit_time_factor, {"plus", "minus"});
   if (v.optional("sections", !spec.sections.empty())) v.text("sections", spec.sections);

@@ -18,6 +18,10 @@ enum class WaveSharing { kSameField, kIndependent };
 enum class TargetRole { kClass, kPart };
 enum class HeadingConvention { kTowards, kFrom };  // of waves
 enum class TimeFactor { kPlus, kMinus };           // e^{+iwt}, e^{-iwt}
+enum class MeanRule { kAuto, kKeep, kRemove };     // of a recorded quantity (sim/motion/recorded/README.md)
+// Rotations of a table of responses: rad or deg per metre of amplitude, or per slope k a of the wave.
+enum class RaoRotations { kRadians, kDegrees, kSlope, kSlopeDegrees };
+enum class WamitFirstColumn { kPeriod, kOmega };
 
 // (auto): zero means derived from the size of the mesh (sim/motion/ship/README.md, sim/motion/float/README.md).
 struct MotionSpec {
@@ -25,7 +29,7 @@ struct MotionSpec {
   bool translations = false;  // surge, sway and heave too
   // body frame, of a rigid raft that of its origin on the water (sim/motion/target_motion.h); default: centre of
   // gravity of a ship, centre of flotation of a float
-  std::optional<std::array<double, 3>> rotation_centre_m;
+  std::optional<std::array<double, 3>> rotation_centre_m = {};
   double roll_period_s = 0;            // (auto) 0 or 0.2 <= x <= 60
   double pitch_period_s = 0;           // (auto) 0 or 0.2 <= x <= 60
   double yaw_period_s = 0;             // course-keeping or mooring spring; 0 = free; 0 or 0.2 <= x <= 1000
@@ -42,17 +46,26 @@ struct MotionSpec {
   double metacentric_height_m = 1.95;  // 0.01 <= x <= 20
   // of gyration of the mass about the centre of gravity; 0: derived from roll_period_s, 0 <= x <= 100
   double roll_gyradius_m = 0;
-  double pitch_gyradius_m = 0;  // (auto) 0 <= x <= 500
-  double yaw_gyradius_m = 0;    // (auto) 0 <= x <= 500
-  double speed_mps = 0;         // of model ship, rao or series, forward, 0 <= x <= 40
-  std::string file;             // of model series (attitude over time) or rao (response operators)
-  double series_start_s = 0;    // time in the series that is t = 0, -1e6 <= x <= 1e6
-  double wamit_ulen_m = 1;      // ULEN of a WAMIT table, 0 < x <= 1000
+  double pitch_gyradius_m = 0;          // (auto) 0 <= x <= 500
+  double yaw_gyradius_m = 0;            // (auto) 0 <= x <= 500
+  double speed_mps = 0;                 // of model ship, rao or series, forward, 0 <= x <= 40
+  std::string file = {};                // of model series (attitude over time) or rao (response operators)
+  double series_start_s = 0;            // time in the series that is t = 0, -1e10 <= x <= 1e10
+  MeanRule heading = MeanRule::kAuto;   // of model series: its mean yaw
+  MeanRule position = MeanRule::kAuto;  // of model series: its mean surge, sway and heave
+  double rao_scale = 1;                 // factor of all responses of model rao, 0 < x <= 1e6
+  double rao_phase_deg = 0;             // added to all their phases, time factor e^{+iwt}, -360 <= x <= 360
+  RaoRotations rao_rotations = RaoRotations::kRadians;
+  bool rao_follows_long_waves = true;  // else the body is restrained: its limits in long waves are not checked
+  double wamit_ulen_m = 1;             // ULEN of a WAMIT table, 0 < x <= 1000
+  int wamit_body = 0;                  // body of a run of several, modes 6 b - 5 to 6 b; 0: the only one; 0 <= x <= 100
+  std::array<double, 3> wamit_xbody_m{0, 0, 0};  // its origin where the waves' phase is 0 at (0, 0, 0), |x| <= 1e5
+  WamitFirstColumn wamit_first_column = WamitFirstColumn::kPeriod;
   // Of a table in the format of WAMIT, which does not state them; WAMIT's own are the defaults.
   HeadingConvention wamit_heading = HeadingConvention::kTowards;
   TimeFactor wamit_time_factor = TimeFactor::kPlus;
-  std::string
-      sections;  // file of a ship's sections below the waterline; default: those of the mesh, else a parametric form
+  // file of a ship's sections below the waterline; default: those of the mesh, else a parametric form
+  std::string sections = {};
   double diameter_m = 0;  // (auto) of a float's waterplane, 0 <= x <= 50
   // height of a float's mesh origin above its centre of flotation, of a moving raft's reflectors above its waterline,
   // -10 <= x <= 50

@@ -61,6 +61,7 @@ void fuzz_series(const std::string& bytes) {
     SEAGLINT_CHECK(ascends(series.time) && series.time.size() == series.samples.size(), "no series");
     const double duration = series.time.back() - series.time.front();
     trajectory_of(series, series.time.front(), duration, true, Vec3::Zero(), Vec3::Zero());
+    read_attitude_series(file_of(bytes, "series.csv"), {true, MeanRule::kRemove, MeanRule::kRemove});
   });
 }
 
@@ -81,6 +82,15 @@ void fuzz_veres(const std::string& bytes) {
 }
 
 void fuzz_wamit(const std::string& bytes) {
+  is_refused([&] {
+    const MotionSpec other{.rao_phase_deg = 90,
+                           .rao_rotations = RaoRotations::kSlopeDegrees,
+                           .rao_follows_long_waves = false,
+                           .wamit_body = 2,
+                           .wamit_xbody_m = {1, 2, 3},
+                           .wamit_first_column = WamitFirstColumn::kOmega};
+    read_wamit_rao(file_of(bytes, "rao.4"), other);
+  });
   is_refused([&] {
     const RaoTable table = read_wamit_rao(file_of(bytes, "rao.4"), {});
     SEAGLINT_CHECK(ascends(table.headings()) && ascends(table.omegas()), "no grid");

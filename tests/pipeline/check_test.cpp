@@ -83,7 +83,7 @@ TEST(Check, PrintsTheConventionsOfAResponseFile) {
   const std::string said =
       "targets.a.motion.file: " + table +
       ": 12 headings of waves towards -150 to 180 deg (WAMIT: the direction of propagation), 29 frequencies 0.03834 to "
-      "5.712 rad/s, speed 0 m/s, time factor e^{+iwt}; pitch in its longest waves agrees\n";
+      "5.712 rad/s, speed 0 m/s, time factor e^{+iwt}; its longest waves, 163.9 s, confirm heave, pitch, roll\n";
   EXPECT_THAT(run_program({"check", file}).err, HasSubstr(said));
   const ProgramResult made = run_program({"generate", file, "-o", folder.path() / "data"});
   EXPECT_EQ(made.code, 0) << made.err;

@@ -211,6 +211,8 @@ TEST(Motion, DrawsRaosInTheScenariosUnitsAndDepth) {
     write_file(reference, rows);
     std::vector<std::string> words{"motion", "scenarios/quick.yaml", "--duration-s", "1"};
     words.insert(words.end(), {"-o", folder.path() / "motion.csv", "--rao", figure, "--rao-reference", reference});
+    // The numbers are those of no body.
+    words.insert(words.end(), {"--set", "targets.ship.motion.rao_follows_long_waves=false"});
     for (const std::string& setting : settings) words.insert(words.end(), {"--set", setting});
     const ProgramResult result = run_program(words);
     EXPECT_EQ(result.code, 0) << result.err;

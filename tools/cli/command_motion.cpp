@@ -47,12 +47,11 @@ void write_pictures(const MotionArguments& arguments, const Scenario& scenario, 
   if (arguments.rao.empty()) return;
   for (const Body& body : scene.targets) {
     if (const auto* ship = std::get_if<ShipParticulars>(&body.model)) {
-      write_rao_figure(
-          *ship, scene.sea.state.propagation_rad, scene.sea.state.depth_m,
-          {arguments.rao_reference, {body.spec.wamit_ulen_m, body.spec.wamit_heading, body.spec.wamit_time_factor}},
-          fmt::format("{}: waves towards {:.4g} deg, speed {:.3g} m/s", scenario.name,
-                      degrees(scene.sea.state.propagation_rad), ship->speed),
-          arguments.rao);
+      write_rao_figure(*ship, scene.sea.state.propagation_rad, scene.sea.state.depth_m,
+                       {arguments.rao_reference, body.spec},
+                       fmt::format("{}: waves towards {:.4g} deg, speed {:.3g} m/s", scenario.name,
+                                   degrees(scene.sea.state.propagation_rad), ship->speed),
+                       arguments.rao);
       return;
     }
   }

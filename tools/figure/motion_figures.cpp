@@ -178,8 +178,9 @@ void write_rao_figure(const ShipParticulars& ship, double mu, double depth, cons
   }
   std::array<Series, 3> published;
   if (!reference.file.empty()) {
-    const RaoTable table = reference.file.extension() == ".4" ? read_wamit_rao(reference.file, reference.conventions)
-                                                              : read_veres_rao(reference.file, ship.speed);
+    const RaoTable table = reference.file.extension() == ".4"
+                               ? read_wamit_rao(reference.file, reference.conventions)
+                               : read_veres_rao(reference.file, ship.speed, reference.conventions);
     for (const double omega : table.omegas()) {
       if (omega > kHighest) break;
       const MotionRao r = table.at(omega, wavenumber_at(omega, depth), mu);

@@ -41,8 +41,8 @@ void write_motion_frames(const std::vector<NamedTrajectory>& bodies, const WaveF
 
 // Table of VERES or WAMIT to draw with a ship's response amplitude operators.
 struct RaoReference {
-  std::filesystem::path file;      // empty: none
-  WamitConventions conventions{};  // of WAMIT's
+  std::filesystem::path file;  // empty: none
+  MotionSpec conventions{};    // its keys rao_ and wamit_
 };
 
 // Figure of the moduli of a ship's response amplitude operators over frequency, in waves towards mu (rad) in water of

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <variant>
 
 #include "radar/rvmap/rv_map.h"
 #include "sim/core/numbers/constants.h"
@@ -42,23 +43,47 @@ Span extent_of(const TriangleMesh& mesh, const Vec3& r_hat) {
   return extent;
 }
 
-void extend(Reach& reach, const Target& target, const Vec3& r_hat, double interval_s) {
+// Recorded translations of a body in range, until duration_s after t = 0, m.
+Span drift_of(const Body& body, const Vec3& r_hat, double duration_s) {
+  Span drift;
+  const auto* series = std::get_if<AttitudeSeries>(&body.model);
+  if (series == nullptr || !body.spec.translations) return drift;
+  const double begin_s = body.spec.series_start_s;
+  for (std::size_t n = 0; n < series->time.size(); ++n) {
+    const double before_s = series->time[n > 0 ? n - 1 : 0],
+                 after_s = series->time[std::min(n + 1, series->time.size() - 1)];
+    if (after_s >= begin_s && before_s <= begin_s + duration_s)
+      drift.include(-r_hat.dot(series->samples[n].translation));
+  }
+  return drift;
+}
+
+// Times of a scenario, s.
+struct Durations {
+  double interval_s = 0;     // of one map
+  double realisation_s = 0;  // until the end of the last interval
+};
+
+void extend(Reach& reach, const Target& target, const Vec3& r_hat, const Durations& durations) {
   for (const PointSpec& point : target.spec.points) {
     const double range = -r_hat.dot(Vec3(point.position_m.data())),
                  velocity = -r_hat.dot(Vec3(point.velocity_mps.data()));
     reach.range_m.include(range);
-    reach.range_m.include(range + velocity * interval_s);
+    reach.range_m.include(range + velocity * durations.interval_s);
     reach.velocity_mps.include(velocity);
   }
   std::map<const BodyModel*, Span> sizes;
   for (const auto& model : target.models) {
-    if (!sizes.contains(model.get())) sizes[model.get()] = extent_of(model->prepared->mesh, r_hat);
+    if (sizes.contains(model.get())) continue;
+    const Span mesh = extent_of(model->prepared->mesh, r_hat),
+               drift = drift_of(*model->motion, r_hat, durations.realisation_s);
+    sizes[model.get()] = {mesh.low + drift.low, mesh.high + drift.high};
   }
   const double relative_velocity_mps = -r_hat.dot(target.relative_velocity_mps);
   for (std::size_t i = 0; i < target.rest_positions.size(); ++i) {
     const Vec3& rest = target.rest_positions[i];
     const Span& body = sizes[target.models[i].get()];
-    for (const double passed_m : {0.0, relative_velocity_mps * interval_s}) {
+    for (const double passed_m : {0.0, relative_velocity_mps * durations.interval_s}) {
       reach.range_m.include(-r_hat.dot(rest) + passed_m + body.low);
       reach.range_m.include(-r_hat.dot(rest) + passed_m + body.high);
     }
@@ -74,6 +99,8 @@ std::vector<std::string> map_coverage_warnings(const Pipeline& pipeline) {
   const PulseTrain train = make_pulse_train(scenario.radar, pipeline.window_m(), scenario.seed, 0);
   const MapGrid grid = map_grid(train, scenario.map);
   const PlatformSpec& platform = scenario.radar.platform;
+  const double interval_s = train.time_s.back();
+  const Durations durations{interval_s, pipeline.plan().last_start_s() + interval_s};
   std::vector<std::string> lines;
   std::size_t more = 0;
   const auto add_line = [&](const std::string& line) {
@@ -88,9 +115,8 @@ std::vector<std::string> map_coverage_warnings(const Pipeline& pipeline) {
     for (const View& view : pipeline.plan().views()) {
       const Vec3 r_hat = direction_to_radar(view.azimuth_rad, view.elevation_rad);
       Reach reach;
-      extend(reach, targets[t], r_hat, train.time_s.back());
-      for (const std::size_t companion : targets[t].companions)
-        extend(reach, targets[companion], r_hat, train.time_s.back());
+      extend(reach, targets[t], r_hat, durations);
+      for (const std::size_t companion : targets[t].companions) extend(reach, targets[companion], r_hat, durations);
       if (!platform.motion_compensated) {
         const double own_mps = r_hat.dot(Vec3(platform.velocity_mps.data()));
         reach.velocity_mps = {reach.velocity_mps.low + own_mps, reach.velocity_mps.high + own_mps};

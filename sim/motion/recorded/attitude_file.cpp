@@ -3,12 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <string_view>
+
 #include "sim/core/numbers/constants.h"
 
 namespace seaglint {
 namespace {
 
-constexpr std::size_t kFirstShiftColumn = 4, kPitchRateColumn = 7;
+constexpr std::size_t kPitchRateColumn = 7;
 
 // Columns by the names of this project and DualSPHysics (roll), and of OpenFAST (PtfmRoll).
 std::vector<TableColumn> columns() {
@@ -17,7 +19,7 @@ std::vector<TableColumn> columns() {
     std::vector<std::string> keys;
     for (const char* name : {"{}_deg", "{}_rad", "ptfm{}_deg", "ptfm{}_rad"})
       keys.push_back(fmt::format(fmt::runtime(name), angle));
-    all.emplace_back(keys);
+    all.emplace_back(keys, std::string_view(angle) != "yaw");
   }
   for (const char* shift : {"surge", "sway", "heave"}) {
     std::vector<std::string> keys{fmt::format("{}_m", shift), fmt::format("ptfm{}_m", shift)};
@@ -25,14 +27,6 @@ std::vector<TableColumn> columns() {
   }
   all.emplace_back(std::vector<std::string>{"fomega_y_rad_s"}, false);
   return all;
-}
-
-// Throws unless the table has all three translations or none; true for all.
-bool has_shifts(const TextTable& table) {
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < 3; ++i) count += table.has(kFirstShiftColumn + i) ? 1 : 0;
-  for (std::size_t i = 0; i < 3 && count > 0; ++i) table.require(kFirstShiftColumn + i);
-  return count > 0;
 }
 
 // The sign of pitch, which changed between versions of DualSPHysics, is chosen so that its rate correlates positively
@@ -53,17 +47,23 @@ bool align_pitch(const TextTable& table, std::vector<MotionSample>& samples) {
 
 bool AttitudeTable::in_radians(std::size_t axis) const { return table.key(kFirstAngleColumn + axis).ends_with("_rad"); }
 
-AttitudeTable read_attitude_table(const std::filesystem::path& file) {
+AttitudeTable read_attitude_table(const std::filesystem::path& file, bool translations) {
   AttitudeTable result{TextTable(TextSource::read(file), columns()), {}, {}};
   const TextTable& table = result.table;
-  const bool shifts = has_shifts(table);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    table.require_unit(kFirstAngleColumn + axis);
+    if (translations) table.require_unit(kFirstShiftColumn + axis);
+  }
   for (std::size_t row = 0; row < table.rows(); ++row) {
     result.time.push_back(table.number(row, kTimeColumn));
     MotionSample& sample = result.samples.emplace_back();
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double angle = table.number(row, kFirstAngleColumn + axis);
-      sample.angles[static_cast<int>(axis)] = result.in_radians(axis) ? angle : radians(angle);
-      if (shifts) sample.translation[static_cast<int>(axis)] = table.number(row, kFirstShiftColumn + axis);
+      const std::size_t turn = kFirstAngleColumn + axis, shift = kFirstShiftColumn + axis;
+      if (table.has(turn)) {
+        const double angle = table.number(row, turn);
+        sample.angles[static_cast<int>(axis)] = result.in_radians(axis) ? angle : radians(angle);
+      }
+      if (table.has(shift)) sample.translation[static_cast<int>(axis)] = table.number(row, shift);
     }
   }
   result.pitch_reversed = align_pitch(table, result.samples);

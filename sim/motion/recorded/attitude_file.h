@@ -14,6 +14,7 @@ namespace seaglint {
 
 // Columns of the table.
 inline constexpr std::size_t kTimeColumn = 0, kFirstAngleColumn = 1;  // then roll, pitch, yaw
+inline constexpr std::size_t kFirstShiftColumn = 4;                   // then surge, sway, heave
 
 // Rows of the file: angles in rad and translations in m, in the conventions of this project.
 struct AttitudeTable {
@@ -25,7 +26,8 @@ struct AttitudeTable {
   bool in_radians(std::size_t axis) const;  // roll, pitch or yaw, as the file declares
 };
 
-// Formats: attitude_series.h. Throws InputError with file, line and column.
-AttitudeTable read_attitude_table(const std::filesystem::path& file);
+// Formats: attitude_series.h. Degrees of freedom that the table does not have are 0. `translations`: surge, sway and
+// heave are needed, in metres. Throws InputError with file, line and column.
+AttitudeTable read_attitude_table(const std::filesystem::path& file, bool translations);
 
 }  // namespace seaglint

@@ -89,6 +89,7 @@ void check_radians(const AttitudeTable& table) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     std::vector<double> angle;
     for (const MotionSample& sample : table.samples) angle.push_back(sample.angles[static_cast<int>(axis)]);
+    if (!table.table.has(kFirstAngleColumn + axis)) continue;
     check_unit_change(table.table, kFirstAngleColumn + axis, angle);
     for (std::size_t n = 0; n < angle.size(); ++n) {
       if (std::abs(angle[n]) <= kLargest[axis]) continue;
@@ -118,24 +119,103 @@ void check_times(const AttitudeTable& table) {
   }
 }
 
-std::string reading_of(const AttitudeTable& table, TimeGrid grid, double rounding, const std::vector<double>& time) {
-  std::vector<std::string> columns;
-  for (std::size_t i = 0; i < kFirstAngleColumn + 3; ++i) columns.push_back(table.table.key(i));
-  const double step = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
-  std::string text = fmt::format("{} rows, {}", time.size(), fmt::join(columns, " "));
-  if (grid == TimeGrid::kRounded)
-    text += fmt::format(", times rounded to {:g} s taken as uniform at {:.6g} s", 2 * rounding, step);
-  if (grid == TimeGrid::kIrregular) text += ", times are not uniform: resampled at their smallest step";
-  if (table.table.has_decimal_commas()) text += ", decimal commas";
-  if (table.pitch_reversed) text += ", sign of pitch reversed to agree with its angular velocity";
-  return text;
-}
-
 void unwrap_yaw(std::vector<MotionSample>& samples) {
   for (std::size_t n = 1; n < samples.size(); ++n) {
     double& yaw = samples[n].angles.z();
     yaw -= 2 * kPi * std::round((yaw - samples[n - 1].angles.z()) / (2 * kPi));
   }
+}
+
+// Mean of a quantity of the samples over time by the trapezoidal rule.
+template <typename Quantity>
+double mean_of(const std::vector<double>& time, const std::vector<MotionSample>& samples, const Quantity& quantity) {
+  double sum = 0;
+  for (std::size_t n = 1; n < time.size(); ++n)
+    sum += 0.5 * (time[n] - time[n - 1]) * (quantity(samples[n]) + quantity(samples[n - 1]));
+  return sum / (time.back() - time.front());
+}
+
+bool is_removed(MeanRule rule, double size, double largest) {
+  return rule == MeanRule::kRemove || (rule == MeanRule::kAuto && size > largest);
+}
+
+// Removes the mean yaw of unwrapped samples by the rule; what was done, for users.
+std::string remove_heading(AttitudeTable& table, MeanRule rule, bool translations) {
+  const auto mean = [&](const auto& quantity) { return mean_of(table.time, table.samples, quantity); };
+  const double along = mean([](const MotionSample&sample) { return std::cos(sample.angles.z()); }),
+               across = mean([](const MotionSample&sample) { return std::sin(sample.angles.z()); });
+  constexpr double kShortest = 0.5, kMentioned_deg = 1;
+  if (std::hypot(along, across) < kShortest) return ", yaw turns too far for a mean heading";
+  const double heading = std::atan2(across, along), heading_deg = degrees(heading) + (heading < 0 ? 360 : 0);
+  const bool removes = is_removed(rule, std::abs(degrees(heading)), kLargestHeading_deg);
+  if (!removes) {
+    if (std::abs(degrees(heading)) < kMentioned_deg) return "";
+    return fmt::format(", mean heading {:.4g} deg kept", heading_deg);
+  }
+  const double turns =
+      std::round(mean([&](const MotionSample& sample) { return sample.angles.z() - heading; }) / (2 * kPi));
+  const double c = std::cos(heading), s = std::sin(heading);
+  for (MotionSample& sample : table.samples) {
+    sample.angles.z() -= heading + 2 * kPi * turns;
+    const double x = sample.translation.x(), y = sample.translation.y();
+    sample.translation.x() = c * x + s * y;
+    sample.translation.y() = c * y - s * x;
+  }
+  const bool has_shifts = table.table.has(kFirstShiftColumn) || table.table.has(kFirstShiftColumn + 1);
+  return fmt::format(", mean heading {:.4g} deg removed{}", heading_deg,
+                     translations && has_shifts ? ", surge and sway turned with it" : "");
+}
+
+// Removes the mean translations by the rule; what was done, for users.
+std::string remove_position(AttitudeTable& table, MeanRule rule) {
+  Vec3 mean;
+  for (int axis = 0; axis < 3; ++axis)
+    mean[axis] = mean_of(table.time, table.samples, [&](const MotionSample& s) { return s.translation[axis]; });
+  const double distance_m = std::hypot(mean.x(), mean.y());
+  const bool sideways = distance_m > 0 && is_removed(rule, distance_m, kLargestDistance_m),
+             upwards = mean.z() != 0 && is_removed(rule, std::abs(mean.z()), kLargestHeave_m);
+  for (MotionSample& sample : table.samples)
+    sample.translation -= Vec3(sideways ? mean.x() : 0, sideways ? mean.y() : 0, upwards ? mean.z() : 0);
+  std::string text;
+  if (sideways) text += fmt::format(", mean position ({:.1f}, {:.1f}) m removed", mean.x(), mean.y());
+  if (upwards) text += fmt::format(", mean heave {:.1f} m removed", mean.z());
+  if (!sideways && distance_m > kLargestDistance_m)
+    text += fmt::format(", mean position ({:.1f}, {:.1f}) m kept", mean.x(), mean.y());
+  if (!upwards && std::abs(mean.z()) > kLargestHeave_m) text += fmt::format(", mean heave {:.1f} m kept", mean.z());
+  return text;
+}
+
+// The degrees of freedom that the table lacks, of those that are needed.
+std::string absent_degrees(const TextTable& table, bool translations) {
+  constexpr std::pair<std::size_t, const char*> kOthers[] = {{kFirstAngleColumn + 2, "yaw"},
+                                                             {kFirstShiftColumn, "surge"},
+                                                             {kFirstShiftColumn + 1, "sway"},
+                                                             {kFirstShiftColumn + 2, "heave"}};
+  std::vector<const char*> absent;
+  for (const auto& [column, name] : kOthers) {
+    if (!table.has(column) && (translations || column < kFirstShiftColumn)) absent.push_back(name);
+  }
+  return absent.empty() ? "" : fmt::format(", {} not in the file: 0", fmt::join(absent, " and "));
+}
+
+struct GridReading {
+  TimeGrid grid = TimeGrid::kUniform;
+  double rounding = 0;  // s, half of the last decimal
+};
+
+std::string reading_of(const AttitudeTable& table, const GridReading& times) {
+  std::vector<std::string> columns;
+  for (std::size_t i = 0; i < kFirstAngleColumn + 3; ++i) {
+    if (table.table.has(i)) columns.push_back(table.table.key(i));
+  }
+  const double step = (table.time.back() - table.time.front()) / static_cast<double>(table.time.size() - 1);
+  std::string text = fmt::format("{} rows, {}", table.time.size(), fmt::join(columns, " "));
+  if (times.grid == TimeGrid::kRounded)
+    text += fmt::format(", times rounded to {:g} s taken as uniform at {:.6g} s", 2 * times.rounding, step);
+  if (times.grid == TimeGrid::kIrregular) text += ", times are not uniform: resampled at their smallest step";
+  if (table.table.has_decimal_commas()) text += ", decimal commas";
+  if (table.pitch_reversed) text += ", sign of pitch reversed to agree with its angular velocity";
+  return text;
 }
 
 // Index of the last sample before time t.
@@ -146,15 +226,17 @@ std::size_t interval_of(const std::vector<double>& time, double t) {
 
 }  // namespace
 
-AttitudeSeries read_attitude_series(const std::filesystem::path& file) {
-  AttitudeTable table = read_attitude_table(file);
+AttitudeSeries read_attitude_series(const std::filesystem::path& file, const SeriesRules& rules) {
+  AttitudeTable table = read_attitude_table(file, rules.translations);
   check_times(table);
   check_radians(table);
   unwrap_yaw(table.samples);
-  const double rounding = rounding_of(table.table, kTimeColumn);
-  const TimeGrid grid = make_uniform(table.time, rounding);
-  const std::string reading = reading_of(table, grid, rounding, table.time);
-  AttitudeSeries series{file.string(), std::move(table.time), std::move(table.samples), reading, grid};
+  GridReading times{TimeGrid::kUniform, rounding_of(table.table, kTimeColumn)};
+  times.grid = make_uniform(table.time, times.rounding);
+  std::string reading = reading_of(table, times) + absent_degrees(table.table, rules.translations);
+  if (rules.translations) reading += remove_position(table, rules.position);
+  reading += remove_heading(table, rules.heading, rules.translations);
+  AttitudeSeries series{file.string(), std::move(table.time), std::move(table.samples), std::move(reading), times.grid};
   set_rates(series, &MotionSample::angles, &MotionSample::angle_rates);
   set_rates(series, &MotionSample::translation, &MotionSample::translation_rates);
   return series;
@@ -166,8 +248,14 @@ Trajectory trajectory_of(const AttitudeSeries& series, double start_s, double du
   // Half of the tolerance of the trajectory at its ends.
   const double slack = 0.5 * Trajectory::kEndSlack * (time.back() - time.front());
   if (start_s < time.front() - slack || start_s + duration_s > time.back() + slack) {
-    throw InputError(fmt::format("{}: lasts from {:.6g} to {:.6g} s, {:.6g} to {:.6g} s are needed", series.source,
-                                 time.front(), time.back(), start_s, start_s + duration_s));
+    const bool begins_outside = start_s < time.front() - slack || start_s > time.back();
+    throw InputError(fmt::format(
+        "{}: lasts from {:.12g} to {:.12g} s, {:.12g} to {:.12g} s are needed{}", series.source, time.front(),
+        time.back(), start_s, start_s + duration_s,
+        begins_outside ? fmt::format(": motion.series_start_s, now {:.12g}, is the time of the file that is t = 0; its "
+                                     "first is {:.12g}",
+                                     start_s, time.front())
+                       : ""));
   }
   double smallest = time[1] - time[0], largest = smallest;
   for (std::size_t n = 1; n < time.size(); ++n) {

@@ -85,15 +85,38 @@ double wrapped_deg(double angle_deg) {
 // Equal to the digits that programs print; what both ends of the circle may differ by.
 bool are_equal(Complex a, Complex b) { return std::abs(a - b) <= 1e-3 * std::max(std::abs(a), std::abs(b)) + 1e-6; }
 
+// A response in rad/m and m/m of one in the units of the keys rao_ of a MotionSpec, to a wave of frequency omega.
+MotionRao in_metres(const MotionRao& r, double omega, const MotionSpec& units) {
+  const RaoRotations rotations = units.rao_rotations;
+  Complex factor = units.rao_scale, turning = factor;
+  if (units.rao_phase_deg != 0) turning = factor = std::polar(units.rao_scale, radians(units.rao_phase_deg));
+  if (rotations == RaoRotations::kDegrees || rotations == RaoRotations::kSlopeDegrees) turning *= radians(1);
+  if (rotations == RaoRotations::kSlope || rotations == RaoRotations::kSlopeDegrees)
+    turning *= omega * omega / kGravity;
+  return {factor * r.surge, factor * r.sway, factor * r.heave, turning * r.roll, turning * r.pitch, turning * r.yaw};
+}
+
 RaoTable table_of(std::string source, const std::map<double, Heading>& headings, std::vector<double> omega,
-                  const Vec3& reference, double speed) {
+                  const Vec3& reference, double speed, const MotionSpec& units) {
+  const bool are_metres =
+      units.rao_scale == 1 && units.rao_phase_deg == 0 && units.rao_rotations == RaoRotations::kRadians;
   std::vector<double> mu;
   std::vector<MotionRao> responses;
   for (const auto& [direction, values] : headings) {
     mu.push_back(direction);
-    responses.insert(responses.end(), values.begin(), values.end());
+    for (std::size_t n = 0; n < values.size(); ++n)
+      responses.push_back(are_metres ? values[n] : in_metres(values[n], omega[n], units));
   }
   return RaoTable(std::move(source), std::move(mu), std::move(omega), std::move(responses), reference, speed);
+}
+
+// Throws InputError for a table whose long waves contradict its units.
+void check_long_waves(const RaoTable& table, const MotionSpec& spec, double side_m, bool wamit) {
+  if (!spec.rao_follows_long_waves) return;
+  const std::string fault = long_wave_fault(table, spec, side_m, wamit);
+  if (fault.empty()) return;
+  throw InputError(
+      fmt::format("{}: {}; motion.rao_follows_long_waves: false accepts a restrained body", table.source(), fault));
 }
 
 bool one_sided(const std::map<double, Heading>& headings) {
@@ -190,7 +213,7 @@ VeresBlock read_veres_block(NumberLines& lines, int headings, int frequencies, d
 // keel of the reference point), for each heading its angle, for each frequency its value and a line per degree of
 // freedom. Axes: heading 0 is a head sea, x aft, y to starboard, z up, e^{+iwt}: mu = heading + 180 deg; surge, sway,
 // roll and pitch change sign, heave and yaw do not.
-RaoTable read_veres_rao(const std::filesystem::path& file, double speed) {
+RaoTable read_veres_rao(const std::filesystem::path& file, double speed, const MotionSpec& units, double side_m) {
   NumberLines lines(file);
   const std::string_view title = lines.line();
   if (title.find("MOTION TRANSFER FUNCTIONS") == std::string_view::npos ||
@@ -217,7 +240,7 @@ RaoTable read_veres_rao(const std::filesystem::path& file, double speed) {
     speeds.push_back(block.speed);
     add_mirrored_headings(block.headings);
     if (!nearest || std::abs(block.speed - speed) < std::abs(nearest->speed() - speed))
-      nearest = table_of(lines.file(), block.headings, block.omega, block.reference, block.speed);
+      nearest = table_of(lines.file(), block.headings, block.omega, block.reference, block.speed, units);
   }
   lines.require_end();
   // Half a knot: the encounter frequency that the responses belong to.
@@ -226,6 +249,7 @@ RaoTable read_veres_rao(const std::filesystem::path& file, double speed) {
     throw InputError(fmt::format("{}: no responses at a speed of {:.4g} m/s: it contains {:.4g} m/s", lines.file(),
                                  speed, fmt::join(speeds, ", ")));
   }
+  check_long_waves(*nearest, units, side_m, false);
   return *nearest;
 }
 
@@ -234,20 +258,52 @@ namespace {
 // Columns of WAMIT's .4.
 enum : std::size_t { kPeriod, kBeta, kMode, kModulus, kPhase, kRe, kIm };
 
-// Throws InputError for a line of names that declares another first column than periods.
-void require_periods(const TextSource& source) {
+// What the first column is: frequencies where a line of names says so, else as `given`. Throws InputError for a line of
+// names that declares another quantity.
+WamitFirstColumn first_column_of(const TextSource& source, WamitFirstColumn given) {
   for (std::string_view rest = source.text(); !rest.empty();) {
     std::string_view line = next_line(rest);
     for (std::string_view word = next_word(line); !word.empty(); word = next_word(line)) {
-      if (parse_written_number(word)) return;
+      if (parse_written_number(word)) return given;
       const std::string key = column_key(word);
-      for (const char* other : {"omega", "freq", "frequency", "kl", "nu", "wavenumber"}) {
+      if (key == "omega" || key == "omega_rad_s") return WamitFirstColumn::kOmega;
+      for (const char* other : {"freq", "frequency", "kl", "nul", "nu", "wavenumber"}) {
         if (key == other)
-          source.fail(word,
-                      fmt::format("column {}: the first column must be the period (IPEROUT = 1)", in_quotes(word)));
+          source.fail(word, fmt::format("column {}: the first column must be the period or the frequency in rad/s "
+                                        "(IPERIO = 1 or 2)",
+                                        in_quotes(word)));
       }
     }
   }
+  return given;
+}
+
+// The first mode of the body that the table is read for, and the number of bodies of its modes. Throws InputError for
+// modes that are none, a table of several bodies without wamit_body, and one without that body.
+struct WamitModes {
+  int first = 1;
+  int bodies = 1;
+};
+WamitModes modes_of(const TextTable& table, const MotionSpec& spec) {
+  constexpr int kModes = 6, kMostBodies = 100;
+  int highest = 0;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const double mode = table.number(row, kMode);
+    if (!(mode >= 1 && mode <= kModes * kMostBodies && mode == std::floor(mode)) ||
+        (spec.wamit_body == 0 && mode > kModes)) {
+      table.fail(row, kMode,
+                 "must be a mode, 1 to 6; motion.wamit_body chooses a body of a run of several, body 2 with modes 7 to "
+                 "12");
+    }
+    highest = std::max(highest, static_cast<int>(mode));
+  }
+  const WamitModes modes{kModes * (std::max(spec.wamit_body, 1) - 1) + 1, (highest + kModes - 1) / kModes};
+  if (table.rows() > 0 && modes.first > highest) {
+    throw InputError(fmt::format("{}: no modes {} to {} of motion.wamit_body {}: its modes are those of {} bodies",
+                                 table.source().name(), modes.first, modes.first + kModes - 1, spec.wamit_body,
+                                 modes.bodies));
+  }
+  return modes;
 }
 
 // The response of a row. Throws InputError where modulus and phase are not those of the complex value.
@@ -272,26 +328,34 @@ struct WamitCell {
 
 }  // namespace
 
-// Rows `PER BETA I MOD PHA RE IM`: period in s, heading and phase in degrees, of WAMIT the direction of propagation and
-// e^{+iwt}; mode I is over A / ULEN^n with n = 0 for translations, 1 for rotations. PER < 0 stands for zero frequency,
-// 0 for infinite.
-RaoTable read_wamit_rao(const std::filesystem::path& file, const WamitConventions& conventions, const Vec3& reference) {
-  const double turn_deg = conventions.heading == HeadingConvention::kFrom ? 180 : 0;
-  const bool conjugate = conventions.time_factor == TimeFactor::kMinus;
+// Rows `PER BETA I MOD PHA RE IM`: period in s or frequency in rad/s, heading and phase in degrees, of WAMIT the
+// direction of propagation and e^{+iwt}; mode I is over A / ULEN^n with n = 0 for translations, 1 for rotations; modes
+// 7 to 12 are those of the second body of a run, and so on. PER < 0 stands for zero frequency, 0 for infinite; as a
+// frequency 0 for zero, < 0 for infinite. The wave's phase is that at the origin of the run: a body whose origin is at
+// XBODY has e^{+jk.x} of it.
+RaoTable read_wamit_rao(const std::filesystem::path& file, const MotionSpec& spec, const Vec3& reference,
+                        double side_m) {
+  const double turn_deg = spec.wamit_heading == HeadingConvention::kFrom ? 180 : 0;
+  const bool conjugate = spec.wamit_time_factor == TimeFactor::kMinus;
   const TextSource source = TextSource::read(file);
-  require_periods(source);
+  const WamitFirstColumn first_column = first_column_of(source, spec.wamit_first_column);
   const TextTable table = TextTable::without_names(source, {"PER", "BETA", "I", "MOD", "PHA", "RE", "IM"});
+  const WamitModes modes_read = modes_of(table, spec);
   std::map<double, std::map<double, std::array<std::optional<WamitCell>, 6>>> rows;  // [mu][omega]
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const double period = table.number(row, kPeriod), beta_deg = table.number(row, kBeta);
-    const double mode = table.number(row, kMode);
-    if (!(mode >= 1 && mode <= 6 && mode == std::floor(mode))) table.fail(row, kMode, "must be a mode, 1 to 6");
+    const int mode = static_cast<int>(table.number(row, kMode)) - modes_read.first;  // 0 to 5 of the body
     const Complex value = wamit_value(table, row);
     const WamitCell read{conjugate ? std::conj(value) : value, beta_deg};
-    if (period <= 0) continue;
-    auto& cell = rows[radians(wrapped_deg(beta_deg + turn_deg))][2 * kPi / period][static_cast<std::size_t>(mode) - 1];
-    if (cell && cell->beta_deg == beta_deg)
-      table.fail(row, kMode, fmt::format("period {} s, heading {} deg, mode {}: duplicate", period, beta_deg, mode));
+    if (period <= 0 || mode < 0 || mode > 5) continue;
+    const double omega = first_column == WamitFirstColumn::kOmega ? period : 2 * kPi / period;
+    auto& cell = rows[radians(wrapped_deg(beta_deg + turn_deg))][omega][static_cast<std::size_t>(mode)];
+    if (cell && cell->beta_deg == beta_deg) {
+      table.fail(row, kMode,
+                 fmt::format("{} {}, heading {} deg, mode {}: duplicate",
+                             first_column == WamitFirstColumn::kOmega ? "frequency" : "period",
+                             table.text(row, kPeriod), beta_deg, table.text(row, kMode)));
+    }
     if (cell && !are_equal(cell->value, read.value)) {
       table.fail(row, kRe,
                  fmt::format("headings {} and {} deg are one direction, where the former has {:.6g}{:+.6g}i",
@@ -314,12 +378,17 @@ RaoTable read_wamit_rao(const std::filesystem::path& file, const WamitConvention
         throw InputError(fmt::format("{}: heading {:.4g} deg has other periods than {:.4g} deg", source.name(),
                                      degrees(mu), degrees(rows.begin()->first)));
       }
+      const auto& [x, y, z] = spec.wamit_xbody_m;
+      const double k = frequency * frequency / kGravity;
+      const Complex at_body =
+          x == 0 && y == 0 ? Complex(1) : std::polar(1.0, k * (std::cos(mu) * x + std::sin(mu) * y));
       const auto at = [&](std::size_t mode) {
         if (!modes[mode]) {
           throw InputError(fmt::format("{}: period {:.6g} s, heading {:.4g} deg: mode {} is missing", source.name(),
-                                       2 * kPi / frequency, degrees(mu), mode + 1));
+                                       2 * kPi / frequency, degrees(mu), static_cast<int>(mode) + modes_read.first));
         }
-        return mode < 3 ? modes[mode]->value : modes[mode]->value / conventions.unit_length;
+        const Complex value = modes[mode]->value * at_body;
+        return mode < 3 ? value : value / spec.wamit_ulen_m;
       };
       headings[mu].push_back({at(0), at(1), at(2), at(3), at(4), at(5)});
     }
@@ -329,13 +398,14 @@ RaoTable read_wamit_rao(const std::filesystem::path& file, const WamitConvention
     }
   }
   add_mirrored_headings(headings);
-  RaoTable responses = table_of(source.name(), headings, omega, reference, 0);
+  RaoTable responses = table_of(source.name(), headings, omega, reference, 0, spec);
   if (long_waves_of(responses) == LongWaves::kDisagree) {
     throw InputError(fmt::format(
         "{}: pitch in waves of {:.4g} s has the opposite sign of the waves' slope: motion.wamit_heading (now {}) or "
         "motion.wamit_time_factor (now {}) is not the file's",
         source.name(), 2 * kPi / omega.front(), turn_deg > 0 ? "from" : "towards", conjugate ? "minus" : "plus"));
   }
+  check_long_waves(responses, spec, side_m, true);
   return responses;
 }
 

@@ -64,9 +64,9 @@ class RigidRaft : public testing::Test {
 TEST_F(RigidRaft, VelocitiesGrowLinearlyAlongRangeAsOnARotatingLine) {
   const double rate_deg_s = 2, azimuth_deg = 60;
   write_motion([&](double t) { return std::array{0.0, 0.0, rate_deg_s * (t - 5)}; });
-  const Scenario scenario =
-      scene_of(line_of(4, 40, "rigid") + ", motion: {model: series, file: motion.csv, series_start_s: 4.968}", "",
-               azimuth_deg, folder_.path());
+  const Scenario scenario = scene_of(
+      line_of(4, 40, "rigid") + ", motion: {model: series, file: motion.csv, series_start_s: 4.968, heading: keep}", "",
+      azimuth_deg, folder_.path());
   const Pipeline pipeline(scenario);  // yaw is 0 in the middle of the first interval
   SampleAddress first;
   const FullBandInterval band = full_band_interval(pipeline, pipeline.plan().sample(first));

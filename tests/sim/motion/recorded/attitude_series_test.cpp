@@ -246,6 +246,141 @@ TEST(AttitudeSeries, ReportDegreesWhereRadiansAreDeclared) {
   EXPECT_THAT(message, testing::HasSubstr("a 57-fold jump from 0.080378, as between radians and degrees"));
 }
 
+// A series with yaw about `heading_deg`, written in [0, 360), for 120 s; x and y of the file are the translations.
+std::string series_about(double heading_deg, const char* translations = "", double begin_s = 0) {
+  std::string text =
+      fmt::format("time_s,roll_deg,pitch_deg,yaw_deg{}\n", *translations ? ",surge_m,sway_m,heave_m" : "");
+  for (int n = 0; n <= 1200; ++n) {
+    const double t = 0.1 * n;
+    const double yaw = heading_deg + 2 * std::sin(2 * kPi * t / 20);
+    text += fmt::format("{:.1f},{:.6f},{:.6f},{:.6f}", begin_s + t, 3 * std::sin(0.6 * t), 0.8 * std::cos(0.9 * t),
+                        yaw - 360 * std::floor(yaw / 360));
+    text += std::string(translations) + "\n";
+  }
+  return text;
+}
+
+void expect_equal_angles(const AttitudeSeries& a, const AttitudeSeries& b, double tolerance) {
+  ASSERT_EQ(a.samples.size(), b.samples.size());
+  for (std::size_t n = 0; n < a.samples.size(); ++n) {
+    EXPECT_LT((a.samples[n].angles - b.samples[n].angles).norm(), tolerance) << n;
+    EXPECT_LT((a.samples[n].angle_rates - b.samples[n].angle_rates).norm(), 100 * tolerance) << n;
+  }
+}
+
+// The frame T has the mean heading: a compass heading gives the motion of the same series about 0. Its digits differ by
+// 1e-6 deg.
+TEST(AttitudeSeries, HaveTheirMeanHeadingAlongX) {
+  const AttitudeSeries about_0 = read_attitude_series(write(series_about(0)));
+  EXPECT_THAT(about_0.reading, testing::Not(testing::HasSubstr("heading")));
+  for (const double heading_deg : {271.0, 90.0, 180.0, 354.5, 7.0}) {
+    const AttitudeSeries turned = read_attitude_series(write(series_about(heading_deg)));
+    expect_equal_angles(turned, about_0, 1e-7);
+    EXPECT_THAT(turned.reading, testing::HasSubstr(fmt::format("mean heading {:.4g} deg removed", heading_deg)));
+  }
+  const auto read = [](double heading_deg, MeanRule rule) {
+    return read_attitude_series(write(series_about(heading_deg)), {.heading = rule});
+  };
+  const AttitudeSeries kept = read(271, MeanRule::kKeep);
+  EXPECT_NEAR(degrees(kept.samples[0].angles.z()), 271, 1e-9);
+  EXPECT_THAT(kept.reading, testing::HasSubstr("mean heading 271 deg kept"));
+  // Within 5 deg a mean may be that of a short window of a series about 0.
+  const AttitudeSeries near = read(3, MeanRule::kAuto);
+  EXPECT_NEAR(degrees(near.samples[0].angles.z()), 3, 1e-9);
+  EXPECT_THAT(near.reading, testing::HasSubstr("mean heading 3 deg kept"));
+  expect_equal_angles(read(3, MeanRule::kRemove), about_0, 1e-7);
+}
+
+// A yaw that turns through a full circle has no mean.
+TEST(AttitudeSeries, ThatTurnHaveNoMeanHeading) {
+  std::string text = "time_s,roll_deg,pitch_deg,yaw_deg\n";
+  for (int n = 0; n <= 360; ++n) text += fmt::format("{},0,0,{}\n", n, n % 360);
+  const AttitudeSeries series = read_attitude_series(write(text));
+  EXPECT_NEAR(degrees(series.samples[90].angles.z()), 90, 1e-9);
+  EXPECT_THAT(series.reading, testing::HasSubstr("yaw turns too far for a mean heading"));
+}
+
+// Positions of a map: their mean is no part of the motion; x of the file at heading 90 deg is to starboard of T.
+TEST(AttitudeSeries, HaveTheirMeanPositionAtTheOrigin) {
+  std::string text = "time_s,roll_deg,pitch_deg,yaw_deg,surge_m,sway_m,heave_m\n";
+  for (int n = 0; n <= 400; ++n)
+    text += fmt::format("{:.1f},1,0,90,{:.3f},5871200.20,45.5\n", 0.1 * n, 412300 + 0.02 * n);
+  const AttitudeSeries series = read_attitude_series(write(text));
+  EXPECT_THAT(series.reading,
+              testing::HasSubstr("mean position (412304.0, 5871200.2) m removed, mean heave 45.5 m "
+                                 "removed, mean heading 90 deg removed, surge and sway turned with it"));
+  EXPECT_LT((series.samples.front().translation - Vec3(0, 4, 0)).norm(), 1e-6);
+  EXPECT_LT((series.samples.back().translation - Vec3(0, -4, 0)).norm(), 1e-6);
+  const AttitudeSeries kept =
+      read_attitude_series(write(text), {.heading = MeanRule::kKeep, .position = MeanRule::kKeep});
+  EXPECT_EQ(kept.samples.front().translation, Vec3(412300, 5871200.20, 45.5));
+  EXPECT_THAT(kept.reading, testing::HasSubstr("mean position (412304.0, 5871200.2) m kept"));
+  // A moored body's offset is no position of a map.
+  const AttitudeSeries moored = read_attitude_series(write(series_about(0, ",12,-3,0.4")));
+  EXPECT_EQ(moored.samples[5].translation, Vec3(12, -3, 0.4));
+}
+
+TEST(AttitudeSeries, MayBeInUnixSeconds) {
+  const AttitudeSeries plain = read_attitude_series(write(series_about(0))),
+                       unix = read_attitude_series(write(series_about(0, "", 1735689600)));
+  expect_equal_angles(unix, plain, 1e-5);  // the steps have a rounding of 2.4e-7 s
+  const Trajectory trajectory = trajectory_of(unix, 1735689610, 20, false, Vec3::Zero(), Vec3::Zero());
+  EXPECT_NEAR(degrees(trajectory.sample(0).angles.x()), 3 * std::sin(6), 1e-4);
+  EXPECT_THAT(message_of([&] { trajectory_of(unix, 0, 20, false, Vec3::Zero(), Vec3::Zero()); }),
+              testing::HasSubstr("lasts from 1735689600 to 1735689720 s, 0 to 20 s are needed: motion.series_start_s, "
+                                 "now 0, is the time of the file that is t = 0; its first is 1735689600"));
+}
+
+TEST(AttitudeSeries, MayLackDegreesOfFreedomOtherThanRollAndPitch) {
+  const AttitudeSeries series =
+      read_attitude_series(write("time_s,roll_deg,pitch_deg,heave_m\n0,1,2,0.5\n1,3,4,0.6\n"));
+  EXPECT_EQ(series.samples[1].translation, Vec3(0, 0, 0.6));
+  EXPECT_NEAR(degrees(series.samples[1].angles.x()), 3, 1e-12);
+  EXPECT_EQ(series.samples[1].angles.z(), 0);
+  EXPECT_THAT(series.reading, testing::HasSubstr("yaw and surge and sway not in the file: 0"));
+  // Without translations they are not needed.
+  EXPECT_THAT(read_attitude_series(write("time_s,roll_deg,pitch_deg\n0,1,2\n1,3,4\n"), {.translations = false}).reading,
+              testing::HasSubstr("yaw not in the file: 0"));
+  // A column in another unit is not one that is missing.
+  EXPECT_THAT(message_of([] { read_attitude_series(write("time_s,roll_deg,pitch_deg,yaw\n0,1,2,3\n1,3,4,5\n")); }),
+              testing::HasSubstr("series.csv:1:27: yaw has no unit: must be named yaw_deg or yaw_rad"));
+  const std::string feet = "time_s,roll_deg,pitch_deg,heave [ft]\n0,1,2,3\n1,3,4,5\n";
+  EXPECT_THAT(message_of([&] { read_attitude_series(write(feet)); }),
+              testing::HasSubstr("series.csv:1:27: unit '[ft]' of heave [ft]: must be m"));
+  EXPECT_EQ(message_of([&] { read_attitude_series(write(feet), {.translations = false}); }), "");
+}
+
+// OpenFAST writes INVALID for the unit of a channel that it does not have.
+TEST(AttitudeSeries, OfOpenFastMayHaveInvalidChannels) {
+  const AttitudeSeries series = read_attitude_series(std::string(kCases) + "openfast_invalid_channel.out");
+  EXPECT_EQ(series.time.size(), 44u);
+  EXPECT_NEAR(degrees(series.samples[1].angles.x()), 0.1398857, 1e-12);
+  EXPECT_NEAR(series.samples[1].translation.z(), 0.03993337, 1e-12);
+  const std::string banner = "\nPredictions were generated on 05-May-2025 at 08:00:00 using OpenFAST\n\nA barge\n\n";
+  EXPECT_THAT(message_of([&] {
+                read_attitude_series(write(banner + "Time PtfmRoll PtfmPitch PtfmYaw\n(s) INVALID (deg) (deg)\n0 0 0 "
+                                                    "0\n1 0 0 0\n"));
+              }),
+              testing::HasSubstr("series.csv:6:6: unit 'INVALID' of PtfmRoll: must be deg or rad"));
+}
+
+// Minus signs and blanks of typesetting.
+TEST(AttitudeSeries, MayHaveTypesetSigns) {
+  const AttitudeSeries series =
+      read_attitude_series(write("time_s;roll_deg;pitch_deg;yaw_deg\n0;\xe2\x88\x92"
+                                 "0.5;\xc2\xa0"
+                                 "1;0\n1;2\xe2\x80\xaf;1e\xe2\x88\x92"
+                                 "1;0\n"));
+  EXPECT_NEAR(degrees(series.samples[0].angles.x()), -0.5, 1e-12);
+  EXPECT_NEAR(degrees(series.samples[1].angles.y()), 0.1, 1e-12);
+  EXPECT_THAT(message_of([] {
+                read_attitude_series(
+                    write("time_s,roll_deg,pitch_deg,yaw_deg\n0,0,0,0\n1,\xe2\x80\x93"
+                          "2,0,0\n"));
+              }),
+              testing::HasSubstr("must be a finite number; it has U+2013, an en dash"));
+}
+
 // Times with rounding errors are those of the series' ends.
 TEST(TrajectoryOf, CoversTheRequestedTimesToTheirRounding) {
   const AttitudeSeries series =
@@ -268,6 +403,7 @@ TEST(SimulateAttitudeSeries, FollowsASeries) {
   spec.model = MotionModel::kSeries;
   spec.file = write(text).string();
   spec.series_start_s = 20;
+  spec.heading = MeanRule::kKeep;
   const Body body = make_body(spec, {});
   const Trajectory trajectory = simulate_motion(body, {1, 2, 3}, WaveField(), 30, 1, 0);
   EXPECT_NEAR(degrees(trajectory.sample(10).angles.x()), 3, 1e-9);

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -258,8 +259,8 @@ TEST_F(RaoFile, OfWamitMayHaveBothEndsOfTheCircleAndALineOfNames) {
   EXPECT_THAT(wamit_refusal(with_heading_again("0", "360", "2")),
               testing::HasSubstr("headings 0 and 360 deg are one direction, where the former has"));
   EXPECT_THAT(wamit_refusal(with_heading_again("30", "30.0")), testing::HasSubstr("mode 1: duplicate"));
-  EXPECT_THAT(wamit_refusal("OMEGA BETA I MOD PHA RE IM\n" + text),
-              testing::HasSubstr("a.rao:1:1: column 'OMEGA': the first column must be the period"));
+  EXPECT_THAT(wamit_refusal("KL BETA I MOD PHA RE IM\n" + text),
+              testing::HasSubstr("a.rao:1:1: column 'KL': the first column must be the period or the frequency"));
   EXPECT_THAT(wamit_refusal("1 0 1 1 1.5708 0 1\n"),
               testing::HasSubstr("a.rao:1:9: PHA: value '1.5708': must be in degrees"));
   EXPECT_THAT(wamit_refusal("1 0 1.5 1 90 0 1\n"), testing::HasSubstr("value '1.5': must be a mode"));
@@ -284,9 +285,9 @@ TEST_F(RaoFile, OfWamitMayHaveTheConventionsOfOtherPrograms) {
   const RaoTable plain = read_wamit_rao(kWamit, {});
   constexpr auto kFrom = HeadingConvention::kFrom;
   constexpr auto kMinus = TimeFactor::kMinus;
-  expect_same(plain, read_wamit_rao(put(rewritten(true, false)), {.heading = kFrom}));
-  expect_same(plain, read_wamit_rao(put(rewritten(false, true)), {.time_factor = kMinus}));
-  expect_same(plain, read_wamit_rao(put(rewritten(true, true)), {.heading = kFrom, .time_factor = kMinus}));
+  expect_same(plain, read_wamit_rao(put(rewritten(true, false)), {.wamit_heading = kFrom}));
+  expect_same(plain, read_wamit_rao(put(rewritten(false, true)), {.wamit_time_factor = kMinus}));
+  expect_same(plain, read_wamit_rao(put(rewritten(true, true)), {.wamit_heading = kFrom, .wamit_time_factor = kMinus}));
   // Pitch follows the slope of long waves; either convention alone turns its sign.
   for (const std::string& text : {rewritten(true, false), rewritten(false, true)}) {
     EXPECT_THAT(wamit_refusal(text),
@@ -294,7 +295,7 @@ TEST_F(RaoFile, OfWamitMayHaveTheConventionsOfOtherPrograms) {
                                    "motion.wamit_heading (now towards) or motion.wamit_time_factor (now plus) is not "
                                    "the file's"));
   }
-  EXPECT_THAT(message_of([&] { read_wamit_rao(kWamit, {.heading = kFrom}); }), testing::HasSubstr("(now from)"));
+  EXPECT_THAT(message_of([&] { read_wamit_rao(kWamit, {.wamit_heading = kFrom}); }), testing::HasSubstr("(now from)"));
   EXPECT_EQ(long_waves_of(plain), LongWaves::kAgree);
   EXPECT_EQ(long_waves_of(read_veres_rao(kVeres, 0)), LongWaves::kAgree);
 }
@@ -304,7 +305,7 @@ TEST_F(RaoFile, SaysByWhichConventionsItWasRead) {
   EXPECT_THAT(
       motion_file_reading(make_body(spec, {})),
       testing::HasSubstr("(WAMIT: the direction of propagation), 29 frequencies 0.03834 to 5.712 rad/s, speed 0 "
-                         "m/s, time factor e^{+iwt}; pitch in its longest waves agrees"));
+                         "m/s, time factor e^{+iwt}; its longest waves, 163.9 s, confirm heave, pitch, roll"));
   spec.file = kVeres;
   EXPECT_THAT(motion_file_reading(make_body(spec, {})),
               testing::HasSubstr("(VERES: its heading + 180), 36 frequencies"));
@@ -339,6 +340,196 @@ TEST_F(RaoFile, OfVeresIsRefusedForWhatWasOverwrittenOrDropped) {
               testing::HasSubstr("count 1.5: must be a whole number"));
   EXPECT_THAT(veres_refusal(table("1 1 1 6", "0\n1x\n" + six)),
               testing::HasSubstr("a.rao:13:1: frequency: value '1x': must be a finite number"));
+}
+
+// How a program writes the responses of a free body with a natural roll period of 9 s, in waves of 45 to 5 s.
+struct WrittenTable {
+  Complex translations = 1, rotations = 1;           // factors
+  bool per_slope = false, omega = false;             // rotations over k a; first column
+  std::array<double, 2> origin{0, 0};                // of the body from that of the waves' phase
+  double heave = 1, longest_s = 45, shortest_s = 5;  // heave relative to that of a free body
+  int first_mode = 1;
+
+  std::string text() const {
+    std::string rows;
+    for (double period = longest_s; period >= shortest_s; period *= 0.92) {
+      const double w = 2 * kPi / period, k = w * w / kGravity, ratio = w * 9 / (2 * kPi);
+      for (const double beta_deg : {0.0, 45.0, 90.0, 135.0, 180.0}) {
+        const double c = std::cos(radians(beta_deg)), s = std::sin(radians(beta_deg)), far = 1 / (1 + 400 * k * k);
+        const Complex phase = std::polar(1.0, -k * (c * origin[0] + s * origin[1]));
+        const double slope = per_slope ? 1 : k;
+        const Complex modes[] = {-kJ * c,
+                                 -kJ * s,
+                                 heave * far,
+                                 -kJ * slope * s / (1 - ratio * ratio + 0.16 * kJ * ratio),
+                                 kJ * slope * c * far,
+                                 -slope * s * c * far};
+        for (int m = 0; m < 6; ++m) {
+          const Complex value = phase * modes[m] * (m < 3 ? translations : rotations);
+          rows += fmt::format("{:.9e} {:.6e} {} {:.9e} {:.6e} {:.9e} {:.9e}\n", omega ? w : period, beta_deg,
+                              m + first_mode, std::abs(value), degrees(std::arg(value)), value.real(), value.imag());
+        }
+      }
+    }
+    return rows;
+  }
+};
+
+class LongWaveUnits : public RaoFile {
+ protected:
+  std::string refusal(const WrittenTable& table, const MotionSpec& spec = {}, double side_m = 0) const {
+    return message_of([&] { read_wamit_rao(put(table.text()), spec, Vec3::Zero(), side_m); });
+  }
+  // The table as it is read, against the one in metres and radians.
+  void expect_mended(const WrittenTable& table, const MotionSpec& spec) const {
+    const RaoTable read = read_wamit_rao(put(table.text()), spec);
+    const RaoTable plain = read_wamit_rao(put(WrittenTable{}.text()), {});
+    ASSERT_EQ(read.omegas().size(), plain.omegas().size());
+    for (std::size_t n = 0; n < read.omegas().size(); ++n) {
+      for (const double mu : {0.0, radians(45), radians(-90), kPi}) {
+        const double w = plain.omegas()[n], k = wavenumber(w);
+        const MotionRao a = read.at(read.omegas()[n], k, mu), b = plain.at(w, k, mu);
+        EXPECT_LT(std::abs(a.heave - b.heave), 1e-6) << w << " " << mu;
+        EXPECT_LT(std::abs(a.sway - b.sway), 1e-6) << w << " " << mu;
+        EXPECT_LT(std::abs(a.roll - b.roll), 1e-6) << w << " " << mu;
+        EXPECT_LT(std::abs(a.pitch - b.pitch), 1e-6) << w << " " << mu;
+        EXPECT_LT(std::abs(a.yaw - b.yaw), 1e-6) << w << " " << mu;
+      }
+    }
+  }
+};
+
+TEST_F(LongWaveUnits, OfAFreeBodyAreConfirmed) {
+  const LongWaveLimits limits = long_wave_limits(read_wamit_rao(put(WrittenTable{}.text()), {}));
+  EXPECT_NEAR(limits.period_s, 45, 1e-6);
+  ASSERT_TRUE(limits.heave && limits.pitch && limits.roll);
+  EXPECT_LT(std::abs(*limits.heave - 1.0), 0.01);
+  EXPECT_LT(std::abs(*limits.pitch - 1.0), 0.01);
+  EXPECT_LT(std::abs(*limits.roll - 1.0), 0.03);
+}
+
+// Each wrong unit is recognised by its factor and mended by the key of the message.
+TEST_F(LongWaveUnits, ThatAreWrongAreRefusedWithTheirKey) {
+  const WrittenTable ulen{.rotations = 25};
+  EXPECT_THAT(refusal(ulen), testing::HasSubstr("a.rao: pitch in waves of 45 s is 25 times their slope, where a body "
+                                                "follows it: motion.wamit_ulen_m (now 1) is not the file's: 25 makes"));
+  expect_mended(ulen, {.wamit_ulen_m = 25});
+  // ULEN given for a table that is in metres.
+  EXPECT_THAT(refusal({}, {.wamit_ulen_m = 25}),
+              testing::HasSubstr("motion.wamit_ulen_m (now 25) is not the file's: 1 "));
+
+  const WrittenTable in_degrees{.rotations = degrees(1)};
+  EXPECT_THAT(refusal(in_degrees), testing::HasSubstr("motion.rao_rotations: degrees"));
+  expect_mended(in_degrees, {.rao_rotations = RaoRotations::kDegrees});
+
+  const WrittenTable per_slope{.per_slope = true};
+  EXPECT_THAT(refusal(per_slope), testing::HasSubstr("motion.rao_rotations: slope;"));
+  expect_mended(per_slope, {.rao_rotations = RaoRotations::kSlope});
+  const WrittenTable degrees_per_slope{.rotations = degrees(1), .per_slope = true};
+  EXPECT_THAT(refusal(degrees_per_slope), testing::HasSubstr("motion.rao_rotations: slope_degrees"));
+  expect_mended(degrees_per_slope, {.rao_rotations = RaoRotations::kSlopeDegrees});
+
+  const WrittenTable per_height{.translations = 0.5, .rotations = 0.5};
+  EXPECT_THAT(refusal(per_height),
+              testing::HasSubstr("heave in waves of 45 s is 0.5 at 0 deg, where a body follows them "
+                                 "(1 at 0 deg): responses over the height of the waves? "
+                                 "motion.rao_scale: 2"));
+  expect_mended(per_height, {.rao_scale = 2});
+
+  constexpr double kRhoG = 1025 * 9.81;
+  const WrittenTable hams{.translations = kJ / kRhoG, .rotations = kJ / kRhoG};
+  EXPECT_THAT(
+      refusal(hams),
+      testing::HasSubstr(
+          "at 90 deg, where a body follows them (1 at 0 deg): responses over rho g, "
+          "as HAMS writes them? motion.rao_scale: rho g of the run (10055 in sea water), motion.rao_phase_deg: -90"));
+  expect_mended(hams, {.rao_scale = kRhoG, .rao_phase_deg = -90});
+
+  const WrittenTable other{.translations = 3, .rotations = 3};
+  EXPECT_THAT(refusal(other), testing::HasSubstr("motion.rao_scale (now 1) and motion.rao_phase_deg (now 0) are not"));
+}
+
+// A body on tension legs does not heave; it is accepted when the scenario says so.
+TEST_F(LongWaveUnits, OfARestrainedBodyAreAcceptedByItsKey) {
+  const WrittenTable restrained{.heave = 0.01};
+  EXPECT_THAT(refusal(restrained),
+              testing::HasSubstr("motion.rao_follows_long_waves: false accepts a restrained body"));
+  EXPECT_EQ(refusal(restrained, {.rao_follows_long_waves = false}), "");
+}
+
+// Waves that are short for the body confirm nothing; a body that moves in none of them is refused if they are longer
+// than twice its side.
+TEST_F(LongWaveUnits, CannotBeConfirmedByShortWaves) {
+  EXPECT_EQ(refusal({.longest_s = 8}), "");
+  const WrittenTable small{.translations = 1e-4, .rotations = 1e-4, .longest_s = 8};
+  EXPECT_THAT(refusal(small), testing::HasSubstr("heave is at most"));
+  EXPECT_THAT(refusal(small, {}, 40), testing::HasSubstr("such a body does not move"));
+  EXPECT_EQ(refusal(small, {}, 60), "");
+}
+
+// Near its natural roll period, and in water of 50 m where waves are shorter, a free body's rotations exceed the slope
+// of deep water: no unit is wrong.
+TEST_F(LongWaveUnits, AreNotDoubtedNearResonanceOrInShallowWater) {
+  EXPECT_EQ(refusal({.longest_s = 14}), "");
+  std::string text;
+  for (const double period : {45.0, 38.0, 32.0, 27.0, 23.0, 20.0}) {
+    const double w = 2 * kPi / period;
+    double k = w * w / kGravity;
+    for (int i = 0; i < 200; ++i) k = 0.5 * (k + w * w / (kGravity * std::tanh(k * 50)));
+    for (const double beta_deg : {0.0, 45.0, 90.0, 135.0, 180.0}) {
+      const double c = std::cos(radians(beta_deg)), s = std::sin(radians(beta_deg));
+      const Complex modes[] = {-kJ * c, -kJ * s, 1, -kJ * k * s, kJ * k * c, -k * s * c};
+      for (int m = 0; m < 6; ++m)
+        text += fmt::format("{} {} {} {:.9e} {:.6e} {:.9e} {:.9e}\n", period, beta_deg, m + 1, std::abs(modes[m]),
+                            degrees(std::arg(modes[m])), modes[m].real(), modes[m].imag());
+    }
+  }
+  EXPECT_EQ(wamit_refusal(text), "");
+}
+
+// Body 2 of a run of two, whose phases are those of the waves at the origin of the run.
+TEST_F(LongWaveUnits, OfABodyOfARunOfSeveral) {
+  const WrittenTable second{.origin = {30, -40}, .first_mode = 7};
+  const std::string text = WrittenTable{.rotations = 0.9}.text() + second.text();
+  EXPECT_THAT(wamit_refusal(text),
+              testing::HasSubstr("I: value '7': must be a mode, 1 to 6; motion.wamit_body chooses a "
+                                 "body of a run of several, body 2 with modes 7 to 12"));
+  const RaoTable read = read_wamit_rao(put(text), {.wamit_body = 2, .wamit_xbody_m = {30, -40, 0}});
+  const RaoTable plain = read_wamit_rao(put(WrittenTable{}.text()), {});
+  for (const double w : plain.omegas()) {
+    for (const double mu : {0.0, radians(45), radians(90)}) {
+      const double k = wavenumber(w);
+      EXPECT_LT(std::abs(read.at(w, k, mu).heave - plain.at(w, k, mu).heave), 1e-6) << w << " " << mu;
+      EXPECT_LT(std::abs(read.at(w, k, mu).roll - plain.at(w, k, mu).roll), 1e-6) << w << " " << mu;
+    }
+  }
+  const double w = plain.omegas().front(), k = wavenumber(w);
+  EXPECT_NEAR(std::abs(read_wamit_rao(put(text), {.wamit_body = 1}).at(w, k, 0).pitch / plain.at(w, k, 0).pitch), 0.9,
+              1e-6);
+  EXPECT_THAT(message_of([&] { read_wamit_rao(put(text), {.wamit_body = 3}); }),
+              testing::HasSubstr("no modes 13 to 18 of motion.wamit_body 3: its modes are those of 2 bodies"));
+}
+
+// Heave that is neither that of a free body nor clearly wrong is stated.
+TEST_F(LongWaveUnits, AreStatedWhereHeaveIsNotThatOfAFreeBody) {
+  MotionSpec spec = rao_spec("");
+  const std::filesystem::path file = put(WrittenTable{.translations = 0.87, .rotations = 0.87}.text());
+  std::filesystem::rename(file, file.string() + ".4");
+  spec.file = file.string() + ".4";
+  EXPECT_THAT(motion_file_reading(make_body(spec, {})),
+              testing::HasSubstr("heave in its longest waves, 45 s, is 0.87 where a free body has 1"));
+}
+
+TEST_F(LongWaveUnits, OfATableOverFrequencies) {
+  const WrittenTable over_omega{.omega = true};
+  expect_mended(over_omega, {.wamit_first_column = WamitFirstColumn::kOmega});
+  const RaoTable named = read_wamit_rao(put("OMEGA BETA I MOD PHA RE IM\n" + over_omega.text()), {});
+  EXPECT_NEAR(named.omegas().front(), 2 * kPi / 45, 1e-8);
+  EXPECT_THAT(refusal(over_omega),
+              testing::HasSubstr("heave tends to 1 in its shortest waves: motion.wamit_first_column "
+                                 "(now period) is not the file's"));
+  EXPECT_THAT(refusal({}, {.wamit_first_column = WamitFirstColumn::kOmega}),
+              testing::HasSubstr("motion.wamit_first_column (now omega) is not the file's"));
 }
 
 }  // namespace
