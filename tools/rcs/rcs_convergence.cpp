@@ -96,7 +96,8 @@ ConvergedSweep converge_rcs(const RcsRequest& request, const RcsTarget& target, 
         "--converge halves the patches of beams or the distance between rays: needs --method beams or rays");
   ConvergedSweep converged;
   RcsRequest step = plain(request);
-  converged.result = compute_rcs(step, target, threads, stop);
+  const auto forecast = [&](const std::string& line) { say(line + "\n"); };
+  converged.result = compute_rcs(step, target, threads, stop, forecast);
   const TracingSettings settings = settings_of(request, target, request.edges);
   const Scatterer& scatterer = *target.prepared.scatterer;
   double& size_m = step.*halved_size(request.method).member;
@@ -108,7 +109,7 @@ ConvergedSweep converge_rcs(const RcsRequest& request, const RcsTarget& target, 
     size_m /= 2;
     RcsResult finer;
     try {
-      finer = compute_rcs(step, target, threads, stop);
+      finer = compute_rcs(step, target, threads, stop, forecast);
     } catch (const InputError& error) {  // more rays than the method has
       if (!coarser) throw;
       converged.limit = error.what();

@@ -54,12 +54,13 @@ class SweepTracer {
   }
 
   // Views in parallel before panels in parallel, which needs more synchronisation.
-  void run(RcsResult& result) const {
+  void run(RcsResult& result, const std::function<void(const std::string&)>& say) const {
     const std::size_t views = result.sweep.views(), together = views_per_trace(request_),
                       groups = (views + together - 1) / together;
     const int side_by_side = static_cast<int>(std::min({groups, static_cast<std::size_t>(threads_), kMaxSideBySide}));
     std::atomic<std::size_t> done{0}, segments{0};
     Progress progress("rcs", views, "views");
+    progress.announce(static_cast<std::size_t>(side_by_side) * together, threads_, say);
     try {
       parallel_for(
           groups, side_by_side,
@@ -137,11 +138,12 @@ class SweepTracer {
 
 // Adds the scattering matrices of cavities to every model of the sweep.
 void add_cavities(const RcsRequest& request, const RcsTarget& target, int threads, const StopFlag* stop,
-                  RcsSweep& sweep) {
+                  RcsSweep& sweep, const std::function<void(const std::string&)>& say) {
   std::vector<BistaticGeometry> views;
   for (std::size_t view = 0; view < sweep.views(); ++view)
     views.push_back(antennas_of(request, basis_at(sweep.azimuth_of(view), sweep.elevation_of(view))));
   Progress progress("cavity", target.cavities.size() * sweep.frequency_hz.size(), "frequencies");
+  progress.announce(1, threads, say);
   for (const NamedCavity& named : target.cavities) {
     for (std::size_t q = 0; q < sweep.frequency_hz.size(); ++q) {
       std::vector<std::array<Complex, 4>> echo(sweep.views());
@@ -168,13 +170,14 @@ void add_cavities(const RcsRequest& request, const RcsTarget& target, int thread
 }
 
 // The requested model of the target with all facets flat, without the echoes of cavities.
-RcsSweep::Model flat_model(RcsRequest request, int threads, const StopFlag* stop) {
+RcsSweep::Model flat_model(RcsRequest request, int threads, const StopFlag* stop,
+                           const std::function<void(const std::string&)>& say) {
   request.crease_deg = 0;
   request.uncertainty = request.physical_optics_too = false;
   request.exports = {};
   RcsTarget target = prepare_rcs_target(request);
   target.cavities.clear();
-  RcsSweep::Model model = compute_rcs(request, target, threads, stop).sweep.models.back();
+  RcsSweep::Model model = compute_rcs(request, target, threads, stop, say).sweep.models.back();
   model.name += ", flat facets";
   return model;
 }
@@ -208,7 +211,8 @@ AspectContributions view_contributions(const RcsRequest& request, const RcsTarge
                               settings_of(request, target, request.edges), threads, stop, {request.range_m});
 }
 
-RcsResult compute_rcs(const RcsRequest& request, const RcsTarget& target, int threads, const StopFlag* stop) {
+RcsResult compute_rcs(const RcsRequest& request, const RcsTarget& target, int threads, const StopFlag* stop,
+                      const std::function<void(const std::string&)>& say) {
   RcsResult result{requested_sweep(request), {}, 0};
   RcsSweep& sweep = result.sweep;
   const std::vector<std::vector<std::array<Complex, 4>>> empty(sweep.views());
@@ -216,9 +220,9 @@ RcsResult compute_rcs(const RcsRequest& request, const RcsTarget& target, int th
   if (request.edges) sweep.models.push_back({"po+diffraction", true, empty});
   sweep.uncertainty.resize(sweep.views());
   const int count = thread_count(threads);
-  SweepTracer(request, target, count, stop).run(result);
-  if (request.uncertainty) sweep.flat = flat_model(request, threads, stop);
-  if (!target.cavities.empty()) add_cavities(request, target, count, stop, sweep);
+  SweepTracer(request, target, count, stop).run(result, say);
+  if (request.uncertainty) sweep.flat = flat_model(request, threads, stop, say);
+  if (!target.cavities.empty()) add_cavities(request, target, count, stop, sweep, say);
   return result;
 }
 

@@ -5,6 +5,8 @@
 // itself, several in parallel; the aspects of a fixed transmitter are traced together.
 
 #include <cstddef>
+#include <functional>
+#include <string>
 #include <vector>
 
 #include "sim/core/process/parallel.h"
@@ -43,8 +45,9 @@ struct RcsResult {
 };
 
 // Computes all models of the request, on `threads` threads (0 = all processors). Throws WorkError when a cavity's
-// currents do not converge or *stop becomes true.
+// currents do not converge or *stop becomes true. say(), if any, gets a line with the time that a long sweep will take,
+// by its first views.
 RcsResult compute_rcs(const RcsRequest& request, const RcsTarget& target, int threads = 0,
-                      const StopFlag* stop = nullptr);
+                      const StopFlag* stop = nullptr, const std::function<void(const std::string&)>& say = {});
 
 }  // namespace seaglint

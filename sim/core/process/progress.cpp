@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 namespace seaglint {
 
@@ -14,6 +15,8 @@ namespace {
 
 constexpr std::chrono::seconds kQuiet{2};          // shorter work shows nothing
 constexpr std::chrono::milliseconds kRedraw{200};  // redraw interval
+constexpr double kForecastAfter_s = 1;             // steps are timed for so long
+constexpr double kLeastForecast_s = 10;            // shorter work is not announced
 
 std::string duration(double seconds) {
   const auto s = static_cast<long>(std::ceil(std::min(seconds, 1e9)));
@@ -22,7 +25,22 @@ std::string duration(double seconds) {
   return fmt::format("{} h {} min", s / 3600, s % 3600 / 60);
 }
 
+// In the digits that an estimate has.
+std::string about(double seconds) {
+  if (seconds < 100) return fmt::format("{:.0f} s", 5 * std::round(seconds / 5));
+  if (seconds < 100 * 60) return fmt::format("{:.0f} min", seconds / 60);
+  return fmt::format("{:.1f} h", seconds / 3600);
+}
+
 }  // namespace
+
+std::string forecast_line(const std::string& steps, std::size_t done, std::size_t total, double elapsed_s,
+                          int threads) {
+  const double seconds = elapsed_s * static_cast<double>(total) / static_cast<double>(done);
+  if (seconds < kLeastForecast_s) return "";
+  return fmt::format("about {} for {} {} on {} thread{}", about(seconds), total, steps, threads,
+                     threads == 1 ? "" : "s");
+}
 
 std::string progress_line(const std::string& what, std::size_t done, std::size_t total, double elapsed_s,
                           const std::string& steps) {
@@ -52,8 +70,29 @@ Progress::~Progress() {
   }
 }
 
+void Progress::announce(std::size_t first, int threads, std::function<void(const std::string&)> say) {
+  first_ = first;
+  threads_ = threads;
+  announces_ = say != nullptr;
+  say_ = std::move(say);
+}
+
+void Progress::announce_when_due(std::size_t done) {
+  const std::unique_lock lock(mutex_, std::try_to_lock);
+  if (!lock || !say_ || done < first_ || 2 * done > total_) return;
+  const double elapsed_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  if (elapsed_s < kForecastAfter_s) return;
+  const std::string line = forecast_line(steps_, done, total_, elapsed_s, threads_);
+  if (line.empty()) return;
+  if (shown_) std::fputs("\r\033[K", stderr);
+  say_(line);
+  say_ = nullptr;
+  announces_ = false;
+}
+
 void Progress::advance(std::size_t steps) {
   const std::size_t done = done_ += steps;
+  if (announces_) announce_when_due(done);
   if (!terminal_) return;
   // Skips drawing when another thread is drawing.
   const std::unique_lock lock(mutex_, std::try_to_lock);

@@ -10,6 +10,7 @@
 
 #include <string>
 #include <thread>
+#include <vector>
 
 namespace seaglint {
 namespace {
@@ -27,6 +28,31 @@ TEST(ProgressLine, ContainsFractionAndRemainingTime) {
 TEST(ProgressLine, ContainsARateForNamedSteps) {
   EXPECT_EQ(progress_line("rcs", 1, 4, 10, "views"), "rcs  [#####...............]  25 %, 30 s left, 0.1 views/s");
   EXPECT_EQ(progress_line("rcs", 0, 4, 10, "views"), "rcs  [....................]   0 %, no estimate yet");
+}
+
+TEST(ForecastLine, IsAboutTheWholeOfLongWork) {
+  EXPECT_EQ(forecast_line("views", 2, 721, 2, 2), "about 12 min for 721 views on 2 threads");
+  EXPECT_EQ(forecast_line("views", 1, 40, 1.1, 1), "about 45 s for 40 views on 1 thread");
+  EXPECT_EQ(forecast_line("views", 10, 10000, 9, 8), "about 2.5 h for 10000 views on 8 threads");
+  EXPECT_EQ(forecast_line("views", 10, 90, 1, 2), "");
+}
+
+// Of 40 steps the first two take a second: 20 s. Said once, to a terminal or not; nothing of short work or near its
+// end.
+TEST(Progress, ForecastsLongWorkOnceByItsFirstSteps) {
+  const auto lines_of = [](std::size_t total, std::size_t first) {
+    std::vector<std::string> lines;
+    Progress progress("rcs", total, "views");
+    progress.announce(first, 2, [&](const std::string& line) { lines.push_back(line); });
+    progress.advance();
+    std::this_thread::sleep_for(std::chrono::milliseconds(1050));
+    for (int n = 0; n < 3; ++n) progress.advance();
+    return lines;
+  };
+  EXPECT_THAT(lines_of(40, 2),
+              ::testing::ElementsAre(::testing::MatchesRegex("about [0-9]+ s for 40 views on 2 threads")));
+  EXPECT_THAT(lines_of(8, 2), ::testing::IsEmpty());
+  EXPECT_THAT(lines_of(40, 5), ::testing::IsEmpty()) << "fewer steps than are made side by side";
 }
 
 TEST(Progress, IsSilentWhereThereIsNoTerminal) {
