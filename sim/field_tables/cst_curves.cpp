@@ -16,6 +16,7 @@
 #include "sim/core/text/text_rows.h"
 #include "sim/core/text/words.h"
 #include "sim/field_tables/export_name.h"
+#include "sim/field_tables/level_unit.h"
 #include "sim/field_tables/rows/line_reader.h"
 
 namespace seaglint {
@@ -123,6 +124,7 @@ class CurveReader {
   RcsCut cut() const {
     RcsCut cut;
     cut.element = element();
+    cut.total = is_total();
     cut.transmitter = settings_.transmitter;
     const double frequency_hz = abscissa_ == Abscissa::kFrequency ? 0 : fixed_frequency();
     const double theta = abscissa_ == Abscissa::kTheta ? 0 : fixed_angle("theta");
@@ -162,15 +164,30 @@ class CurveReader {
     throw InputError(fmt::format("{}:{}: {}", source_.name(), curve_.line, shown(what)));
   }
 
-  Polarisation element() const {
-    if (settings_.elements.size() == 1) return settings_.elements[0];
+  std::optional<Polarisation> named_element() const {
     for (std::size_t i = 0; i < 4; ++i) {
       if (has_word(curve_.names[1], kPolarisationNames[i]) || has_word(file_, kPolarisationNames[i]))
         return static_cast<Polarisation>(i);
     }
+    return std::nullopt;
+  }
+  // A magnitude without phase, with `abs` of no component in the curve's name, where both received polarisations are
+  // wanted and no name has an element.
+  bool is_total() const {
+    const std::vector<Polarisation>& wanted = settings_.elements;
+    const std::string name = squeezed(curve_.names[1]);
+    const bool of_component =
+        name.find("Abs(Theta)") != std::string::npos || name.find("Abs(Phi)") != std::string::npos;
+    return curve_.names.size() == 2 && wanted.size() == 2 && transmits_v(wanted[0]) == transmits_v(wanted[1]) &&
+           has_word(curve_.names[1], "abs") && !of_component && !named_element();
+  }
+  Polarisation element() const {
+    if (is_total()) return element_of(transmits_v(settings_.elements[0]), transmits_v(settings_.elements[0]));
+    if (settings_.elements.size() == 1) return settings_.elements[0];
+    if (const std::optional<Polarisation> element = named_element()) return *element;
     fail(
         "neither the curve's nor the file's name says the polarisation (HH, HV, VH, VV): give "
-        "--reference-polarisation");
+        "--reference-polarisation, of a total (abs) h or v");
   }
   double fixed_frequency() const {
     for (const char* word : {"f", "frequency", "freq"}) {
@@ -230,8 +247,11 @@ void read_cst_curves(const TextSource& source, const FieldTableSettings& setting
   for (const Curve& curve : curves_of(source)) {
     RcsCut cut = CurveReader(source, settings, table.name, curve).cut();
     const auto same = std::find_if(table.cuts.begin(), table.cuts.end(),
-                                   [&](const RcsCut& other) { return other.element == cut.element; });
+                                   [&](const RcsCut& other) { return other.quantity() == cut.quantity(); });
     if (same == table.cuts.end()) {
+      if (cut.total)
+        table.notes.push_back(
+            fmt::format("total of both received polarisations, {} transmitted", transmits_v(cut.element) ? "v" : "h"));
       table.cuts.push_back(std::move(cut));
     } else {
       same->values.insert(same->values.end(), cut.values.begin(), cut.values.end());

@@ -128,6 +128,15 @@ class ReceivedField {
   std::optional<CstComponent> spherical_, horizontal_, vertical_;
 };
 
+// The level of the sum over both received polarisations, `Abs(RCS)` or `Abs(E)`, of a table that has it alone.
+std::optional<CstComponent> total_of(const CstTable& table) {
+  for (const char* component : {"Abs(Theta)", "Abs(Phi)", "Horiz(Abs)", "Vert(Abs)"}) {
+    if (table.find(component)) return std::nullopt;
+  }
+  const std::optional<CstComponent> area = find_component(table, "Abs(RCS)", "Phase(RCS)");
+  return area ? area : find_component(table, "Abs(E)", "Phase(E)");
+}
+
 }  // namespace
 
 bool is_cst_header(std::string_view line) {
@@ -147,6 +156,18 @@ void read_cst_table(const TextSource& source, const FieldTableSettings& settings
   const CstTable cst(source, frequency_hz);
   const TextTable& rows = cst.rows();
   const std::size_t theta = *cst.find_angle("Theta", true), phi = *cst.find_angle("Phi", true);
+  if (const std::optional<CstComponent> total = total_of(cst)) {
+    const bool v = total_transmits_v(settings, source.name(), "a CST table");
+    table.notes.push_back(fmt::format("total of both received polarisations, {} transmitted", v ? "v" : "h"));
+    RcsCut& cut = cut_for(table, quantity_of(element_of(v, v), true), settings.transmitter);
+    for (std::size_t row = 0; row < rows.rows(); ++row) {
+      FieldValue value{frequency_hz, rows.number(row, theta), rows.number(row, phi), total->level_dbsm(rows, row),
+                       {},           rows.line(row)};
+      fold_direction(value.theta_deg, value.phi_deg);
+      cut.values.push_back(value);
+    }
+    return;
+  }
   for (const Polarisation element : settings.elements) {
     const ReceivedField field(source, cst, receives_v(element));
     RcsCut cut;

@@ -104,18 +104,6 @@ bool same_direction(double theta, double phi, const std::array<double, 2>& other
   return std::abs(theta - other[0]) < kAngle_deg && std::abs(std::remainder(phi - other[1], 360)) < kAngle_deg;
 }
 
-// The cut of an element and transmitter, made where it is missing.
-RcsCut& cut_for(FieldTable& table, Polarisation element, const DeclaredTransmitter& transmitter) {
-  const auto place = std::find_if(table.cuts.begin(), table.cuts.end(), [&](const RcsCut& cut) {
-    return cut.element == element && *cut.transmitter == transmitter;
-  });
-  if (place != table.cuts.end()) return *place;
-  RcsCut& cut = table.cuts.emplace_back();
-  cut.element = element;
-  cut.transmitter = transmitter;
-  return cut;
-}
-
 void require_area(const LineReader& lines, const std::array<double, 9>& v) {
   const double area = 4 * kPi * (v[2] * v[2] + v[3] * v[3] + v[4] * v[4] + v[5] * v[5]);
   if (std::abs(area - v[8]) > kAreaDigits * std::max(area, v[8]) + 1e-12)
@@ -134,8 +122,9 @@ void read_block(LineReader& lines, const BlockHead& head, const std::vector<Pola
     require_area(lines, v);
     if (row == 0) {
       if (head.rows == 1 && same_direction(v[0], v[1], *head.incident_deg)) transmitter = {};
-      for (const Polarisation element : elements) cut_for(table, element, transmitter);
-      for (const Polarisation element : elements) cuts.push_back(&cut_for(table, element, transmitter));
+      for (const Polarisation element : elements) cut_for(table, quantity_of(element, false), transmitter);
+      for (const Polarisation element : elements)
+        cuts.push_back(&cut_for(table, quantity_of(element, false), transmitter));
     }
     for (RcsCut* cut : cuts) {
       // A wave along -theta^, not theta^, where v is transmitted.

@@ -11,6 +11,18 @@
 
 namespace seaglint {
 
+RcsCut& cut_for(FieldTable& table, std::size_t quantity, const std::optional<DeclaredTransmitter>& transmitter) {
+  const auto place = std::find_if(table.cuts.begin(), table.cuts.end(), [&](const RcsCut& cut) {
+    return cut.quantity() == quantity && cut.transmitter == transmitter;
+  });
+  if (place != table.cuts.end()) return *place;
+  RcsCut& cut = table.cuts.emplace_back();
+  cut.element = element_of_quantity(quantity);
+  cut.total = is_total(quantity);
+  cut.transmitter = transmitter;
+  return cut;
+}
+
 std::string reading_of(const FieldTable& table) {
   std::string text = fmt::format("{}: read as {}", table.name, table.reader);
   for (const std::string& note : table.notes) text += "; " + note;
@@ -23,6 +35,16 @@ void require_elements(const FieldTableSettings& settings, const std::string& fil
       fmt::format("{}: {} does not say which polarisation was transmitted, nor does its name (HP, VP): give "
                   "--reference-polarisation h or v, or "
                   "one element, hh, hv, vh or vv",
+                  file, format));
+}
+
+bool total_transmits_v(const FieldTableSettings& settings, const std::string& file, const char* format) {
+  require_elements(settings, file, format);
+  const std::vector<Polarisation>& wanted = settings.elements;
+  if (wanted.size() == 2 && transmits_v(wanted[0]) == transmits_v(wanted[1])) return transmits_v(wanted[0]);
+  throw InputError(
+      fmt::format("{}: {} with the total cross section alone, the sum over both received polarisations: give "
+                  "--reference-polarisation h or v, the one that was transmitted",
                   file, format));
 }
 

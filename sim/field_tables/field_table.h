@@ -4,6 +4,8 @@
 // Scattering amplitudes or the radar cross section over direction and frequency, from a measurement or another solver,
 // in the signs of CONVENTIONS.md but about the file's own phase origin and in its own azimuths.
 
+#include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,6 +25,20 @@ constexpr bool is_cross(Polarisation element) { return transmits_v(element) != r
 // The element of this receiver and transmitter.
 constexpr Polarisation element_of(bool received_v, bool transmitted_v) {
   return static_cast<Polarisation>(2 * static_cast<int>(received_v) + static_cast<int>(transmitted_v));
+}
+
+// What a cut can hold: an element of the scattering matrix, or for one polarisation transmitted the level of the sum
+// over both received, |S_hq|^2 + |S_vq|^2 (the total cross section of HFSS and CST).
+inline constexpr std::size_t kQuantities = 6;
+inline constexpr const char* kQuantityNames[kQuantities] = {"hh", "hv", "vh", "vv", "total_h", "total_v"};
+
+// `element` of a total: that of its co-polar part, hh or vv.
+constexpr std::size_t quantity_of(Polarisation element, bool is_total) {
+  return is_total ? 4 + static_cast<std::size_t>(transmits_v(element)) : static_cast<std::size_t>(element);
+}
+constexpr bool is_total(std::size_t quantity) { return quantity >= 4; }
+constexpr Polarisation element_of_quantity(std::size_t quantity) {
+  return quantity < 4 ? static_cast<Polarisation>(quantity) : element_of(quantity == 5, quantity == 5);
 }
 
 struct FieldValue {
@@ -52,35 +68,54 @@ struct FieldTableSettings {
   std::vector<Polarisation> elements;              // wanted ones; empty: all that the file or its name states
   std::optional<double> frequency_hz;              // of a file without frequencies
   std::optional<DeclaredTransmitter> transmitter;  // of a file without one
+  std::optional<double> elevation_deg;             // of a table by azimuth without elevations; absent: 0
   double phi_scale = 1;                            // phi of the file = phi_scale * azimuth + phi_offset_deg
   double phi_offset_deg = 0;
   std::optional<Vec3> origin_m;  // the file's phase origin, body frame; absent: the file's own, else 0
 };
 
-// One element of the scattering matrix.
+// One element of the scattering matrix, or a total.
 struct RcsCut {
   std::string name;  // file name without its folder
   Polarisation element = Polarisation::kHh;
+  bool total = false;  // levels of the sum over both received polarisations; `element` is then hh or vv
   std::vector<FieldValue> values;
   std::optional<DeclaredTransmitter> transmitter;  // absent if neither file nor settings state it
   double phi_scale = 1, phi_offset_deg = 0;        // of the settings
   Vec3 origin_m = Vec3::Zero();                    // phase origin, body frame
   bool has_phase() const { return !values.empty() && values.front().amplitude_m.has_value(); }
+  std::size_t quantity() const { return quantity_of(element, total); }
+};
+
+// A mesh of the model that an export was computed for, in a unit of read_mesh().
+struct GeometryFile {
+  std::filesystem::path file;
+  std::string unit;
+
+  bool operator==(const GeometryFile&) const = default;
 };
 
 // What one file holds.
 struct FieldTable {
-  std::string name;                // file name without its folder
-  std::string reader;              // "a CST farfield table"
-  std::vector<std::string> notes;  // how it was taken: conventions, and what is assumed or from its name
-  std::vector<RcsCut> cuts;        // by element and transmitter; not empty, none without values
+  std::string name;                    // file name without its folder
+  std::string reader;                  // "a CST farfield table"
+  std::vector<std::string> notes;      // how it was taken: conventions, and what is assumed or from its name
+  std::vector<RcsCut> cuts;            // by quantity and transmitter; not empty, none without values
+  std::vector<GeometryFile> geometry;  // that the file names and that exist; empty: none
 };
+
+// The cut of this quantity and transmitter, made where it is missing. It stays in place until another one is made.
+RcsCut& cut_for(FieldTable& table, std::size_t quantity, const std::optional<DeclaredTransmitter>& transmitter);
 
 // "NAME: read as READER; NOTE; ..." on one line.
 std::string reading_of(const FieldTable& table);
 
 // Throws InputError if no element is wanted, of a format that does not say which polarisation was transmitted.
 void require_elements(const FieldTableSettings& settings, const std::string& file, const char* format);
+
+// Whether v is transmitted, for a file that holds totals alone. Throws InputError unless the settings want both
+// elements of one polarisation transmitted.
+bool total_transmits_v(const FieldTableSettings& settings, const std::string& file, const char* format);
 
 // Maps a direction to theta 0..180, phi 0..360; true if theta was below 0 or above 180, on the other half of the great
 // circle, where theta^ and phi^ both have the opposite sign.

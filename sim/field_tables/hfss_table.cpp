@@ -17,24 +17,45 @@
 #include "sim/core/text/text_table.h"
 #include "sim/core/text/words.h"
 #include "sim/field_tables/export_name.h"
+#include "sim/field_tables/level_unit.h"
 
 namespace seaglint {
 namespace {
 
-constexpr std::string_view kResult = "MonostaticRCS";
+constexpr std::string_view kMonostatic = "MonostaticRCS", kBistatic = "BistaticRCS";
 
-// The direction and frequency in the name of a result, as far as they stand there.
+// The directions and frequency in the name of a result, as far as they stand there.
 struct NamedPlace {
-  std::optional<double> frequency_hz, theta_deg, phi_deg;
+  std::optional<double> frequency_hz, wave_theta_deg, wave_phi_deg, theta_deg, phi_deg;
 
-  auto key() const { return std::tuple(frequency_hz, theta_deg, phi_deg); }
+  auto key() const { return std::tuple(frequency_hz, wave_theta_deg, wave_phi_deg, theta_deg, phi_deg); }
+};
+
+enum class Component { kTheta, kPhi, kTotal };
+
+// A column of values and its unit.
+struct Level {
+  std::size_t column = 0;
+  LevelUnit unit;
+};
+struct Length {
+  std::size_t column = 0;
+  double unit_m = 1;
+};
+struct Phase {
+  std::size_t column = 0;
+  bool in_degrees = true;
 };
 
 // Columns of one component at one named place.
 struct Result {
   NamedPlace place;
-  bool theta = true;  // the component received
-  std::optional<std::size_t> decibel, area, re, im;
+  Component component = Component::kTheta;  // received
+  std::optional<Level> level;
+  std::optional<Length> magnitude, re, im;
+  std::optional<Phase> phase;
+
+  bool has_value() const { return level || magnitude || (re && im); }
 };
 
 std::optional<std::string_view> quoted_value(std::string_view name, std::string_view word) {
@@ -44,12 +65,70 @@ std::optional<std::string_view> quoted_value(std::string_view name, std::string_
   return text->substr(0, text->find('\''));
 }
 
+// Degrees of `85deg` or `1.48rad`; nullopt for another unit.
+std::optional<double> angle_in_name(std::string_view text) {
+  const std::optional<double> value = leading_number(text);
+  const std::string_view unit = trimmed(text.substr(std::min(text.find_first_not_of("+-.0123456789eE"), text.size())));
+  if (!value || (unit != "deg" && unit != "rad" && !unit.empty())) return std::nullopt;
+  return unit == "rad" ? degrees(*value) : *value;
+}
+
 NamedPlace place_in(std::string_view name) {
   NamedPlace place;
+  const auto angle = [&](const char* word) {
+    const std::optional<std::string_view> text = quoted_value(name, word);
+    return text ? angle_in_name(*text) : std::nullopt;
+  };
   if (const auto text = quoted_value(name, "Freq")) place.frequency_hz = frequency_in_name(*text);
-  if (const auto text = quoted_value(name, "IWaveTheta")) place.theta_deg = leading_number(*text);
-  if (const auto text = quoted_value(name, "IWavePhi")) place.phi_deg = leading_number(*text);
+  place.wave_theta_deg = angle("IWaveTheta");
+  place.wave_phi_deg = angle("IWavePhi");
+  place.theta_deg = angle("Theta");
+  place.phi_deg = angle("Phi");
   return place;
+}
+
+// What stands in the name of a result: `mag(ComplexMonostaticRCSTheta) [mm] - ...`.
+struct ResultName {
+  std::string function, unit;
+  bool is_complex = false, is_bistatic = false;
+  Component component = Component::kTheta;
+};
+
+// The unit in the first brackets; empty without them.
+std::string unit_in(std::string_view name) {
+  const std::size_t open = name.find('[');
+  const std::size_t close = open == std::string_view::npos ? open : name.find(']', open);
+  return close == std::string_view::npos ? std::string() : squeezed(name.substr(open + 1, close - open - 1));
+}
+
+// Empty for a column that is no result: an axis, or a quantity of another kind.
+std::optional<ResultName> result_name(std::string_view name) {
+  ResultName result;
+  std::size_t at = name.find(kMonostatic);
+  std::size_t end = at + kMonostatic.size();
+  if (at == std::string_view::npos) {
+    at = name.find(kBistatic);
+    end = at + kBistatic.size();
+    result.is_bistatic = true;
+  }
+  if (at == std::string_view::npos) return std::nullopt;
+  std::string_view before = name.substr(0, at);
+  const std::string_view behind = name.substr(end);
+  result.is_complex = before.ends_with("Complex");
+  if (result.is_complex) before.remove_suffix(std::string_view("Complex").size());
+  if (before.ends_with('(')) before.remove_suffix(1);
+  result.function = trimmed(before);
+  if (behind.starts_with("Theta")) {
+    result.component = Component::kTheta;
+  } else if (behind.starts_with("Phi")) {
+    result.component = Component::kPhi;
+  } else if (behind.starts_with("Total")) {
+    result.component = Component::kTotal;
+  } else {
+    return std::nullopt;
+  }
+  result.unit = unit_in(behind);
+  return result;
 }
 
 // The names of a report in one of the first lines, and the text below.
@@ -65,7 +144,7 @@ std::optional<Head> head_of(const TextSource& source) {
   std::string_view rest = source.text();
   for (int n = 0; n < kMaxLines && !rest.empty(); ++n) {
     const std::string_view text = rest, line = next_line(rest);
-    if (line.find(kResult) == std::string_view::npos) continue;
+    if (line.find(kMonostatic) == std::string_view::npos && line.find(kBistatic) == std::string_view::npos) continue;
     for (const char separator : {',', ';', '\t'}) {
       std::string_view below = text;
       const TextRow row = next_row(below, separator);
@@ -83,74 +162,155 @@ class HfssTable {
         head_(std::move(head)),
         rows_(TextTable::below(source, head_.rows, head_.names, head_.separator)) {
     for (std::size_t k = 0; k < head_.names.size(); ++k) place_column(k);
-    if (results_.empty()) source_.fail(head_.line, "no column of MonostaticRCSTheta or MonostaticRCSPhi");
+    if (has(Component::kTheta) || has(Component::kPhi) || has(Component::kTotal)) return;
+    source_.fail(head_.line, fmt::format("no column of MonostaticRCSTheta, ...Phi or ...Total, or of BistaticRCS, with "
+                                         "dB(), mag(), re() and im(){}",
+                                         unread_.empty() ? "" : "; not read: " + shown(unread_)));
   }
 
   const std::vector<Result>& results() const { return results_; }
   std::size_t rows() const { return rows_.rows(); }
+  bool is_bistatic() const { return is_bistatic_; }
+  bool has(Component component) const {
+    return std::any_of(results_.begin(), results_.end(),
+                       [&](const Result& result) { return result.component == component && result.has_value(); });
+  }
 
   FieldValue value(const Result& result, Polarisation element, std::size_t row,
                    std::optional<double> given_frequency_hz) const {
-    const double theta = result.place.theta_deg ? *result.place.theta_deg : number(row, theta_, "IWaveTheta");
-    const double phi = result.place.phi_deg ? *result.place.phi_deg : number(row, phi_, "IWavePhi");
-    const double frequency_hz = frequency(result, row, given_frequency_hz);
+    const NamedPlace& named = result.place;
+    const double theta = is_bistatic_ ? angle(named.theta_deg, theta_, row, "Theta")
+                                      : angle(named.wave_theta_deg, wave_theta_, row, "IWaveTheta"),
+                 phi = is_bistatic_ ? angle(named.phi_deg, phi_, row, "Phi")
+                                    : angle(named.wave_phi_deg, wave_phi_, row, "IWavePhi"),
+                 frequency_hz = frequency(result, row, given_frequency_hz);
+    const int line = rows_.line(row);
     if (result.re && result.im) {
-      const Complex root_area(rows_.number(row, *result.re), rows_.number(row, *result.im));
-      return field_value(element, frequency_hz, theta, phi, root_area / std::sqrt(4 * kPi), rows_.line(row));
+      const Complex root_area(rows_.number(row, result.re->column) * result.re->unit_m,
+                              rows_.number(row, result.im->column) * result.im->unit_m);
+      return field_value(element, frequency_hz, theta, phi, root_area / std::sqrt(4 * kPi), line);
     }
-    FieldValue value{frequency_hz, theta, phi, 0, {}, rows_.line(row)};
+    const double level = level_dbsm(result, row);
+    if (result.phase) {
+      const double phase = rows_.number(row, result.phase->column);
+      const Complex s = std::polar(amplitude_of_dbsm(level), result.phase->in_degrees ? radians(phase) : phase);
+      FieldValue value = field_value(element, frequency_hz, theta, phi, s, line);
+      value.level_dbsm = level;
+      return value;
+    }
+    FieldValue value{frequency_hz, theta, phi, level, {}, line};
     fold_direction(value.theta_deg, value.phi_deg);
-    value.level_dbsm =
-        std::max(result.decibel ? rows_.level(row, *result.decibel) : dbsm_of_area(rows_.number(row, *result.area, 0)),
-                 kMinLevel_dbsm);
     return value;
   }
 
+  // The incident wave of a bistatic row; `given` where the file does not state it.
+  std::optional<DeclaredTransmitter> transmitter(const Result& result, std::size_t row,
+                                                 const std::optional<DeclaredTransmitter>& given) const {
+    if (!is_bistatic_) return DeclaredTransmitter{};
+    const bool states_theta = result.place.wave_theta_deg || wave_theta_;
+    const bool states_phi = result.place.wave_phi_deg || wave_phi_;
+    if (!states_theta && !states_phi) return given;
+    DeclaredTransmitter transmitter{false, angle(result.place.wave_theta_deg, wave_theta_, row, "IWaveTheta"),
+                                    angle(result.place.wave_phi_deg, wave_phi_, row, "IWavePhi")};
+    fold_direction(transmitter.theta_deg, transmitter.phi_deg);
+    return transmitter;
+  }
+
  private:
+  // A column of angles and degrees in its unit.
+  struct Angle {
+    std::size_t column = 0;
+    double unit_deg = 1;
+  };
+
   void place_column(std::size_t k) {
     const std::string_view name = head_.names[k];
-    const std::size_t result = name.find(kResult);
-    if (result == std::string_view::npos) {
-      if (name.starts_with("IWaveTheta")) place_angle(theta_, k, name);
-      if (name.starts_with("IWavePhi")) place_angle(phi_, k, name);
-      if (name.starts_with("Freq")) place_frequency(k, name);
-      return;
+    if (const std::optional<ResultName> result = result_name(name)) return place_result(k, *result);
+    const std::string_view axis = trimmed(name.substr(0, name.find('[')));
+    if (axis == "IWaveTheta") place_angle(wave_theta_, k);
+    if (axis == "IWavePhi") place_angle(wave_phi_, k);
+    if (axis == "Theta") place_angle(theta_, k);
+    if (axis == "Phi") place_angle(phi_, k);
+    if (axis == "Freq") place_frequency(k);
+  }
+
+  void place_result(std::size_t k, const ResultName& name) {
+    if (!results_.empty() && name.is_bistatic != is_bistatic_)
+      source_.fail(head_.line, "columns of the monostatic and of the bistatic radar cross section: export one of them");
+    is_bistatic_ = name.is_bistatic;
+    Result& result = result_at(place_in(head_.names[k]), name.component);
+    const std::string& f = name.function;
+    const bool is_magnitude = f.empty() || f == "mag" || f == "abs";
+    if (f == "dB" || f == (name.is_complex ? "dB20" : "dB10")) {
+      if (!name.unit.empty() && name.unit != "dB" && name.unit != "dBsm" && name.unit != "dBm^2")
+        fail_unit(k, name, "dB() of it must be in [], [dB] or [dBsm]");
+      result.level = Level{k, LevelUnit(source_, head_.line, head_.names[k], "dBsm", 0)};
+    } else if (!name.is_complex && is_magnitude) {
+      const std::string unit = name.unit.empty() ? "m^2" : name.unit == "dB" ? "dBsm" : name.unit;
+      result.level = Level{k, LevelUnit(source_, head_.line, head_.names[k], unit, 0)};
+      if (result.level->unit.is_field()) fail_unit(k, name, "must be an area");
+    } else if (name.is_complex && (f == "mag" || f == "abs" || (f.empty() && !name.unit.empty()))) {
+      result.magnitude = length_column(k, name);
+    } else if (name.is_complex && f == "re") {
+      result.re = length_column(k, name);
+    } else if (name.is_complex && f == "im") {
+      result.im = length_column(k, name);
+    } else if (name.is_complex && (f.starts_with("ang") || f.starts_with("cang"))) {
+      const bool in_degrees = f.ends_with("_deg");
+      if (!in_degrees && !f.ends_with("_rad")) return add_unread(k);
+      if (!name.unit.empty() && name.unit != (in_degrees ? "deg" : "rad"))
+        fail_unit(k, name, "must agree with its name");
+      result.phase = Phase{k, in_degrees};
+    } else {
+      add_unread(k);
     }
-    const std::string_view component = name.substr(result + kResult.size());
-    const bool theta = component.starts_with("Theta");
-    if (!theta && !component.starts_with("Phi")) return;  // the total, which is no element
-    Result& entry = result_at(place_in(name), theta);
-    std::optional<std::size_t>& column = name.starts_with("dB(")   ? entry.decibel
-                                         : name.starts_with("re(") ? entry.re
-                                         : name.starts_with("im(") ? entry.im
-                                                                   : entry.area;
-    column = k;
   }
-  void place_angle(std::optional<std::size_t>& place, std::size_t k, std::string_view name) {
-    if (name.find("[deg") == std::string_view::npos)
-      source_.fail(head_.line, fmt::format("{}: must be in [deg]", shown(name)));
-    place = k;
+  void add_unread(std::size_t k) {
+    if (!unread_.empty()) unread_ += ", ";
+    unread_ += head_.names[k];
   }
-  void place_frequency(std::size_t k, std::string_view name) {
-    const std::size_t open = name.find('[');
-    const std::optional<double> hz =
-        open == std::string_view::npos ? std::nullopt : frequency_in_name("1 " + std::string(name.substr(open + 1)));
-    if (!hz || name.find("Hz") == std::string_view::npos)
-      source_.fail(head_.line, fmt::format("{}: must be in [GHz], [MHz], [kHz] or [Hz]", shown(name)));
+  Length length_column(std::size_t k, const ResultName& name) const {
+    const std::optional<double> unit_m = name.unit.empty() ? 1.0 : length_unit_m(name.unit);
+    if (!unit_m) fail_unit(k, name, "sqrt(sigma) must be in metres, [meter], or another length");
+    return {k, *unit_m};
+  }
+  [[noreturn]] void fail_unit(std::size_t k, const ResultName& name, const char* wanted) const {
+    source_.fail(head_.line, fmt::format("unit {} of {}: {}", in_quotes(name.unit), shown(head_.names[k]), wanted));
+  }
+
+  void place_angle(std::optional<Angle>& place, std::size_t k) {
+    const std::string unit = unit_in(head_.names[k]);
+    if (!unit.starts_with("deg") && unit != "rad")
+      source_.fail(head_.line, fmt::format("{}: must be in [deg] or [rad]", shown(head_.names[k])));
+    place = Angle{k, unit == "rad" ? degrees(1) : 1};
+  }
+  void place_frequency(std::size_t k) {
+    const std::string unit = unit_in(head_.names[k]);
+    const std::optional<double> hz = frequency_in_name("1 " + unit);
+    if (!hz || !(unit.ends_with("Hz") || unit.ends_with("hz")))
+      source_.fail(head_.line, fmt::format("{}: must be in [GHz], [MHz], [kHz] or [Hz]", shown(head_.names[k])));
     frequency_ = k;
     to_hz_ = *hz;
   }
-  Result& result_at(const NamedPlace& place, bool theta) {
+  Result& result_at(const NamedPlace& place, Component component) {
     const auto found = std::find_if(results_.begin(), results_.end(), [&](const Result& other) {
-      return other.theta == theta && other.place.key() == place.key();
+      return other.component == component && other.place.key() == place.key();
     });
     if (found != results_.end()) return *found;
-    results_.push_back({place, theta, {}, {}, {}, {}});
+    results_.push_back({place, component, {}, {}, {}, {}, {}});
     return results_.back();
   }
-  double number(std::size_t row, const std::optional<std::size_t>& column, const char* name) const {
-    if (!column) source_.fail(head_.line, fmt::format("no column {} [deg], nor {} in a result's name", name, name));
-    return rows_.number(row, *column);
+
+  double level_dbsm(const Result& result, std::size_t row) const {
+    if (result.level) return result.level->unit.level_dbsm(rows_, row, result.level->column);
+    const double length_m = rows_.number(row, result.magnitude->column, 0) * result.magnitude->unit_m;
+    return dbsm_of_area(length_m * length_m);
+  }
+  double angle(const std::optional<double>& named_deg, const std::optional<Angle>& place, std::size_t row,
+               const char* name) const {
+    if (named_deg) return *named_deg;
+    if (!place) source_.fail(head_.line, fmt::format("no column {} [deg], nor {} in a result's name", name, name));
+    return rows_.number(row, place->column) * place->unit_deg;
   }
   double frequency(const Result& result, std::size_t row, std::optional<double> given) const {
     if (frequency_) return rows_.positive(row, *frequency_) * to_hz_;
@@ -162,35 +322,45 @@ class HfssTable {
   const TextSource& source_;
   Head head_;
   TextTable rows_;
-  std::optional<std::size_t> theta_, phi_, frequency_;
+  std::optional<Angle> wave_theta_, wave_phi_, theta_, phi_;
+  std::optional<std::size_t> frequency_;
   double to_hz_ = 1;
+  bool is_bistatic_ = false;
   std::vector<Result> results_;
+  std::string unread_;  // names of columns with other functions
 };
 
 }  // namespace
 
 bool is_hfss_table(const TextSource& source) {
   const std::optional<Head> head = head_of(source);
-  return head && std::any_of(head->names.begin(), head->names.end(),
-                             [](const std::string& name) { return name.find("IWave") != std::string::npos; });
+  return head && std::any_of(head->names.begin(), head->names.end(), [](const std::string& name) {
+           return name.find("IWave") != std::string::npos || name.find(kBistatic) != std::string::npos;
+         });
 }
 
 void read_hfss_table(const TextSource& source, const FieldTableSettings& settings, FieldTable& table) {
-  table.notes.emplace_back("e^{+jwt}; theta^ = -v, phi^ = h; monostatic");
   const HfssTable hfss(source, *head_of(source));
-  require_elements(settings, source.name(), "an HFSS table");
-  for (const Polarisation element : settings.elements) {
-    RcsCut cut;
-    cut.element = element;
-    cut.transmitter.emplace();
+  table.notes.emplace_back(hfss.is_bistatic() ? "e^{+jwt}; theta^ = -v, phi^ = h; bistatic"
+                                              : "e^{+jwt}; theta^ = -v, phi^ = h; monostatic");
+  const auto add = [&](Component component, Polarisation element) {
+    const std::size_t quantity = quantity_of(element, component == Component::kTotal);
     for (const Result& result : hfss.results()) {
-      if (result.theta != receives_v(element)) continue;
-      if (!result.decibel && !result.area && !(result.re && result.im)) continue;
-      for (std::size_t row = 0; row < hfss.rows(); ++row)
-        cut.values.push_back(hfss.value(result, element, row, settings.frequency_hz));
+      if (result.component != component || !result.has_value()) continue;
+      for (std::size_t row = 0; row < hfss.rows(); ++row) {
+        cut_for(table, quantity, hfss.transmitter(result, row, settings.transmitter))
+            .values.push_back(hfss.value(result, element, row, settings.frequency_hz));
+      }
     }
-    table.cuts.push_back(std::move(cut));
+  };
+  if (!hfss.has(Component::kTheta) && !hfss.has(Component::kPhi)) {
+    const bool v = total_transmits_v(settings, source.name(), "an HFSS table");
+    table.notes.push_back(fmt::format("total of both received polarisations, {} transmitted", v ? "v" : "h"));
+    return add(Component::kTotal, element_of(v, v));
   }
+  require_elements(settings, source.name(), "an HFSS table");
+  for (const Polarisation element : settings.elements)
+    add(receives_v(element) ? Component::kTheta : Component::kPhi, element);
 }
 
 }  // namespace seaglint

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/text/shown.h"
@@ -15,12 +16,33 @@ namespace {
 
 // Without dB( ): m^2 of dB(m^2), dBm^2 and dBsm.
 std::string without_decibel(const std::string& unit) {
-  if (unit == "dBsm") return "m^2";
+  if (unit == "dBsm" || unit == "dBsqm") return "m^2";
   if (unit.size() > 4 && unit[2] == '(' && unit.back() == ')') return unit.substr(3, unit.size() - 4);
   return unit.substr(2);
 }
 
+// Square metres in a unit of area; nullopt for another unit.
+std::optional<double> area_unit_m2(std::string_view unit) {
+  if (unit == "sqm") return 1;
+  for (const std::string_view square : {"**2", "^2", "\xc2\xb2", "2"}) {
+    if (!unit.ends_with(square)) continue;
+    const std::optional<double> side_m = length_unit_m(unit.substr(0, unit.size() - square.size()));
+    return side_m ? std::optional(*side_m * *side_m) : std::nullopt;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
+
+std::optional<double> length_unit_m(std::string_view unit) {
+  constexpr std::pair<std::string_view, double> kUnits[] = {
+      {"m", 1},     {"meter", 1}, {"metre", 1}, {"meters", 1},  {"metres", 1},  {"mm", 1e-3},    {"cm", 1e-2},
+      {"dm", 1e-1}, {"km", 1e3},  {"um", 1e-6}, {"in", 0.0254}, {"ft", 0.3048}, {"mil", 2.54e-5}};
+  for (const auto& [name, metres] : kUnits) {
+    if (unit == name) return metres;
+  }
+  return std::nullopt;
+}
 
 std::string squeezed(std::string_view text) {
   std::string out;
@@ -41,13 +63,9 @@ LevelUnit::LevelUnit(const TextSource& source, std::string_view header, std::str
   }
   const std::string area = decibel_ ? without_decibel(unit) : unit;
   is_field_ = area == "V/m";
-  if (area == "m^2") {
-    offset_db_ = 0;
-  } else if (area == "cm^2") {
-    offset_db_ = -40;
-  } else if (area == "mm^2") {
-    offset_db_ = -60;
-  } else if (area == "lambda^2") {
+  if (const std::optional<double> m2 = area_unit_m2(area)) {
+    offset_db_ = 10 * std::log10(*m2);
+  } else if (area == "lambda^2" && wavelength_m > 0) {
     offset_db_ = 20 * std::log10(wavelength_m);
   } else if (is_field_) {
     offset_db_ = 10 * std::log10(4 * kPi);

@@ -64,8 +64,12 @@ struct ElementColumns {
 }  // namespace
 
 bool is_own_table(const TextSource& source) {
-  return any_first_row(source, [](const FirstRow& row) {
-    return row.has("frequency_hz") && (row.has("azimuth_deg") || row.has("elevation_deg"));
+  const bool has_head = source.text().starts_with("# seaglint ");
+  return any_first_row(source, [&](const FirstRow& row) {
+    const bool azimuth = row.has("azimuth_deg"), elevation = row.has("elevation_deg");
+    const bool phases = std::any_of(row.keys.begin(), row.keys.end(),
+                                    [](const std::string& key) { return key.find("phase") != std::string::npos; });
+    return row.has("frequency_hz") && (has_head ? azimuth || elevation : azimuth && elevation && !phases);
   });
 }
 

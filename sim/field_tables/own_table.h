@@ -8,7 +8,8 @@
 
 namespace seaglint {
 
-// Whether one of the first lines has frequency_hz and azimuth_deg or elevation_deg.
+// Whether one of the first lines has frequency_hz, azimuth_deg and elevation_deg and no phases; below a head of
+// `seaglint rcs` one of the angles is enough.
 bool is_own_table(const TextSource& source);
 
 // Columns by name: xx_re and xx_im, or xx_dbsm alone; without wanted elements, all that the table has. Its head gives

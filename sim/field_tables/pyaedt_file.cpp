@@ -30,6 +30,7 @@ constexpr const char* kFileKey = "monostatic_file";
 struct Description {
   std::string data_file;  // name without a folder
   nlohmann::json unit;    // of frequencies; null without the key
+  nlohmann::json model;   // an object of [mesh file, colour, opacity, unit] by name, or an array without meshes
 };
 
 double hz_of_unit(const fs::path& json, const nlohmann::json& unit) {
@@ -58,10 +59,51 @@ Description read_description(const fs::path& file) {
       throw InputError(fmt::format("{}: {} {}: must be the name of a file in the same folder", file.string(), kFileKey,
                                    shown(name.dump())));
     }
-    return {name.get<std::string>(), json.value("frequency_units", nlohmann::json())};
+    return {name.get<std::string>(), json.value("frequency_units", nlohmann::json()),
+            json.value("model_info", nlohmann::json())};
   } catch (const nlohmann::json::exception& error) {
     throw InputError(fmt::format("{}: {}", file.string(), json_problem(error)));
   }
+}
+
+// The unit of read_mesh() of this name in HFSS; nullptr for another.
+const char* mesh_unit(const nlohmann::json& unit) {
+  for (const auto& [name, known] : {std::pair<const char*, const char*>{"meter", "m"},
+                                    {"m", "m"},
+                                    {"mm", "mm"},
+                                    {"cm", "cm"},
+                                    {"km", "km"},
+                                    {"in", "in"},
+                                    {"ft", "ft"}}) {
+    if (unit == name) return known;
+  }
+  return nullptr;
+}
+
+// The meshes that the JSON names, which PyAEDT puts into the folder `geometry` beside it. None and a note where one of
+// them cannot be used: what remains is another model.
+void add_geometry(const fs::path& json, const nlohmann::json& model, FieldTable& table) {
+  if (!model.is_object()) return;
+  std::vector<GeometryFile> geometry;
+  for (const auto& [object, entry] : model.items()) {
+    const auto unusable = [&](const std::string& why) {
+      table.notes.push_back(fmt::format("its geometry is not used: {}: {}", in_quotes(object), why));
+    };
+    const bool is_entry = entry.is_array() && entry.size() >= 4 && entry[0].is_string();
+    if (!is_entry || !is_plain_name(entry[0].get<std::string>()))
+      return unusable("must be [mesh file, colour, opacity, unit]");
+    const std::string name = entry[0].get<std::string>();
+    const char* unit = mesh_unit(entry[3]);
+    if (unit == nullptr)
+      return unusable(fmt::format("unit {}: must be meter, mm, cm, km, in or ft", shown(entry[3].dump())));
+    std::error_code error;
+    fs::path file = json.parent_path() / "geometry" / name;
+    if (!fs::is_regular_file(file, error)) file = json.parent_path() / name;
+    if (!fs::is_regular_file(file, error))
+      return unusable(fmt::format("no file {} beside the JSON or in its folder geometry", in_quotes(name)));
+    geometry.push_back({file, unit});
+  }
+  table.geometry = std::move(geometry);
 }
 
 // The JSON files of a folder by name.
@@ -150,6 +192,7 @@ void read_pyaedt_file(const fs::path& file, const FieldTableSettings& settings, 
         field_value(cut.element, row.frequency * to_hz, row.theta_deg, row.phi_deg, row.value / std::sqrt(4 * kPi), 0));
   }
   table.cuts.push_back(std::move(cut));
+  add_geometry(json, description.model, table);
 }
 
 }  // namespace seaglint

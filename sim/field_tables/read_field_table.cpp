@@ -50,20 +50,26 @@ constexpr std::array<Reader, 8> kReaders{{
     {"a CST farfield table", "no line of names 'Theta [deg.] Phi [deg.] Abs(Theta)[...] ...'", has_cst_header,
      read_cst_table},
     {"CST curves", "no line of names '\"Frequency / GHz\" ...' above a rule", is_cst_curves, read_cst_curves},
-    {"an HFSS table", "no columns IWavePhi, IWaveTheta and MonostaticRCS", is_hfss_table, read_hfss_table},
+    {"an HFSS table", "no columns IWavePhi, IWaveTheta and MonostaticRCS, nor BistaticRCS", is_hfss_table,
+     read_hfss_table},
     {"a table of seaglint rcs", "no columns frequency_hz and azimuth_deg", is_own_table, read_own_table},
-    {"four named columns", "no columns theta_deg and phi_deg", has_named_angles, read_named_columns},
+    {"a table of named columns", "no names of columns of an azimuth, or of theta_deg and phi_deg, with levels",
+     is_named_table, read_named_table},
     {"four columns", "no rows of frequency_hz theta_deg phi_deg dBsm", is_four_columns, read_four_columns},
 }};
 
 constexpr const char* kPyaedt = "an export of PyAEDT";
 
+const Reader* find_reader(const TextSource& source) {
+  const auto reader =
+      std::find_if(kReaders.begin(), kReaders.end(), [&](const Reader& known) { return known.is_format(source); });
+  return reader == kReaders.end() ? nullptr : &*reader;
+}
+
 const Reader& reader_of(const TextSource& source) {
+  if (const Reader* reader = find_reader(source)) return *reader;
   std::string reasons = fmt::format("\n  not {}: no HDF5 and no JSON with monostatic_file", kPyaedt);
-  for (const Reader& reader : kReaders) {
-    if (reader.is_format(source)) return reader;
-    reasons += fmt::format("\n  not {}: {}", reader.name, reader.missing);
-  }
+  for (const Reader& reader : kReaders) reasons += fmt::format("\n  not {}: {}", reader.name, reader.missing);
   throw InputError(fmt::format("{}: not a table of the radar cross section:{}", source.name(), reasons));
 }
 
@@ -97,6 +103,16 @@ void require_own_frequency(const RcsCut& cut, const FieldTableSettings& given, c
   }
 }
 
+// Throws InputError if an elevation is given that differs from the file's.
+void require_own_elevation(const RcsCut& cut, double elevation_deg, const std::string& file) {
+  constexpr double kTolerance_deg = 1e-3;
+  for (const FieldValue& value : cut.values) {
+    if (std::abs(90 - value.theta_deg - elevation_deg) <= kTolerance_deg) continue;
+    throw InputError(fmt::format("{}: declares elevation {:g} deg: remove --reference-elevation-deg {:g}", file,
+                                 90 - value.theta_deg, elevation_deg));
+  }
+}
+
 // Throws InputError for a value that is not finite, or whose power is not.
 void require_finite(const RcsCut& cut, const std::string& file) {
   for (const FieldValue& value : cut.values) {
@@ -116,7 +132,25 @@ void require_own_transmitter(const RcsCut& cut, const FieldTableSettings& given,
                                                  cut.transmitter->theta_deg, cut.transmitter->phi_deg)));
 }
 
+// The head of compare.csv.
+bool is_comparison(std::string_view text) {
+  return text.starts_with("# seaglint ") &&
+         text.substr(0, text.find('\n')).find(" compare: ") != std::string_view::npos;
+}
+
 }  // namespace
+
+bool is_field_table(const std::filesystem::path& file) try {
+  if (is_hdf5_file(file)) return false;
+  const TextSource source = TextSource::read(file);
+  if (is_pyaedt_json(source.text())) return true;
+  const Reader* reader = find_reader(source);
+  if (reader == nullptr || is_comparison(source.text())) return false;
+  // Rows of numbers without names are those of many formats.
+  return reader->read != read_four_columns || has_four_columns(source);
+} catch (const InputError&) {
+  return false;
+}
 
 FieldTable read_field_table(const std::filesystem::path& file, const FieldTableSettings& settings) {
   FieldTable table;
@@ -132,6 +166,7 @@ FieldTable read_field_table(const std::filesystem::path& file, const FieldTableS
     cut.phi_offset_deg = settings.phi_offset_deg;
     if (settings.origin_m) cut.origin_m = *settings.origin_m;
     if (settings.frequency_hz) require_own_frequency(cut, settings, file.string());
+    if (settings.elevation_deg) require_own_elevation(cut, *settings.elevation_deg, file.string());
     if (settings.transmitter) require_own_transmitter(cut, settings, file.string());
   }
   return table;

@@ -14,4 +14,8 @@ namespace seaglint {
 // is missing and the format that was recognised, or why each format was not.
 FieldTable read_field_table(const std::filesystem::path& file, const FieldTableSettings& settings);
 
+// Whether read_field_table() recognises a file: HDF5 not, which the JSON of its pair reads, nor results of `seaglint
+// compare`. False too where it cannot be read.
+bool is_field_table(const std::filesystem::path& file);
+
 }  // namespace seaglint

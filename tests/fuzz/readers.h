@@ -18,14 +18,16 @@ void fuzz_veres(const std::string& bytes);
 void fuzz_wamit(const std::string& bytes);
 
 // Radar cross sections.
-void fuzz_rcs_cut(const std::string& bytes);     // four columns
-void fuzz_own_table(const std::string& bytes);   // of `seaglint rcs`
+void fuzz_rcs_cut(const std::string& bytes);    // four columns
+void fuzz_own_table(const std::string& bytes);  // of `seaglint rcs`
+void fuzz_named_columns(const std::string& bytes);
 void fuzz_cst(const std::string& bytes);         // farfield tables
 void fuzz_cst_curves(const std::string& bytes);  // 1D
 void fuzz_ffs(const std::string& bytes);
 void fuzz_ffe(const std::string& bytes);
 void fuzz_hfss(const std::string& bytes);
-void fuzz_pyaedt(const std::string& bytes);  // the HDF5 file
+void fuzz_pyaedt(const std::string& bytes);       // the HDF5 file
+void fuzz_pyaedt_json(const std::string& bytes);  // the JSON beside it
 
 // Scenarios.
 void fuzz_yaml(const std::string& bytes);      // the tree alone

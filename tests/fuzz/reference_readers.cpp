@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "sim/field_tables/read_field_table.h"
+#include "sim/field_tables/rows/pandas_table.h"
 #include "tests/fuzz/readers.h"
 #include "tests/fuzz/refusal.h"
 
@@ -41,6 +42,13 @@ void fuzz_rcs_cut(const std::string& bytes) {
 
 void fuzz_own_table(const std::string& bytes) { read_export(bytes, {}); }
 
+void fuzz_named_columns(const std::string& bytes) {
+  FieldTableSettings settings;
+  settings.frequency_hz = 10e9;
+  settings.elevation_deg = 8;
+  read_export(bytes, settings);
+}
+
 void fuzz_cst(const std::string& bytes) {
   FieldTableSettings settings = of_both_received();
   settings.frequency_hz = 10e9;
@@ -63,6 +71,12 @@ void fuzz_hfss(const std::string& bytes) { read_export(bytes, of_both_received()
 void fuzz_pyaedt(const std::string& bytes) {
   file_of(R"({"monostatic_file": "export_VV.h5", "frequency_units": "GHz"})", "export_VV.json");
   read_file_of(file_of(bytes, "export_VV.h5"), {});
+}
+
+void fuzz_pyaedt_json(const std::string& bytes) {
+  static const std::string table = pandas_table_bytes({{10, 90, 0, 1}});
+  file_of(table, "export_HH.h5");
+  read_file_of(file_of(bytes, "export_HH.json"), {});
 }
 
 }  // namespace seaglint

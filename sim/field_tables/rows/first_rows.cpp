@@ -11,14 +11,16 @@ namespace seaglint {
 
 bool FirstRow::has(std::string_view key) const { return std::find(keys.begin(), keys.end(), key) != keys.end(); }
 
-std::vector<FirstRow> first_rows(const TextSource& source) {
+std::vector<FirstRow> first_rows(const TextSource& source, bool in_comments) {
   constexpr int kMaxLines = 20;
   std::vector<FirstRow> rows;
   std::string_view rest = source.text();
   for (int n = 0; n < kMaxLines && !rest.empty();) {
-    const std::string_view text = rest, line = next_line(rest);
-    if (trimmed(line).empty() || is_comment(line)) continue;
+    std::string_view text = rest;
+    const std::string_view line = next_line(rest);
+    if (trimmed(line).empty() || is_comment(line) != in_comments) continue;
     ++n;
+    if (in_comments) text = line.substr(std::min(line.find_first_not_of(" \t#%/!"), line.size()));
     for (const char separator : kSeparators) {
       std::string_view row = text;
       FirstRow first{next_row(row, separator).cells, {}};

@@ -18,8 +18,9 @@ struct FirstRow {
   bool has(std::string_view key) const;
 };
 
-// Rows that begin in the first 20 lines that are neither empty nor comments, cut at each separator in turn.
-std::vector<FirstRow> first_rows(const TextSource& source);
+// Rows that begin in the first 20 lines that are neither empty nor comments, or that are comments, cut at each
+// separator in turn.
+std::vector<FirstRow> first_rows(const TextSource& source, bool in_comments = false);
 
 // Whether one of them is such a row.
 template <class Is>

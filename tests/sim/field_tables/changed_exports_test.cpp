@@ -56,7 +56,8 @@ class ChangedExports : public testing::TestWithParam<const char*> {
     if (name().find("HH") != std::string::npos) settings_.elements = {Polarisation::kHh};
     if (name().find("HP") != std::string::npos) settings_.elements = {Polarisation::kHh};
     if (name().find("curves") != std::string::npos) settings_.elements = {Polarisation::kVv};
-    if (name().starts_with("ludwig")) settings_.frequency_hz = 10e9;
+    if (name().starts_with("ludwig") || name().starts_with("chamber")) settings_.frequency_hz = 10e9;
+    if (name().starts_with("chamber")) settings_.elements = {Polarisation::kHh, Polarisation::kVv};
     if (name().ends_with(".ffs")) settings_.transmitter = DeclaredTransmitter{false, 90, 0};
     if (name().starts_with("ludwig") || name().starts_with("curve")) settings_.transmitter.emplace();
     text_ = read_file(kFolder / name());
@@ -135,7 +136,8 @@ INSTANTIATE_TEST_SUITE_P(Files, ChangedExports,
                          testing::Values("rcs (f = 9.5), theta = (85,85,1), phi = (0,30,10), VP (1) [pw].txt",
                                          "farfield (f=10) theta=90 phi=0 HP [pw].txt", "ludwig3.txt",
                                          "curves of two runs.txt", "curve f=9.5 theta=90 HH.txt", "source.ffs",
-                                         "monostatic.ffe", "bistatic.ffe", "hfss VP.csv", "hfss families HP.csv"),
+                                         "monostatic.ffe", "bistatic.ffe", "hfss VP.csv", "hfss families HP.csv",
+                                         "hfss dBsm VP.csv", "hfss total VP.csv", "chamber_hh_vv.csv"),
                          [](const testing::TestParamInfo<const char*>& file) {
                            return std::regex_replace(std::string(file.param), std::regex("[^A-Za-z0-9]"), "_");
                          });

@@ -2,12 +2,15 @@
 // Tables of the radar cross section of other programs.
 #include "sim/field_tables/read_field_table.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <cmath>
 #include <fstream>
+#include <string>
+#include <utility>
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
@@ -274,6 +277,212 @@ TEST_F(FieldTableFile, IsRefusedWithAFrequencyThatIsNotItsOwn) {
   EXPECT_THAT(refusal("own.csv", own_table("# transmitter=monostatic"), as(Polarisation::kVv, 11)),
               HasSubstr("own.csv: declares 10 GHz"));
   EXPECT_EQ(read("b.V.txt", "10e9 90 0 -3\n", as(Polarisation::kVv, 10)).values.size(), 1u);
+}
+
+// A monostatic row of HFSS whose columns of values are `names`.
+std::string hfss_table(const std::string& names, const std::string& values) {
+  return "\"IWavePhi [deg]\",\"IWaveTheta [deg]\",\"Freq [GHz]\"," + names + "\n20,80,10," + values + "\n";
+}
+
+TEST_F(FieldTableFile, OfHfssIsReadInTheUnitsOfItsColumns) {
+  const auto level = [&](const std::string& names, const std::string& values) {
+    return read("a.csv", hfss_table(names, values), as(Polarisation::kVv)).values.at(0).level_dbsm;
+  };
+  const double wanted = 10 * std::log10(2.0);  // of 2 m^2
+  const std::pair<const char*, const char*> areas[] = {{"[]", "2"},
+                                                       {"", "2"},
+                                                       {"[m^2]", "2"},
+                                                       {"[m2]", "2"},
+                                                       {"[meter2]", "2"},
+                                                       {"[meter^2]", "2"},
+                                                       {"[mm^2]", "2e6"},
+                                                       {"[mm2]", "2e6"},
+                                                       {"[cm^2]", "2e4"},
+                                                       {"[cm2]", "2e4"},
+                                                       {"[dBsm]", "3.010299956639812"},
+                                                       {"[dB(m^2)]", "3.010299956639812"},
+                                                       {"[dB]", "3.010299956639812"},
+                                                       {"[ dBsm ]", "3.010299956639812"}};
+  for (const auto& [unit, value] : areas) {
+    EXPECT_NEAR(level(std::string("\"MonostaticRCSTheta ") + unit + "\"", value), wanted, kPrinted_db) << unit;
+    EXPECT_NEAR(level(std::string("\"mag(MonostaticRCSTheta) ") + unit + "\"", value), wanted, kPrinted_db) << unit;
+  }
+  for (const char* name : {"dB(MonostaticRCSTheta) []", "dB10(MonostaticRCSTheta) [dB]",
+                           "dB(MonostaticRCSTheta) [dBsm]", "dB20(ComplexMonostaticRCSTheta) []"})
+    EXPECT_NEAR(level(name, "3.010299956639812"), wanted, kPrinted_db) << name;
+  EXPECT_NEAR(level("mag(ComplexMonostaticRCSTheta) [mm]", "1414.2135623730951"), wanted, kPrinted_db);
+}
+
+TEST_F(FieldTableFile, OfHfssHasComplexValuesInUnitsOfLength) {
+  const Complex wanted = std::polar(1 / std::sqrt(4 * kPi), kPi / 3);  // of 1 m^2
+  const std::pair<const char*, const char*> tables[] = {
+      {"re(ComplexMonostaticRCSTheta) [mm],im(ComplexMonostaticRCSTheta) [mm]", "500,866.0254037844386"},
+      {"re(ComplexMonostaticRCSTheta) [cm],im(ComplexMonostaticRCSTheta) [meter]", "50,0.8660254037844386"},
+      {"mag(ComplexMonostaticRCSTheta) [mm],ang_deg(ComplexMonostaticRCSTheta) [deg]", "1000,60"},
+      {"dB(ComplexMonostaticRCSTheta) [],cang_rad(ComplexMonostaticRCSTheta) []", "0,1.0471975511965976"}};
+  for (const auto& [names, values] : tables) {
+    const FieldValue value = read("a.csv", hfss_table(names, values), as(Polarisation::kVv)).values.at(0);
+    ASSERT_TRUE(value.amplitude_m) << names;
+    EXPECT_LT(std::abs(*value.amplitude_m - wanted), 1e-12) << names;
+    EXPECT_NEAR(value.level_dbsm, 0, kPrinted_db) << names;
+  }
+}
+
+TEST_F(FieldTableFile, OfHfssHasAnglesAndFrequenciesInTheirUnits) {
+  const RcsCut cut = read("a.csv",
+                          "IWavePhi [rad],IWaveTheta [rad],Freq [MHz],MonostaticRCSTheta [mm^2]\n"
+                          "0.7853981633974483,1.5707963267948966,9500,1e6\n",
+                          as(Polarisation::kVv, 9.5));
+  EXPECT_NEAR(cut.values.at(0).phi_deg, 45, 1e-12);
+  EXPECT_NEAR(cut.values.at(0).theta_deg, 90, 1e-12);
+  EXPECT_EQ(cut.values.at(0).frequency_hz, 9.5e9);
+  const RcsCut family =
+      read("b.csv",
+           "IWavePhi [deg],\"MonostaticRCSTheta [mm^2] - Freq='9500MHz' IWaveTheta='1.5707963267948966rad'\"\n"
+           "3,1e6\n",
+           as(Polarisation::kVv, 9.5));
+  EXPECT_NEAR(family.values.at(0).theta_deg, 90, 1e-12);
+  EXPECT_NEAR(family.values.at(0).level_dbsm, 0, kPrinted_db);
+}
+
+TEST_F(FieldTableFile, OfHfssIsRefusedInAnotherUnitWithItsName) {
+  const auto refused = [&](const std::string& names) {
+    return refusal("a.csv", hfss_table(names, "1,2"), as(Polarisation::kVv));
+  };
+  const auto with = [](const char* name) { return std::string(name) + ",x []"; };
+  for (const char* unit : {"dBm", "A/m", "V/m", "lambda^2", "acre", "m"}) {
+    const std::string text = refused(with(fmt::format("MonostaticRCSTheta [{}]", unit).c_str()));
+    EXPECT_THAT(text, HasSubstr("a.csv:1:"));
+    EXPECT_THAT(text, HasSubstr(unit));
+    EXPECT_THAT(text, HasSubstr("MonostaticRCSTheta"));
+  }
+  EXPECT_THAT(refused(with("dB(MonostaticRCSTheta) [mm^2]")), HasSubstr("unit 'mm^2' of dB(MonostaticRCSTheta)"));
+  EXPECT_THAT(refused("re(ComplexMonostaticRCSTheta) [m^2],im(ComplexMonostaticRCSTheta) [m^2]"),
+              HasSubstr("unit 'm^2' of re(ComplexMonostaticRCSTheta)"));
+  EXPECT_THAT(
+      refusal("a.csv", "IWavePhi [grad],IWaveTheta [deg],MonostaticRCSTheta []\n1,2,3\n", as(Polarisation::kVv)),
+      HasSubstr("IWavePhi [grad]: must be in [deg] or [rad]"));
+  EXPECT_THAT(refusal("a.csv", "IWavePhi [deg],IWaveTheta [deg],Freq [rpm],MonostaticRCSTheta []\n1,2,3,4\n",
+                      as(Polarisation::kVv)),
+              HasSubstr("Freq [rpm]: must be in [GHz]"));
+}
+
+TEST_F(FieldTableFile, OfHfssHasNoAreasInFunctionsThatAreNone) {
+  for (const char* name :
+       {"ang_deg(MonostaticRCSTheta) [deg]", "re(MonostaticRCSTheta) []", "dB10normalize(MonostaticRCSTheta) []",
+        "dB20(MonostaticRCSTheta) []", "ComplexMonostaticRCSTheta []"}) {
+    EXPECT_THAT(refusal("a.csv", hfss_table(name, "1"), as(Polarisation::kVv)),
+                HasSubstr(std::string("not read: ") + name));
+  }
+}
+
+FieldTableSettings transmitting_v(double frequency_ghz = 10) {
+  FieldTableSettings settings = as(Polarisation::kVv, frequency_ghz);
+  settings.elements.push_back(Polarisation::kHv);
+  return settings;
+}
+
+TEST_F(FieldTableFile, OfATotalIsThatOfTheTransmittedPolarisation) {
+  const std::pair<const char*, std::string> files[] = {
+      {"a.csv", hfss_table("dB(MonostaticRCSTotal) []", "6")},
+      {"b.csv",
+       "IWavePhi [deg],IWaveTheta [deg],Phi [deg],Theta [deg],Freq [GHz],BistaticRCSTotal [dBsm]\n0,90,20,80,10,6\n"},
+      {"c.txt", "Theta [deg.]  Phi [deg.]  Abs(RCS )[dB(m^2)]\n-----\n80 20 6\n"},
+      {"theta=80 phi=20 dBsm.txt", "#\"Frequency / GHz\"\t\"RCS_Abs [Magnitude]\"\n#-----\n10\t6\n"}};
+  for (const auto& [name, text] : files) {
+    SCOPED_TRACE(name);
+    const RcsCut cut = read(name, text, transmitting_v());
+    EXPECT_TRUE(cut.total);
+    EXPECT_EQ(cut.quantity(), 5u);
+    EXPECT_FALSE(cut.has_phase());
+    ASSERT_EQ(cut.values.size(), 1u);
+    EXPECT_NEAR(cut.values[0].level_dbsm, 6, kPrinted_db);
+    EXPECT_EQ(cut.values[0].theta_deg, 80);
+    EXPECT_EQ(cut.values[0].phi_deg, 20);
+  }
+  EXPECT_EQ(read("d VP.csv", files[0].second).quantity(), 5u);
+  EXPECT_EQ(read("d HP.csv", files[0].second).quantity(), 4u);
+  EXPECT_THAT(refusal("e.csv", files[0].second), HasSubstr("give --reference-polarisation h or v"));
+  EXPECT_THAT(refusal("e.csv", files[0].second, as(Polarisation::kVv)),
+              HasSubstr("the sum over both received polarisations: give --reference-polarisation h or v"));
+  // Components are more than their sum.
+  EXPECT_FALSE(read("f VP.csv", hfss_table("dB(MonostaticRCSTheta) [],dB(MonostaticRCSTotal) []", "5,6")).total);
+}
+
+TEST_F(FieldTableFile, OfABistaticHfssReportHasItsIncidentWave) {
+  std::ofstream(folder_ / "b VP.csv")
+      << "Phi [deg],Theta [deg],\"dB(BistaticRCSTheta) [] - Freq='10GHz' IWavePhi='0deg' "
+         "IWaveTheta='90deg'\",\"dB(BistaticRCSTheta) [] - Freq='10GHz' IWavePhi='30deg' "
+         "IWaveTheta='90deg'\"\n20,80,1,2\n40,80,3,4\n";
+  const FieldTable table = read_field_table(folder_ / "b VP.csv", {});
+  ASSERT_EQ(table.cuts.size(), 2u);
+  EXPECT_EQ(table.cuts[1].transmitter->phi_deg, 30);
+  EXPECT_FALSE(table.cuts[1].transmitter->is_monostatic);
+  EXPECT_EQ(table.cuts[1].values.at(1).phi_deg, 40);
+  EXPECT_EQ(table.cuts[1].values.at(1).level_dbsm, 4);
+}
+
+TEST_F(FieldTableFile, ByAzimuthIsReadAsChambersWriteIt) {
+  FieldTableSettings settings;
+  settings.frequency_hz = 6e9;
+  settings.elevation_deg = 8;
+  for (const char* text :
+       {"Azimuth (deg),HH (dBsm),VV (dBsm)\n-20,-2.5,3.25\n-16,-1,4\n",
+        "AZ_deg;hh_dBsm;vv_dBsm\n-20;-2,5;3,25\n-16;-1;4\n",
+        "azimuth[deg] HH[dBsm] VV[dBsm]\n-20 -2.5 3.25\n-16 -1 4\n",
+        "Azimuth\tHH\tVV\n(deg)\t(dBsm)\t(dBsm)\n-20\t-2.5\t3.25\n-16\t-1\t4\n",
+        "# azimuth_deg hh_dbsm vv_dbsm\n-20 -2.5 3.25\n-16 -1 4\n",
+        "Angle [degrees],RCS_HH [dBsm],RCS_VV [dBsm]\n-20,-2.5,3.25\n-16,-1,4\n",
+        "Azimuth (deg),Frequency (MHz),Elevation (deg),HH (dBsm),VV (dBm^2)\n-20,6000,8,-2.5,3.25\n-16,6000,8,-1,4\n",
+        "azimuth_rad,VV (m^2),HH "
+        "(m^2)\n-0.3490658503988659,2.1134890398366464,0.5623413251903491\n-0.2792526803190927,2.51188643,0."
+        "79432823\n"}) {
+    SCOPED_TRACE(text);
+    std::ofstream(folder_ / "chamber.csv", std::ios::binary) << text;
+    const FieldTable table = read_field_table(folder_ / "chamber.csv", settings);
+    ASSERT_EQ(table.cuts.size(), 2u);
+    for (const RcsCut& cut : table.cuts) {
+      EXPECT_TRUE(cut.transmitter && cut.transmitter->is_monostatic);
+      ASSERT_EQ(cut.values.size(), 2u);
+      EXPECT_EQ(cut.values[0].frequency_hz, 6e9);
+      EXPECT_NEAR(cut.values[0].theta_deg, 82, 1e-9);
+      EXPECT_NEAR(cut.values[0].phi_deg, 340, 1e-9);
+      EXPECT_NEAR(cut.values[0].level_dbsm, cut.element == Polarisation::kHh ? -2.5 : 3.25, 1e-8);
+      EXPECT_FALSE(cut.has_phase());
+    }
+  }
+}
+
+TEST_F(FieldTableFile, ByAzimuthMayHavePhasesFrequenciesAndOneElement) {
+  const RcsCut hv =
+      read("a.csv", "Freq (GHz),Azimuth (deg),HH (dBsm),HH phase (deg),HV (dBsm),Phase HV (deg)\n9.5,10,3,0,0,90\n");
+  EXPECT_EQ(hv.values.at(0).frequency_hz, 9.5e9);
+  EXPECT_EQ(hv.values.at(0).theta_deg, 90);
+  EXPECT_LT(
+      std::abs(*read("a.csv", "f [GHz],az [deg],HV [dBsm],HV_phase [deg]\n9.5,10,0,90\n").values.at(0).amplitude_m -
+               Complex(0, 1 / std::sqrt(4 * kPi))),
+      1e-12);
+  const std::string one = "azimuth_deg,frequency_ghz,rcs_dbsm\n10,9.5,-3\n";
+  EXPECT_EQ(read("a.V.csv", one).element, Polarisation::kVv);
+  EXPECT_EQ(read("a.csv", one, as(Polarisation::kHv, 9.5)).element, Polarisation::kHv);
+  EXPECT_THAT(refusal("a.csv", one), HasSubstr("--reference-polarisation"));
+  EXPECT_EQ(read("a.csv", "azimuth_deg,hh_dbsm,vv_dbsm\n1,2,3\n", as(Polarisation::kVv)).values.at(0).level_dbsm, 3);
+}
+
+TEST_F(FieldTableFile, ByAzimuthIsRefusedWithoutAUnitOrWithWhatItContradicts) {
+  const auto refused = [&](const char* text) { return refusal("a.csv", text, as(Polarisation::kHh)); };
+  EXPECT_THAT(refused("azimuth,hh_dbsm\n1,2\n"), HasSubstr("azimuth has no unit"));
+  EXPECT_THAT(refused("azimuth_deg,HH\n1,2\n"), HasSubstr("column 'HH': its unit must be dBsm or m^2"));
+  EXPECT_THAT(refused("azimuth_deg,HH (dB)\n1,2\n"), HasSubstr("column 'HH (dB)': its unit must be dBsm or m^2"));
+  EXPECT_THAT(refused("azimuth_deg,elevation,hh_dbsm\n1,8,2\n"), HasSubstr("column 'elevation': its unit must be deg"));
+  EXPECT_THAT(refused("azimuth_deg,freq,hh_dbsm\n1,8,2\n"), HasSubstr("column 'freq': its unit must be Hz"));
+  EXPECT_THAT(refused("azimuth_deg,hh_dbsm,hh_phase\n1,8,2\n"), HasSubstr("column 'hh_phase': its unit must be deg"));
+  EXPECT_THAT(refusal("a.csv", "azimuth_deg,hh_dbsm\n1,2\n"), HasSubstr("give --reference-frequency-ghz"));
+  EXPECT_THAT(refusal("a.csv", "azimuth_deg,hh_dbsm\n1,2\n", as(Polarisation::kVv)), HasSubstr("no column of vv"));
+  FieldTableSettings settings = as(Polarisation::kHh);
+  settings.elevation_deg = 8;
+  EXPECT_THAT(refusal("a.csv", "azimuth_deg,elevation_deg,hh_dbsm\n1,7,2\n", settings),
+              HasSubstr("a.csv: declares elevation 7 deg: remove --reference-elevation-deg 8"));
 }
 
 }  // namespace

@@ -77,6 +77,38 @@ TEST(PyaedtFile, TakesItsPolarisationFromTheSettingsAndItsUnitFromTheJson) {
   EXPECT_THAT(refusal(kFolder / "pyaedt_VH.json", vv), HasSubstr("is vh by its name, which is not wanted"));
 }
 
+// PyAEDT puts the meshes of model_info into the folder geometry beside the JSON.
+TEST(PyaedtFile, NamesItsGeometryWithUnits) {
+  const TemporaryFolder folder;
+  std::filesystem::copy_file(kFolder / "pyaedt_VV.h5", folder.path() / "VV_data_x.h5");
+  const auto read = [&](const std::string& model) {
+    write_file(folder.path() / "VV_x.json",
+               R"({"solution": "x", "monostatic_file": "VV_data_x.h5", "model_units": "mm", "frequency_units": "GHz",)"
+               R"( "model_info": )" +
+                   model + "}");
+    return read_field_table(folder.path() / "VV_x.json", {});
+  };
+  const std::string model =
+      R"({"hull": ["hull.obj", [143, 175, 143], 1.0, "mm"], "mast": ["mast.obj", [143, 0, 0], 0.5, "meter"]})";
+  const FieldTable missing = read(model);
+  EXPECT_THAT(missing.geometry, testing::IsEmpty());
+  EXPECT_THAT(reading_of(missing), HasSubstr("its geometry is not used: 'hull': no file 'hull.obj' beside the JSON"));
+  std::filesystem::create_directory(folder.path() / "geometry");
+  write_file(folder.path() / "geometry/hull.obj", "");
+  EXPECT_THAT(read(model).geometry, testing::IsEmpty()) << "the hull alone is another model";
+  write_file(folder.path() / "mast.obj", "");
+  const FieldTable table = read(model);
+  ASSERT_EQ(table.geometry.size(), 2u);
+  EXPECT_EQ(table.geometry[0], (GeometryFile{folder.path() / "geometry/hull.obj", "mm"}));
+  EXPECT_EQ(table.geometry[1], (GeometryFile{folder.path() / "mast.obj", "m"}));
+  EXPECT_EQ(read_field_table(folder.path() / "VV_data_x.h5", {}).geometry, table.geometry);
+  EXPECT_THAT(reading_of(read(R"({"hull": ["hull.obj", [1, 2, 3], 1.0, "acre"]})")),
+              HasSubstr("'hull': unit \"acre\": must be meter, mm, cm, km, in or ft"));
+  EXPECT_THAT(reading_of(read(R"({"hull": ["../hull.obj", [1, 2, 3], 1.0, "mm"]})")),
+              HasSubstr("'hull': must be [mesh file, colour, opacity, unit]"));
+  EXPECT_THAT(reading_of(read("[]")), testing::Not(HasSubstr("geometry")));
+}
+
 TEST(PyaedtFile, ThatIsCutOffIsRefused) {
   const TemporaryFolder folder;
   const std::string whole = read_file(kFolder / "pyaedt_VV.h5");
