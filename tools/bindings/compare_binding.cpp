@@ -25,10 +25,10 @@ std::string compare_tables(const ReferenceArguments& exports, const std::string&
                            std::optional<double> interpolation_radius_m, int threads) {
   const ComparisonSettings settings = settings_of(exports, as_is, interpolation_radius_m);
   const auto comparisons = interruptible<std::vector<ExportComparison>>([&](const StopFlag& stop) {
-    const std::vector<FieldTable> tables = exports.read();
+    const std::vector<FieldTable> tables = exports.read().tables;
     ReferenceArguments other;
     other.files = {against};
-    const FieldTable table = other.read().front();
+    const FieldTable table = joined_tables(other.read().tables, against);
     std::vector<ExportComparison> compared;
     for (const FieldTable& one : tables) {
       if (stop) throw Interrupted();
@@ -46,14 +46,14 @@ py::tuple compare_target(const ReferenceArguments& exports, RcsRequest request, 
   const ComparisonSettings settings = settings_of(exports, as_is, std::nullopt);
   std::vector<std::string> warnings;
   const auto comparisons = interruptible<std::vector<ExportComparison>>([&](const StopFlag& stop) {
-    const std::vector<FieldTable> tables = exports.read();
+    const std::vector<FieldTable> tables = exports.read().tables;
     const RcsRequest solved = at_frequencies_of(tables, std::move(request));
     const RcsTarget prepared = prepare_rcs_target(solved);
     warnings = prepared.prepared.warnings;
+    TargetSolutions solutions{threads, stop, [](const std::string&) {}};
     std::vector<ExportComparison> compared;
     for (const FieldTable& table : tables)
-      compared.push_back(
-          compare_with_target(table, solved, prepared, settings, threads, stop, [](const std::string&) {}));
+      compared.push_back(compare_with_target(table, solved, prepared, settings, solutions));
     return compared;
   });
   return py::make_tuple(comparison_json(comparisons, settings).dump(), warnings);
@@ -68,6 +68,7 @@ void bind_compare(py::module_& module) {
       .def_readwrite("polarisation", &ReferenceArguments::polarisation)
       .def_readwrite("phi", &ReferenceArguments::phi)
       .def_readwrite("frequency_ghz", &ReferenceArguments::frequency_ghz)
+      .def_readwrite("elevation_deg", &ReferenceArguments::elevation_deg)
       .def_readwrite("incidence", &ReferenceArguments::incidence)
       .def_readwrite("origin_m", &ReferenceArguments::origin_m)
       .def_readwrite("floor_db", &ReferenceArguments::floor_db);

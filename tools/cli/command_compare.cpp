@@ -38,9 +38,30 @@ struct CompareArguments {
 void say(const std::string& line) { print_error(on_one_line(line) + "\n"); }
 
 std::vector<FieldTable> read_and_report(const ReferenceArguments& files) {
-  std::vector<FieldTable> tables = files.read();
-  for (const FieldTable& table : tables) say(reading_of(table));
-  return tables;
+  ReferenceTables references = files.read();
+  for (const std::string& folder : references.folders) say(folder);
+  for (const FieldTable& table : references.tables) say(reading_of(table));
+  return std::move(references.tables);
+}
+
+// The geometry that all exports name. Throws InputError where they name none or different ones.
+std::vector<GeometryFile> geometry_of(const std::vector<FieldTable>& tables) {
+  constexpr const char* kMissing = "compare: give either --target MESH or --against FILE";
+  for (const FieldTable& table : tables) {
+    if (table.geometry.empty())
+      throw InputError(fmt::format("{}: {} names no geometry that is beside it", kMissing, table.name));
+    if (table.geometry != tables.front().geometry)
+      throw InputError(
+          fmt::format("{}: {} and {} name different geometries", kMissing, tables.front().name, table.name));
+  }
+  return tables.front().geometry;
+}
+
+std::string text_of(const std::vector<GeometryFile>& geometry) {
+  std::string text;
+  for (const GeometryFile& mesh : geometry)
+    text += fmt::format("{}{} in {}", text.empty() ? "" : ", ", mesh.file.string(), mesh.unit);
+  return text;
 }
 
 // What the exports are compared with: a mesh, or another table.
@@ -55,10 +76,17 @@ Counterpart counterpart_of(const CompareArguments& arguments, const std::vector<
   if (!arguments.against.empty()) {
     ReferenceArguments other;
     other.files = {arguments.against};
-    counterpart.table = read_and_report(other).front();
+    counterpart.table = joined_tables(read_and_report(other), arguments.against);
     return counterpart;
   }
   counterpart.request = at_frequencies_of(tables, arguments.rcs.make_mesh_request());
+  if (arguments.rcs.targets.empty()) {
+    const std::vector<GeometryFile> geometry = geometry_of(tables);
+    if (arguments.rcs.request.unit != "m")
+      throw InputError("--unit is for --target: the export states the unit of its geometry");
+    say(fmt::format("target as the export names it: {}", text_of(geometry)));
+    set_target_files(counterpart.request, geometry);
+  }
   counterpart.target = prepare_rcs_target(counterpart.request);
   warn(counterpart.target->prepared.warnings);
   return counterpart;
@@ -93,8 +121,12 @@ ComparisonFigures draw(const std::vector<ExportComparison>& comparisons, const C
 std::vector<std::string> failures(const std::vector<ExportComparison>& comparisons, const CompareArguments& arguments) {
   std::vector<std::string> sentences;
   for (const ExportComparison& comparison : comparisons) {
+    for (const std::string& sentence : comparison.one_sided) {
+      if (arguments.tolerance_db || arguments.min_correlation)
+        sentences.push_back(fmt::format("{} {}", comparison.name, sentence));
+    }
     for (const ElementStatistics& s : comparison.elements) {
-      const char* element = kPolarisationNames[static_cast<int>(s.element)];
+      const char* element = kQuantityNames[s.quantity()];
       if (arguments.tolerance_db && s.mean_abs_db > *arguments.tolerance_db)
         sentences.push_back(fmt::format("{} {}: mean difference {:.3f} dB is over --tolerance-db {:g}", comparison.name,
                                         element, s.mean_abs_db, *arguments.tolerance_db));
@@ -106,12 +138,25 @@ std::vector<std::string> failures(const std::vector<ExportComparison>& compariso
   return sentences;
 }
 
+// Throws InputError where no element of any export is left.
+void require_comparison(const std::vector<ExportComparison>& comparisons) {
+  std::string why;
+  for (const ExportComparison& comparison : comparisons) {
+    if (!comparison.elements.empty()) return;
+    for (const std::vector<std::string>* sentences : {&comparison.omitted, &comparison.one_sided}) {
+      for (const std::string& sentence : *sentences) why += fmt::format("\n  {}: {}", comparison.name, sentence);
+    }
+  }
+  throw InputError("compare: nothing to compare:" + why);
+}
+
 // Makes the directory; throws before any work where a result cannot be written.
 void require_results(const CompareArguments& arguments) {
   const std::filesystem::path directory = arguments.directory;
   make_directory(directory);
   std::vector<std::filesystem::path> inputs(arguments.exports.files.begin(), arguments.exports.files.end());
-  inputs.emplace_back(arguments.against.empty() ? arguments.rcs.target : arguments.against);
+  inputs.insert(inputs.end(), arguments.rcs.targets.begin(), arguments.rcs.targets.end());
+  if (!arguments.against.empty()) inputs.emplace_back(arguments.against);
   std::vector<std::string> outputs;
   for (const char* name : {"compare.json", "compare.csv", "compare.html", "compare.png", "compare.svg",
                            "range_profiles.png", "range_profiles.svg"})
@@ -142,24 +187,26 @@ std::vector<std::filesystem::path> write_solved(const std::vector<ExportComparis
 }
 
 void run_compare(const CompareArguments& arguments, const CommandContext& context) {
-  if (arguments.rcs.target.empty() == arguments.against.empty())
+  if (!arguments.rcs.targets.empty() && !arguments.against.empty())
     throw InputError("compare: give either --target MESH or --against FILE");
   if (arguments.interpolation_radius_m && arguments.against.empty())
     throw InputError("--interpolate is for --against: a mesh is solved at the angles of the export");
   const std::vector<FieldTable> tables = read_and_report(arguments.exports);
-  if (!arguments.rcs.export_as.empty() && arguments.rcs.target.empty())
+  if (!arguments.rcs.export_as.empty() && !arguments.against.empty())
     throw InputError("--export-as is for --target: it writes the solved values");
   require_export_formats(arguments.rcs.export_as, has_bistatic_cut(tables));
   const Counterpart counterpart = counterpart_of(arguments, tables);
   require_results(arguments);
 
   const ComparisonSettings settings{arguments.exports.floor_db, arguments.as_is, arguments.interpolation_radius_m};
+  TargetSolutions solutions{context.threads, context.stop, say};
   std::vector<ExportComparison> comparisons;
   for (const FieldTable& table : tables) {
-    comparisons.push_back(counterpart.table ? compare_with_table(table, *counterpart.table, settings, context.threads)
-                                            : compare_with_target(table, counterpart.request, *counterpart.target,
-                                                                  settings, context.threads, context.stop, say));
+    comparisons.push_back(
+        counterpart.table ? compare_with_table(table, *counterpart.table, settings, context.threads)
+                          : compare_with_target(table, counterpart.request, *counterpart.target, settings, solutions));
   }
+  require_comparison(comparisons);
   const std::filesystem::path directory = arguments.directory;
   write_file(directory / "compare.csv", comparison_csv(comparisons, context.threads));
   const ComparisonFigures figures = draw(comparisons, settings, directory);
@@ -182,11 +229,13 @@ void add_compare(CommandOptions& program, CommandContext& context) {
   CommandOptions command = program.add_command(
       "compare", "Compare exports of CST, FEKO, HFSS and measurements with this solver or with each other");
   auto arguments = std::make_shared<CompareArguments>();
-  command.add_option("EXPORT", arguments->exports.files, "Files with the radar cross section or scattered field")
+  command
+      .add_option("EXPORT", arguments->exports.files,
+                  "Files with the radar cross section or scattered field, or folders of them")
       .repeatable("FILE")
       .required();
   arguments->rcs.add_target_to(command);
-  command.add_option("--against", arguments->against, "Another such file, instead of a mesh");
+  command.add_option("--against", arguments->against, "Another such file or folder, instead of a mesh");
   command
       .add_option(
           "--interpolate", arguments->interpolation_radius_m,
@@ -209,6 +258,7 @@ void add_compare(CommandOptions& program, CommandContext& context) {
   command.footer(
       "Example:\n  seaglint compare 'rcs (f=9.5), theta=(85,85,1), phi=(0,180,1), VP.txt' --target ship.stl -o "
       "compared\n"
+      "  seaglint compare VV_ship.json -o compared\n"
       "  seaglint compare ship.ffe --against chamber.csv --reference-polarisation vv --tolerance-db 2 -o compared");
   command.callback(
       [arguments, &context] { context.work = [arguments, &context] { run_compare(*arguments, context); }; });

@@ -40,7 +40,7 @@ std::filesystem::path figure_file(const RcsArguments& arguments) {
 void require_files(const RcsArguments& arguments) {
   const ViewExport& exports = arguments.request.exports;
   std::vector<std::filesystem::path> inputs(arguments.reference.files.begin(), arguments.reference.files.end());
-  inputs.emplace_back(arguments.target);
+  inputs.insert(inputs.end(), arguments.targets.begin(), arguments.targets.end());
   std::vector<std::string> outputs{arguments.output, exports.centres, exports.hot_spots, arguments.reference.curves};
   if (!arguments.reference.files.empty() || arguments.request.uncertainty) {
     outputs.push_back(figure_file(arguments));
@@ -53,8 +53,7 @@ void require_files(const RcsArguments& arguments) {
 // Draws the comparison, or without references the uncertainty.
 void show_figure(const RcsArguments& arguments, const std::vector<PairedCut>& cuts, const RcsSweep& sweep) {
   const std::filesystem::path figure = figure_file(arguments);
-  const std::string title =
-      fmt::format("{}, seaglint {}", std::filesystem::path(arguments.target).filename().string(), kVersion);
+  const std::string title = fmt::format("{}, seaglint {}", arguments.target_name(), kVersion);
   if (cuts.empty() ? draw_uncertainty(sweep, title, figure)
                    : draw_comparison(cuts, arguments.reference.floor_db, title, figure)) {
     print_out("Figure: {}\n", figure.string());
@@ -82,16 +81,22 @@ std::vector<PairedCut> pair_with_all(const RcsSweep& sweep, const std::vector<Fi
 }
 
 std::vector<FieldTable> read_references(const ReferenceArguments& arguments) {
-  std::vector<FieldTable> references = arguments.read();
-  for (const FieldTable& reference : references) print_error(on_one_line(reading_of(reference)) + "\n");
-  return references;
+  ReferenceTables references = arguments.read();
+  for (const std::string& folder : references.folders) print_error(on_one_line(folder) + "\n");
+  for (const FieldTable& reference : references.tables) print_error(on_one_line(reading_of(reference)) + "\n");
+  return std::move(references.tables);
 }
 
 // The sweep; without --converge a series of no steps.
 ConvergedSweep compute(const RcsArguments& arguments, const RcsRequest& request, const RcsTarget& target,
                        const CommandContext& context) {
   try {
-    if (!arguments.converge_db) return {compute_rcs(request, target, context.threads, &context.stop), {}, true};
+    if (!arguments.converge_db) {
+      return {compute_rcs(request, target, context.threads, &context.stop,
+                          [](const std::string& line) { print_error(line + "\n"); }),
+              {},
+              true};
+    }
     return converge_rcs(request, target, *arguments.converge_db, context.threads, &context.stop,
                         [](const std::string& line) { print_error(line); });
   } catch (const WorkError& error) {

@@ -39,7 +39,8 @@ void run_rcs_cross_check(const RcsArguments& arguments, const CommandContext& co
       arguments.output.empty() ? "" : std::filesystem::path(arguments.output).replace_extension(".png");
   if (!arguments.output.empty()) {
     require_figure(figure);
-    require_outputs({arguments.output, figure.string()}, {arguments.target});
+    require_outputs({arguments.output, figure.string()},
+                    std::vector<std::filesystem::path>(arguments.targets.begin(), arguments.targets.end()));
   }
   RcsRequest request = arguments.make_request();
   request.method = SolverMethod::kRays;  // has the settings of both methods
@@ -55,8 +56,7 @@ void run_rcs_cross_check(const RcsArguments& arguments, const CommandContext& co
   print_out("Table: {}\n", arguments.output);
   const PlotPanels panels = cross_check_plots(check);
   if (panels.plots.empty()) return;
-  write_figure(fmt::format("{}, seaglint {}", std::filesystem::path(arguments.target).filename().string(), kVersion),
-               panels, figure);
+  write_figure(fmt::format("{}, seaglint {}", arguments.target_name(), kVersion), panels, figure);
   print_out("Figure: {}\n", figure.string());
 }
 

@@ -9,7 +9,9 @@
 #include <optional>
 #include <set>
 #include <tuple>
+#include <utility>
 
+#include "sim/core/numbers/dbsm.h"
 #include "sim/core/process/error.h"
 #include "tools/compare/cut_angles.h"
 #include "tools/compare/main_contribution.h"
@@ -132,44 +134,78 @@ void add_extrema(const PairedCut& cut, double highest, double floor, ElementStat
   statistics.axis = cut.axis;
 }
 
-// Levels further below the strongest of an export are rounding: single precision is 144 dB.
+// Levels further below the strongest are rounding: single precision is 144 dB.
 constexpr double kRounding_db = 120;
+// A cross-polar echo below this is within the purity of an antenna or a mesh.
+constexpr double kPurity_db = 40;
 
-// The highest level of the export in an element, or in all.
-double highest_of(const std::vector<PairedCut>& cuts, std::optional<Polarisation> element = std::nullopt) {
+// The highest level of the export in a quantity, or in all.
+double highest_of(const std::vector<PairedCut>& cuts, std::optional<std::size_t> quantity = std::nullopt) {
   double highest = -1e300;
   for (const PairedCut& cut : cuts) {
-    if (!element || cut.element == *element) highest = std::max(highest, std::ranges::max(cut.level_dbsm));
+    if (!quantity || cut.quantity() == *quantity) highest = std::max(highest, std::ranges::max(cut.level_dbsm));
   }
   return highest;
 }
 
-// Removes the cuts of elements that are rounding in both, as the cross-polar ones of a symmetric body.
+// The highest compared level in a quantity, or in all.
+double highest_compared(const std::vector<PairedCut>& cuts, std::optional<std::size_t> quantity = std::nullopt) {
+  double highest = -1e300;
+  for (const PairedCut& cut : cuts) {
+    if (!quantity || cut.quantity() == *quantity)
+      highest = std::max(highest, std::ranges::max(cut.models[0].level_dbsm));
+  }
+  return highest;
+}
+
+// "zero", or how far a level is below the strongest.
+std::string below_text(double level_dbsm, double strongest_dbsm) {
+  if (level_dbsm <= kMinLevel_dbsm + 1) return "zero";
+  return fmt::format("{:.1f} dB below the strongest", strongest_dbsm - level_dbsm);
+}
+
+// Removes the cuts of quantities that are zero or rounding on one side, as the cross-polar ones of a symmetric body:
+// their difference is that of the floor. The strongest compared level is also that of elements which the export lacks.
 void omit_rounding(ExportComparison& comparison) {
-  const double rounding = highest_of(comparison.cuts) - kRounding_db;
-  for (const Polarisation element : {Polarisation::kHh, Polarisation::kHv, Polarisation::kVh, Polarisation::kVv}) {
-    const auto silent = [&](const PairedCut& cut) {
-      return cut.element != element ||
-             (std::ranges::max(cut.level_dbsm) < rounding && std::ranges::max(cut.models[0].level_dbsm) < rounding);
+  double strongest_compared = highest_compared(comparison.cuts);
+  for (const RcsCut& cut : comparison.solved) {
+    for (const FieldValue& value : cut.values) strongest_compared = std::max(strongest_compared, value.level_dbsm);
+  }
+  const double strongest = highest_of(comparison.cuts);
+  for (std::size_t quantity = 0; quantity < kQuantities; ++quantity) {
+    const double reference = highest_of(comparison.cuts, quantity),
+                 compared = highest_compared(comparison.cuts, quantity);
+    const auto is_silent = [](double level, double of_strongest) {
+      return level <= kMinLevel_dbsm + 1 || level < of_strongest - kRounding_db;
     };
-    if (!std::ranges::all_of(comparison.cuts, silent)) continue;
-    if (std::erase_if(comparison.cuts, [&](const PairedCut& cut) { return cut.element == element; }) > 0)
-      comparison.omitted.push_back(fmt::format("{} is not compared: it is {:g} dB or more below the strongest in both",
-                                               kPolarisationNames[static_cast<int>(element)], kRounding_db));
+    const bool export_silent = is_silent(reference, strongest), other_silent = is_silent(compared, strongest_compared);
+    if (!export_silent && !other_silent) continue;
+    if (std::erase_if(comparison.cuts, [&](const PairedCut& cut) { return cut.quantity() == quantity; }) == 0) continue;
+    const char* name = kQuantityNames[quantity];
+    if (export_silent && other_silent) {
+      comparison.omitted.push_back(
+          fmt::format("{} is not compared: it is {:g} dB or more below the strongest in both", name, kRounding_db));
+      continue;
+    }
+    const double other = export_silent ? strongest_compared - compared : strongest - reference;
+    (other < kPurity_db ? comparison.one_sided : comparison.omitted)
+        .push_back(fmt::format("{} is not compared: {} in the export, {} in {}", name, below_text(reference, strongest),
+                               below_text(compared, strongest_compared), comparison.compared));
   }
 }
 
-ElementStatistics statistics_of(const std::vector<PairedCut>& cuts, Polarisation element, double floor_db) {
+ElementStatistics statistics_of(const std::vector<PairedCut>& cuts, std::size_t quantity, double floor_db) {
   constexpr std::size_t kWorst = 5;
   ElementStatistics statistics;
-  statistics.element = element;
-  const double highest = std::max(highest_of(cuts, element), highest_of(cuts) - kRounding_db);
+  statistics.element = element_of_quantity(quantity);
+  statistics.total = is_total(quantity);
+  const double highest = std::max(highest_of(cuts, quantity), highest_of(cuts) - kRounding_db);
   const double floor = highest - floor_db;
   DifferenceSum sum;
   std::vector<double> sizes;
   std::vector<ElementStatistics::Worst> all;
   for (const PairedCut& cut : cuts) {
-    if (cut.element != element) continue;
+    if (cut.quantity() != quantity) continue;
     add_extrema(cut, highest, floor, statistics);
     for (std::size_t i = 0; i < cut.places.size(); ++i) {
       const double difference = sum.add(cut.models[0].level_dbsm[i], cut.level_dbsm[i], floor, cut.x[i]);
@@ -197,13 +233,45 @@ ElementStatistics statistics_of(const std::vector<PairedCut>& cuts, Polarisation
 ExportComparison finished(ExportComparison comparison, const ComparisonSettings& settings, int threads) {
   omit_rounding(comparison);
   if (!settings.as_is) comparison.alignment = align(comparison.cuts, threads);
-  for (const Polarisation element : {Polarisation::kHh, Polarisation::kHv, Polarisation::kVh, Polarisation::kVv}) {
+  for (std::size_t quantity = 0; quantity < kQuantities; ++quantity) {
     if (std::any_of(comparison.cuts.begin(), comparison.cuts.end(),
-                    [&](const PairedCut& cut) { return cut.element == element; }))
-      comparison.elements.push_back(statistics_of(comparison.cuts, element, settings.floor_db));
+                    [&](const PairedCut& cut) { return cut.quantity() == quantity; }))
+      comparison.elements.push_back(statistics_of(comparison.cuts, quantity, settings.floor_db));
   }
-  comparison.warnings = suggestions(comparison.cuts, comparison.alignment, settings.floor_db);
+  comparison.warnings = comparison.one_sided;
+  for (std::string& sentence : suggestions(comparison.cuts, comparison.alignment, settings.floor_db))
+    comparison.warnings.push_back(std::move(sentence));
   return comparison;
+}
+
+bool same_places(const RcsCut& a, const RcsCut& b) {
+  return a.values.size() == b.values.size() &&
+         std::equal(a.values.begin(), a.values.end(), b.values.begin(), [](const FieldValue& x, const FieldValue& y) {
+           return x.frequency_hz == y.frequency_hz && x.theta_deg == y.theta_deg && x.phi_deg == y.phi_deg;
+         });
+}
+
+// The total of the same transmitted polarisation as `total` from both elements of a table, where it has them in equal
+// rows.
+std::vector<RcsCut> sums_for(const RcsCut& total, const FieldTable& table) {
+  std::vector<RcsCut> sums;
+  for (const RcsCut& v : table.cuts) {
+    for (const RcsCut& h : table.cuts) {
+      if (v.total || h.total || v.element != element_of(true, transmits_v(total.element)) ||
+          h.element != element_of(false, transmits_v(total.element)) || v.transmitter != h.transmitter ||
+          !same_places(v, h))
+        continue;
+      RcsCut& sum = sums.emplace_back(v);
+      sum.element = total.element;
+      sum.total = true;
+      for (std::size_t i = 0; i < sum.values.size(); ++i) {
+        sum.values[i].amplitude_m.reset();
+        sum.values[i].level_dbsm =
+            dbsm_of_area(std::pow(10.0, v.values[i].level_dbsm / 10) + std::pow(10.0, h.values[i].level_dbsm / 10));
+      }
+    }
+  }
+  return sums;
 }
 
 // The values of `other` at the places of the cut: its own ones, or interpolated.
@@ -215,6 +283,28 @@ std::vector<RcsSweep> counterpart(const RcsCut& cut, const RcsCut& other, const 
   const InterpolatedCut interpolated = interpolated_cut(other, places, *settings.interpolation_radius_m, threads);
   quality = quality ? combined(*quality, interpolated.quality) : interpolated.quality;
   return table_sweeps(cut, interpolated.cut);
+}
+
+// The sweep of a request at a grid: one of those solved already, or solved and added to them.
+const RcsSweep& solution_of(RcsRequest request, const ViewGrid& grid, const RcsTarget& target, const std::string& name,
+                            TargetSolutions& solutions) {
+  const auto same = [](const std::optional<FixedTransmitter>& a, const std::optional<FixedTransmitter>& b) {
+    return a.has_value() == b.has_value() &&
+           (!a || (a->azimuth_deg == b->azimuth_deg && a->elevation_deg == b->elevation_deg));
+  };
+  for (const TargetSolutions::Solved& solved : solutions.solved) {
+    if (same(solved.transmitter, request.transmitter) && solved.grid == grid) return solved.sweep;
+  }
+  request.frequency_hz = grid.frequency_hz;
+  request.azimuth_deg = grid.azimuth_deg;
+  request.elevation_deg = grid.elevation_deg;
+  solutions.say(fmt::format(
+      "{}: frequencies {}, directions {}, {}", name, grid.frequency_hz.size(), requested_sweep(request).views(),
+      request.transmitter ? fmt::format("transmitter at azimuth {:g} deg, elevation {:g} deg",
+                                        request.transmitter->azimuth_deg, request.transmitter->elevation_deg)
+                          : std::string("monostatic")));
+  RcsSweep sweep = compute_rcs(request, target, solutions.threads, &solutions.stop, solutions.say).sweep;
+  return solutions.solved.emplace_back(TargetSolutions::Solved{request.transmitter, grid, std::move(sweep)}).sweep;
 }
 
 }  // namespace
@@ -232,44 +322,39 @@ RcsRequest at_frequencies_of(const std::vector<FieldTable>& tables, RcsRequest r
 }
 
 ExportComparison compare_with_target(const FieldTable& table, const RcsRequest& request, const RcsTarget& target,
-                                     const ComparisonSettings& settings, int threads, const StopFlag& stop,
-                                     const std::function<void(const std::string&)>& say) {
-  ExportComparison comparison{table.name, table.reader, "seaglint", table.notes, {}, {}, {}, {}, {}, {}, {}};
+                                     const ComparisonSettings& settings, TargetSolutions& solutions) {
+  ExportComparison comparison{table.name, table.reader, "seaglint", table.notes, {}, {}, {}, {}, {}, {}, {}, {}};
   for (const auto& [key, cuts] : by_transmitter(table)) {
     RcsRequest solved = request;
     solved.transmitter = fixed_transmitter(*cuts.front());
     for (const ViewGrid& grid : grids_of(cuts)) {
-      solved.frequency_hz = grid.frequency_hz;
-      solved.azimuth_deg = grid.azimuth_deg;
-      solved.elevation_deg = grid.elevation_deg;
-      RcsSweep sweep = requested_sweep(solved);
-      say(fmt::format("{}: frequencies {}, directions {}, {}", table.name, grid.frequency_hz.size(), sweep.views(),
-                      solved.transmitter
-                          ? fmt::format("transmitter at azimuth {:g} deg, elevation {:g} deg",
-                                        solved.transmitter->azimuth_deg, solved.transmitter->elevation_deg)
-                          : std::string("monostatic")));
-      sweep = compute_rcs(solved, target, threads, &stop).sweep;
+      const RcsSweep& sweep = solution_of(solved, grid, target, table.name, solutions);
       append_cuts(sweep, comparison.solved);
       for (const RcsCut* cut : cuts) pair(sweep, *cut, comparison.cuts);
     }
   }
-  comparison = finished(std::move(comparison), settings, threads);
+  comparison = finished(std::move(comparison), settings, solutions.threads);
   if (std::any_of(table.cuts.begin(), table.cuts.end(),
                   [](const RcsCut& cut) { return !cut.transmitter->is_monostatic; }))
     return comparison;
   for (ElementStatistics& statistics : comparison.elements) {
     for (ElementStatistics::Worst& worst : statistics.worst)
-      worst.main = main_contribution(request, target, worst.place, statistics.element, stop);
+      worst.main = main_contribution(request, target, worst.place, statistics.quantity(), solutions.stop);
   }
   return comparison;
 }
 
 ExportComparison compare_with_table(const FieldTable& table, const FieldTable& other,
                                     const ComparisonSettings& settings, int threads) {
-  ExportComparison comparison{table.name, table.reader, other.name, table.notes, {}, {}, {}, {}, {}, {}, {}};
+  ExportComparison comparison{table.name, table.reader, other.name, table.notes, {}, {}, {}, {}, {}, {}, {}, {}};
   for (const RcsCut& cut : table.cuts) {
-    for (const RcsCut& values : other.cuts) {
-      if (values.element != cut.element) continue;
+    const std::vector<RcsCut> sums = cut.total ? sums_for(cut, other) : std::vector<RcsCut>();
+    std::vector<const RcsCut*> candidates;
+    for (const RcsCut& values : other.cuts) candidates.push_back(&values);
+    for (const RcsCut& values : sums) candidates.push_back(&values);
+    for (const RcsCut* candidate : candidates) {
+      const RcsCut& values = *candidate;
+      if (values.quantity() != cut.quantity()) continue;
       if (stated_transmitter(cut) != stated_transmitter(values)) continue;
       const std::size_t first = comparison.cuts.size();
       for (const RcsSweep& sweep : counterpart(cut, values, settings, threads, comparison.interpolation))

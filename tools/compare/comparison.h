@@ -15,16 +15,18 @@
 #include "tools/compare/alignment.h"
 #include "tools/compare/interpolation.h"
 #include "tools/compare/lobes.h"
+#include "tools/compare/view_groups.h"
 #include "tools/rcs/rcs_comparison.h"
 #include "tools/rcs/rcs_request.h"
 #include "tools/rcs/rcs_target.h"
 
 namespace seaglint {
 
-// Differences of all values of one element, compared - reference, both clipped at floor_db below the reference's
-// maximum.
+// Differences of all values of one element or total, compared - reference, both clipped at floor_db below the
+// reference's maximum.
 struct ElementStatistics {
   Polarisation element = Polarisation::kHh;
+  bool total = false;  // of the sum over both received polarisations (RcsCut)
   std::size_t pairs = 0;
   double bias_db = 0, mean_abs_db = 0, rms_db = 0;
   double p95_db = 0;                  // 95 % of the absolute differences are at most this
@@ -37,6 +39,8 @@ struct ElementStatistics {
   std::vector<Worst> worst;          // the largest differences, at most five
   ExtremumPairs lobes, nulls;        // of all cuts with one variable; means over their pairs
   CutAxis axis = CutAxis::kSeveral;  // that variable
+
+  std::size_t quantity() const { return quantity_of(element, total); }
 };
 
 struct ExportComparison {
@@ -48,7 +52,8 @@ struct ExportComparison {
   std::vector<std::string> warnings;
   std::optional<InterpolationQuality> interpolation;  // of the compared values
   std::vector<RcsCut> solved;                         // of a target: all elements, at the places of the export
-  std::vector<std::string> omitted;                   // a sentence for each element that is rounding in both
+  std::vector<std::string> omitted;    // a sentence for each element that is not compared: zero or rounding in one
+  std::vector<std::string> one_sided;  // the same of those that are an echo in the other: differences without a number
 };
 
 struct ComparisonSettings {
@@ -62,15 +67,28 @@ struct ComparisonSettings {
 // is any, as a mesh is prepared for frequencies alone.
 RcsRequest at_frequencies_of(const std::vector<FieldTable>& tables, RcsRequest request);
 
+// What was solved of a target: exports of one model mostly have the same views, which are solved once.
+struct TargetSolutions {
+  int threads = 0;
+  const StopFlag& stop;
+  std::function<void(const std::string&)> say;  // gets a line before each solution, and compute_rcs()'s
+  struct Solved {
+    std::optional<FixedTransmitter> transmitter;
+    ViewGrid grid;
+    RcsSweep sweep;
+  };
+  std::vector<Solved> solved = {};
+};
+
 // Solves the target at exactly the angles and frequencies of the export, monostatic or bistatic as it states. `request`
-// says what the target is made of and how it is solved. Throws InputError for an export without a stated incident wave,
-// and what compute_rcs() throws; say() gets a line before each solution.
+// says what the target is made of and how it is solved; solutions are of equal requests but for their views. Throws
+// InputError for an export without a stated incident wave, and what compute_rcs() throws.
 ExportComparison compare_with_target(const FieldTable& table, const RcsRequest& request, const RcsTarget& target,
-                                     const ComparisonSettings& settings, int threads, const StopFlag& stop,
-                                     const std::function<void(const std::string&)>& say);
+                                     const ComparisonSettings& settings, TargetSolutions& solutions);
 
 // Compares two tables where they have equal directions (0.001 deg; all within reach if interpolated), frequencies
-// (1e-6) and elements; throws InputError if that is nowhere, or if their incident waves differ.
+// (1e-6) and elements, a total also with the sum of both elements; throws InputError if that is nowhere, or if their
+// incident waves differ.
 ExportComparison compare_with_table(const FieldTable& table, const FieldTable& other,
                                     const ComparisonSettings& settings, int threads);
 

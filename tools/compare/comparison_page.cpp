@@ -10,7 +10,7 @@
 namespace seaglint {
 namespace {
 
-const char* name_of(Polarisation element) { return kPolarisationNames[static_cast<int>(element)]; }
+const char* name_of(const ElementStatistics& s) { return kQuantityNames[s.quantity()]; }
 
 std::string decibels(double value) { return fmt::format("{:.2f}", value); }
 
@@ -25,7 +25,9 @@ std::string differences(const std::vector<ExportComparison>& comparisons) {
       {"export", "element", "against", "pairs", "bias (dB)", "mean (dB)", "rms (dB)", "95 % (dB)", "correlation"}};
   for (const ExportComparison& c : comparisons) {
     for (const ElementStatistics& s : c.elements) {
-      rows.push_back({escape_html(c.name), name_of(s.element), escape_html(c.compared), fmt::format("{}", s.pairs),
+      const std::string name =
+          s.total ? fmt::format("total, {} transmitted", transmits_v(s.element) ? "v" : "h") : name_of(s);
+      rows.push_back({escape_html(c.name), name, escape_html(c.compared), fmt::format("{}", s.pairs),
                       decibels(s.bias_db), decibels(s.mean_abs_db), decibels(s.rms_db), decibels(s.p95_db),
                       s.correlation ? fmt::format("{:.4f}", *s.correlation) : "no phases"});
     }
@@ -38,8 +40,7 @@ std::string lobes_and_nulls(const std::vector<ExportComparison>& comparisons) {
       {"export", "element", "lobes paired, mean displacement and difference", "nulls paired"}};
   for (const ExportComparison& c : comparisons) {
     for (const ElementStatistics& s : c.elements)
-      rows.push_back(
-          {escape_html(c.name), name_of(s.element), extrema_cell(s.lobes, s.axis), extrema_cell(s.nulls, s.axis)});
+      rows.push_back({escape_html(c.name), name_of(s), extrema_cell(s.lobes, s.axis), extrema_cell(s.nulls, s.axis)});
   }
   return html_table(rows, false);
 }
@@ -87,7 +88,7 @@ std::string worst(const std::vector<ExportComparison>& comparisons) {
     for (const ElementStatistics& s : c.elements) {
       for (const ElementStatistics::Worst& w : s.worst) {
         const PairedCut::Place& p = w.place;
-        rows.push_back({fmt::format("{}:{}", escape_html(c.name), p.line), name_of(s.element),
+        rows.push_back({fmt::format("{}:{}", escape_html(c.name), p.line), name_of(s),
                         fmt::format("{:.6g}", 1e-9 * p.frequency_hz), fmt::format("{:.6g}", p.azimuth_deg),
                         fmt::format("{:.6g}", p.elevation_deg), decibels(w.difference_db), escape_html(w.main)});
       }

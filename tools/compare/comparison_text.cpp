@@ -17,8 +17,6 @@
 namespace seaglint {
 namespace {
 
-const char* name_of(Polarisation element) { return kPolarisationNames[static_cast<int>(element)]; }
-
 std::string text_of(const Alignment& a, bool of_all) {
   std::string text = fmt::format("constant phase {:.1f} deg, ", degrees(a.phase_rad));
   if (a.undetermined.size() == 3) {
@@ -77,7 +75,7 @@ void append_decibels(std::string& text, double value) {
 
 std::string rows_of(const ExportComparison& comparison, const PairedCut& cut) {
   const std::string name = csv_cell(comparison.name) + ',';
-  const std::string other = fmt::format(",{},{}", csv_cell(comparison.compared), name_of(cut.element));
+  const std::string other = fmt::format(",{},{}", csv_cell(comparison.compared), kQuantityNames[cut.quantity()]);
   const PairedCut::Model& model = cut.models[0];
   const bool phases = !cut.amplitude_m.empty() && !model.amplitude_m.empty();
   std::string text;
@@ -112,20 +110,23 @@ nlohmann::ordered_json interpolation_json(const ExportComparison& comparison) {
 }  // namespace
 
 std::string comparison_table(const std::vector<ExportComparison>& comparisons, const ComparisonSettings& settings) {
-  std::size_t width = 6, other = 8;
+  std::size_t width = 6, other = 8, pol = 3;
   for (const ExportComparison& c : comparisons) {
     width = std::max(width, c.name.size());
     other = std::max(other, c.compared.size());
+    for (const ElementStatistics& s : c.elements)
+      pol = std::max(pol, std::string_view(kQuantityNames[s.quantity()]).size());
   }
   std::string text = fmt::format(
-      "Differences in dB, compared - export, both clipped at {:g} dB below the export's maximum:\n{:<{}}  pol  {:<{}}  "
-      "{:>7}  {:>7}  {:>7}  {:>7}  {:>7}  correlation\n",
-      settings.floor_db, "export", width, "compared", other, "pairs", "bias", "mean", "rms", "95 %");
+      "Differences in dB, compared - export, both clipped at {:g} dB below the export's maximum:\n{:<{}}  {:<{}}  "
+      "{:<{}}  {:>7}  {:>7}  {:>7}  {:>7}  {:>7}  correlation\n",
+      settings.floor_db, "export", width, "pol", pol, "compared", other, "pairs", "bias", "mean", "rms", "95 %");
   for (const ExportComparison& c : comparisons) {
     for (const ElementStatistics& s : c.elements) {
-      text += fmt::format("{:<{}}  {:<3}  {:<{}}  {:>7}  {:>7.3f}  {:>7.3f}  {:>7.3f}  {:>7.3f}  {}\n", c.name, width,
-                          name_of(s.element), c.compared, other, s.pairs, s.bias_db, s.mean_abs_db, s.rms_db, s.p95_db,
-                          s.correlation ? fmt::format("{:.4f}", *s.correlation) : std::string("no phases"));
+      text +=
+          fmt::format("{:<{}}  {:<{}}  {:<{}}  {:>7}  {:>7.3f}  {:>7.3f}  {:>7.3f}  {:>7.3f}  {}\n", c.name, width,
+                      kQuantityNames[s.quantity()], pol, c.compared, other, s.pairs, s.bias_db, s.mean_abs_db, s.rms_db,
+                      s.p95_db, s.correlation ? fmt::format("{:.4f}", *s.correlation) : std::string("no phases"));
     }
   }
   for (const ExportComparison& c : comparisons) {
@@ -143,6 +144,7 @@ nlohmann::ordered_json comparison_json(const std::vector<ExportComparison>& comp
   json["version"] = kVersion;
   json["settings"] = {{"floor_db", settings.floor_db}, {"as_is", settings.as_is}};
   json["exports"] = nlohmann::ordered_json::array();
+  nlohmann::ordered_json not_compared = nlohmann::ordered_json::array();
   for (const ExportComparison& c : comparisons) {
     for (const ElementStatistics& s : c.elements) {
       nlohmann::ordered_json entry;
@@ -151,7 +153,7 @@ nlohmann::ordered_json comparison_json(const std::vector<ExportComparison>& comp
       entry["convention"] = c.notes;
       entry["omitted"] = c.omitted;
       entry["compared"] = c.compared;
-      entry["polarisation"] = name_of(s.element);
+      entry["polarisation"] = kQuantityNames[s.quantity()];
       entry["pairs"] = s.pairs;
       entry["bias_db"] = s.bias_db;
       entry["mean_abs_db"] = s.mean_abs_db;
@@ -174,7 +176,11 @@ nlohmann::ordered_json comparison_json(const std::vector<ExportComparison>& comp
       entry["interpolation"] = interpolation_json(c);
       json["exports"].push_back(std::move(entry));
     }
+    for (const std::vector<std::string>* sentences : {&c.omitted, &c.one_sided}) {
+      for (const std::string& sentence : *sentences) not_compared.push_back({{"name", c.name}, {"why", sentence}});
+    }
   }
+  json["not_compared"] = std::move(not_compared);
   return json;
 }
 

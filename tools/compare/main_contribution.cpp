@@ -14,14 +14,20 @@
 namespace seaglint {
 
 std::string main_contribution(const RcsRequest& request, const RcsTarget& target, const PairedCut::Place& place,
-                              Polarisation element, const StopFlag& stop) {
+                              std::size_t quantity, const StopFlag& stop) {
   if (!request.cavities.parts.empty()) return "";
   RcsRequest monostatic = request;
   monostatic.transmitter.reset();
   const RcsView view{place.azimuth_deg, place.elevation_deg, place.frequency_hz};
   const GroupSums sums = group_sums(view_contributions(monostatic, target, view, 1, &stop).points,
                                     2 * kPi * place.frequency_hz / kSpeedOfLight);
-  const auto size = [&](const auto& group) { return std::norm(group.second[static_cast<std::size_t>(element)]); };
+  const Polarisation element = element_of_quantity(quantity);
+  const auto size = [&](const auto& group) {
+    const auto power = [&](Polarisation e) { return std::norm(group.second[static_cast<std::size_t>(e)]); };
+    return is_total(quantity)
+               ? power(element_of(false, transmits_v(element))) + power(element_of(true, transmits_v(element)))
+               : power(element);
+  };
   const auto most = std::ranges::max_element(sums, {}, size);
   if (most == sums.end() || size(*most) == 0) return "";
   return fmt::format("{}, {:.1f} dBsm", text_of(most->first, target.prepared.mesh.part_names),

@@ -3,6 +3,7 @@
 
 // What contributes most to the echo of one view.
 
+#include <cstddef>
 #include <string>
 
 #include "sim/core/process/parallel.h"
@@ -12,9 +13,9 @@
 
 namespace seaglint {
 
-// The part, number of bounces and mechanism whose contributions have the largest sum in this element, with its level:
+// The part, number of bounces and mechanism whose contributions have the largest sum in this quantity, with its level:
 // "part hull, 2 bounces, po, 12.3 dBsm". Monostatic; empty where nothing contributes, and with cavities.
 std::string main_contribution(const RcsRequest& request, const RcsTarget& target, const PairedCut::Place& place,
-                              Polarisation element, const StopFlag& stop);
+                              std::size_t quantity, const StopFlag& stop);
 
 }  // namespace seaglint

@@ -17,6 +17,7 @@ struct ViewPoint {
 // All combinations of these values.
 struct ViewGrid {
   std::vector<double> frequency_hz, azimuth_deg, elevation_deg;  // ascending
+  bool operator==(const ViewGrid&) const = default;
 };
 
 // Grids that hold every point exactly once and nothing else: directions of equal frequencies, then elevations of equal

@@ -3,12 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <iterator>
 
 #include "sim/core/process/data_folder.h"
 #include "sim/core/process/error.h"
 #include "sim/core/text/number.h"
 #include "tools/options/renamed_words.h"
+#include "tools/rcs/rcs_target.h"
 #include "tools/rcs/sweep_files.h"
 
 namespace seaglint {
@@ -124,8 +126,12 @@ void RcsArguments::add_mesh_to(CommandOptions& command) {
 }
 
 CommandOption RcsArguments::add_target_to(CommandOptions& command) {
-  const CommandOption option = command.add_option(
-      "--target", target, "Mesh file: .glb .gltf .obj .stl .ply, or shells in .nas .bdf .dat .unv .msh");
+  const CommandOption option =
+      command
+          .add_option("--target", targets,
+                      "Mesh file: .glb .gltf .obj .stl .ply, or shells in .nas .bdf .dat .unv .msh (repeatable: the "
+                      "files are the parts of one target)")
+          .repeatable("FILE");
   command.add_option("--unit", request.unit, "Unit of the mesh: m, cm, mm, km, in, ft").show_default();
   return option;
 }
@@ -240,12 +246,19 @@ CommandOption RcsArguments::add_export_as_to(CommandOptions& command) {
 
 RcsRequest RcsArguments::make_mesh_request() const {
   RcsRequest made = request;
-  made.target = find_input(target);
+  std::vector<GeometryFile> files;
+  for (const std::string& target : targets) files.push_back({find_input(target), request.unit});
+  if (!files.empty()) set_target_files(made, files);
   made.edges = edges == "on";
   made.method = solver_method_of(method);
   if (crease_deg != "auto") made.crease_deg = parse_number(crease_deg);
   for (const std::string& text : materials) made.materials.push_back(material_choice(text));
   return made;
+}
+
+std::string RcsArguments::target_name() const {
+  const std::string first = std::filesystem::path(targets.front()).filename().string();
+  return targets.size() == 1 ? first : fmt::format("{} and {} more", first, targets.size() - 1);
 }
 
 RcsRequest RcsArguments::make_request() const {

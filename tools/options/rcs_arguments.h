@@ -14,9 +14,10 @@
 namespace seaglint {
 
 struct RcsArguments {
-  RcsRequest request;  // members that options set directly; make_request() fills the others
-  std::string target, frequency_ghz, azimuth_deg, elevation_deg = "0", edges = "on", crease_deg = "auto",
-                                                  method = "beams", output;
+  RcsRequest request;                // members that options set directly; make_request() fills the others
+  std::vector<std::string> targets;  // mesh files of one scatterer
+  std::string frequency_ghz, azimuth_deg, elevation_deg = "0", edges = "on", crease_deg = "auto", method = "beams",
+                                          output;
   std::optional<double> transmit_azimuth_deg, transmit_elevation_deg, converge_db;
   bool cross_check = false;
   std::vector<std::string> materials;  // NAME or PART=NAME
@@ -34,6 +35,7 @@ struct RcsArguments {
 
   RcsRequest make_request() const;       // throws InputError
   RcsRequest make_mesh_request() const;  // without views, sea and transmitter
+  std::string target_name() const;       // of the files, without folders; at least one
 
  private:
   void add_views_to(CommandOptions& command);

@@ -4,9 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <utility>
 
 #include "sim/core/process/error.h"
 #include "sim/core/text/number.h"
+#include "sim/core/text/shown.h"
 #include "sim/field_tables/read_field_table.h"
 
 namespace seaglint {
@@ -56,7 +60,49 @@ DeclaredTransmitter incidence_named(const std::string& text) {
   return transmitter;
 }
 
+struct Folder {
+  std::vector<std::filesystem::path> tables, others;  // by name
+};
+
+// Files whose name begins with a point, and folders within, are neither.
+Folder contents_of(const std::filesystem::path& path) {
+  std::vector<std::filesystem::path> files;
+  std::error_code error;
+  for (std::filesystem::directory_iterator entry(path, error), end; !error && entry != end; entry.increment(error)) {
+    std::error_code of_entry;
+    if (entry->is_regular_file(of_entry) && !entry->path().filename().string().starts_with('.'))
+      files.push_back(entry->path());
+  }
+  if (error) throw InputError(fmt::format("{}: cannot be read: {}", path.string(), error.message()));
+  std::sort(files.begin(), files.end());
+  Folder folder;
+  for (std::filesystem::path& file : files) (is_field_table(file) ? folder.tables : folder.others).push_back(file);
+  if (folder.tables.empty())
+    throw InputError(fmt::format("{}: no file in this folder is a table of the radar cross section", path.string()));
+  return folder;
+}
+
+// "DIR: 3 tables; not read as tables: a.png, b.txt".
+std::string contents_text(const std::filesystem::path& path, const Folder& folder) {
+  constexpr std::size_t kLongest = 400;
+  std::string others;
+  for (const std::filesystem::path& file : folder.others)
+    others += (others.empty() ? "" : ", ") + file.filename().string();
+  return fmt::format("{}: {} {}{}{}", path.string(), folder.tables.size(),
+                     folder.tables.size() == 1 ? "table" : "tables",
+                     others.empty() ? "" : "; not read as tables: ", shown(others, kLongest));
+}
+
 }  // namespace
+
+FieldTable joined_tables(std::vector<FieldTable> tables, const std::string& file) {
+  FieldTable all = std::move(tables.front());
+  if (tables.size() == 1) return all;
+  all.name = std::filesystem::path(file).lexically_normal().string();
+  for (std::size_t i = 1; i < tables.size(); ++i)
+    all.cuts.insert(all.cuts.end(), tables[i].cuts.begin(), tables[i].cuts.end());
+  return all;
+}
 
 void ReferenceArguments::add_to(CommandOptions& command) {
   const CommandOption reference =
@@ -64,7 +110,8 @@ void ReferenceArguments::add_to(CommandOptions& command) {
           .add_option(
               "--reference", files,
               "Compare with a cut that was measured or computed elsewhere (repeatable): an export of CST, FEKO or "
-              "HFSS, a table of this command, or four columns frequency_hz theta_deg phi_deg dBsm")
+              "HFSS, a table of this command, of a chamber by azimuth, or four columns frequency_hz theta_deg phi_deg "
+              "dBsm; or a folder of them")
           .repeatable("FILE")
           .group("Reference");
   for (const CommandOption& option : add_properties_to(command)) CommandOption(option).needs(reference);
@@ -92,6 +139,8 @@ std::vector<CommandOption> ReferenceArguments::add_properties_to(CommandOptions&
       repeatable("--reference-phi", phi,
                  "A,B: the file's phi is A * azimuth + B degrees; default 1,0. Its theta is 90 - elevation", "A,B"),
       repeatable("--reference-frequency-ghz", frequency_ghz, "Frequency of a file that does not say it", "GHZ"),
+      repeatable("--reference-elevation-deg", elevation_deg,
+                 "Elevation of a table by azimuth that does not say it; default 0", "DEG"),
       repeatable(
           "--incidence", incidence,
           "monostatic, or THETA,PHI of the file: where the incident wave comes from, of a file that does not say it",
@@ -104,8 +153,8 @@ std::vector<CommandOption> ReferenceArguments::add_properties_to(CommandOptions&
           .group("Reference")};
 }
 
-std::vector<FieldTable> ReferenceArguments::read() const {
-  std::vector<FieldTable> references;
+ReferenceTables ReferenceArguments::read() const {
+  ReferenceTables references;
   for (std::size_t i = 0; i < files.size(); ++i) {
     FieldTableSettings settings;
     if (const std::string* text = value_for("--reference-polarisation", polarisation, i, files.size()))
@@ -121,13 +170,26 @@ std::vector<FieldTable> ReferenceArguments::read() const {
       if (*settings.frequency_hz <= 0)
         throw InputError(fmt::format("--reference-frequency-ghz {}: must be > 0", *text));
     }
+    if (const std::string* text = value_for("--reference-elevation-deg", elevation_deg, i, files.size())) {
+      settings.elevation_deg = numbers("--reference-elevation-deg", *text, 1)[0];
+      if (std::abs(*settings.elevation_deg) > 90)
+        throw InputError(fmt::format("--reference-elevation-deg {}: must be within -90 and 90", *text));
+    }
     if (const std::string* text = value_for("--incidence", incidence, i, files.size()))
       settings.transmitter = incidence_named(*text);
     if (const std::string* text = value_for("--reference-origin-m", origin_m, i, files.size())) {
       const std::vector<double> x = numbers("--reference-origin-m", *text, 3);
       settings.origin_m = Vec3(x[0], x[1], x[2]);
     }
-    references.push_back(read_field_table(files[i], settings));
+    std::error_code error;
+    if (!std::filesystem::is_directory(files[i], error)) {
+      references.tables.push_back(read_field_table(files[i], settings));
+      continue;
+    }
+    const Folder folder = contents_of(files[i]);
+    references.folders.push_back(contents_text(files[i], folder));
+    for (const std::filesystem::path& file : folder.tables)
+      references.tables.push_back(read_field_table(file, settings));
   }
   return references;
 }

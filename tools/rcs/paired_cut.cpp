@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <unordered_map>
@@ -162,6 +163,7 @@ std::vector<PairedCut> paired_cuts(const RcsSweep& sweep, const RcsCut& referenc
       cuts.emplace_back();
       cuts.back().reference = reference.name;
       cuts.back().element = reference.element;
+      cuts.back().total = reference.total;
       cuts.back().origin_m = reference.origin_m;
       cuts.back().axis = axis;
       if (axis != CutAxis::kFrequency) cuts.back().frequency_hz = f;
@@ -203,9 +205,15 @@ void set_models(PairedCut& cut, const RcsSweep& sweep) {
   const auto along_cut = [&](const RcsSweep::Model& model) {
     PairedCut::Model values{model.name, {}, {}};
     for (const PairedCut::Place& place : cut.places) {
-      const Complex s = model.matrices[place.view][place.frequency][element];
-      values.level_dbsm.push_back(dbsm(s));
-      values.amplitude_m.push_back(s);
+      const std::array<Complex, 4>& matrix = model.matrices[place.view][place.frequency];
+      if (cut.total) {
+        const Complex h = matrix[static_cast<std::size_t>(element_of(false, transmits_v(cut.element)))],
+                      v = matrix[static_cast<std::size_t>(element_of(true, transmits_v(cut.element)))];
+        values.level_dbsm.push_back(dbsm_of_area(4 * kPi * (std::norm(h) + std::norm(v))));
+        continue;
+      }
+      values.level_dbsm.push_back(dbsm(matrix[element]));
+      values.amplitude_m.push_back(matrix[element]);
     }
     return values;
   };

@@ -22,6 +22,7 @@ const char* axis_unit(CutAxis axis);  // "deg", "GHz"
 struct PairedCut {
   std::string reference;
   Polarisation element = Polarisation::kHh;
+  bool total = false;  // levels of |S|^2 summed over both received polarisations, no phases (RcsCut)
   CutAxis axis = CutAxis::kAzimuth;
   std::optional<double> frequency_hz;  // absent if it varies along the cut
   std::string place;                   // in titles: what else is fixed along the cut; may be empty
@@ -43,6 +44,8 @@ struct PairedCut {
   };
   std::vector<Model> models;
   std::optional<Model> flat;  // the last model with flat facets, where the sweep has it
+
+  std::size_t quantity() const { return quantity_of(element, total); }
 };
 
 // Matches directions within 0.001 deg and frequencies within a relative 1e-6; nothing is interpolated. One cut per

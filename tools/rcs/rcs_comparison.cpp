@@ -70,7 +70,8 @@ namespace {
 
 // Another reference at the same directions and frequencies, in the role of a computed model.
 std::optional<PairedCut::Model> as_model(const PairedCut& other, const PairedCut& cut) {
-  if (other.element != cut.element || other.frequency_hz != cut.frequency_hz || other.x != cut.x) return std::nullopt;
+  if (other.quantity() != cut.quantity() || other.frequency_hz != cut.frequency_hz || other.x != cut.x)
+    return std::nullopt;
   PairedCut::Model model{other.reference, other.level_dbsm, other.amplitude_m};
   if (model.amplitude_m.empty()) model.amplitude_m.assign(other.x.size(), 0.0);
   return model;
@@ -96,23 +97,25 @@ std::string error_table(const std::vector<PairedCut>& cuts, double floor_db) {
         rows.push_back({&cuts[j], model->name, error_statistics(cuts[j], *model, floor_db)});
     }
   }
-  std::size_t width = 9, model_width = 5;
+  std::size_t width = 9, model_width = 5, pol_width = 3;
   for (const Row& row : rows) {
     width = std::max(width, row.cut->reference.size());
+    pol_width = std::max(pol_width, std::string_view(kQuantityNames[row.cut->quantity()]).size());
     model_width = std::max(model_width, row.model.size());
   }
   std::string text = fmt::format(
-      "Differences, compared - reference, both clipped at {:g} dB below the reference's maximum:\n{:<{}}  pol  {:>9}  "
+      "Differences, compared - reference, both clipped at {:g} dB below the reference's maximum:\n{:<{}}  {:<{}}  "
+      "{:>9}  "
       "{:<{}} {:>6} {:>8} {:>7} {:>7} {:>8}  {:<13} {}\n",
-      floor_db, "reference", width, "f_ghz", "compared", std::max(model_width, std::size_t{8}), "points", "mean_db",
-      "rms_db", "bias_db", "largest", "at", "correlation");
+      floor_db, "reference", width, "pol", pol_width, "f_ghz", "compared", std::max(model_width, std::size_t{8}),
+      "points", "mean_db", "rms_db", "bias_db", "largest", "at", "correlation");
   for (const Row& row : rows) {
     const Difference& d = row.difference;
     const std::string f = row.cut->frequency_hz ? fmt::format("{:g}", *row.cut->frequency_hz * 1e-9) : "sweep";
     text += fmt::format(
-        "{:<{}}  {:<3}  {:>9}  {:<{}} {:>6} {:>8.3f} {:>7.3f} {:>7.3f} {:>8.3f}  {:<13} {}\n", row.cut->reference,
-        width, kPolarisationNames[static_cast<int>(row.cut->element)], f, row.model,
-        std::max(model_width, std::size_t{8}), d.points, d.mean_db, d.rms_db, d.bias_db, d.largest_db,
+        "{:<{}}  {:<{}}  {:>9}  {:<{}} {:>6} {:>8.3f} {:>7.3f} {:>7.3f} {:>8.3f}  {:<13} {}\n", row.cut->reference,
+        width, kQuantityNames[row.cut->quantity()], pol_width, f, row.model, std::max(model_width, std::size_t{8}),
+        d.points, d.mean_db, d.rms_db, d.bias_db, d.largest_db,
         fmt::format("{:.6g} {}", d.largest_at, axis_unit(row.cut->axis)),
         d.correlation ? fmt::format("{:.4f} at {:.1f} deg", std::abs(*d.correlation), degrees(std::arg(*d.correlation)))
                       : "-");
@@ -127,7 +130,7 @@ PlotPanels comparison_plots(const std::vector<PairedCut>& cuts, double floor_db)
   std::vector<std::vector<const PairedCut*>> columns;
   for (const PairedCut& cut : cuts) {
     const auto place = std::find_if(columns.begin(), columns.end(), [&](const auto& column) {
-      return column.front()->element == cut.element && column.front()->frequency_hz == cut.frequency_hz &&
+      return column.front()->quantity() == cut.quantity() && column.front()->frequency_hz == cut.frequency_hz &&
              column.front()->place == cut.place;
     });
     if (place != columns.end()) {
@@ -150,7 +153,8 @@ PlotPanels comparison_plots(const std::vector<PairedCut>& cuts, double floor_db)
     };
     LinePlot level, difference;
     level.legend_above = difference.legend_above = true;
-    level.title = upper(kPolarisationNames[static_cast<int>(first.element)]) +
+    level.title = (first.total ? fmt::format("total, {} transmitted", transmits_v(first.element) ? "V" : "H")
+                               : upper(kPolarisationNames[static_cast<int>(first.element)])) +
                   (first.frequency_hz ? fmt::format(", {:g} GHz", *first.frequency_hz * 1e-9) : std::string()) +
                   (first.place.empty() ? "" : ", " + first.place);
     level.x.label = difference.x.label = axis_label(first.axis);

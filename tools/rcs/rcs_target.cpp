@@ -4,9 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <memory>
+#include <string>
 #include <utility>
 
 #include "sim/core/process/error.h"
+#include "sim/geometry/files/mesh_io.h"
 #include "tools/rcs/echo_selection.h"
 
 namespace seaglint {
@@ -21,7 +25,44 @@ void require_above_water(const SeaUnderTarget& sea, const TriangleMesh& mesh) {
   }
 }
 
+// Number of meshes with a part of this name.
+std::map<std::string, int> files_by_part(const std::vector<TriangleMesh>& meshes) {
+  std::map<std::string, int> files;
+  for (const TriangleMesh& mesh : meshes) {
+    for (const std::string& part : mesh.part_names) ++files[part];
+  }
+  return files;
+}
+
 }  // namespace
+
+void set_target_files(RcsRequest& request, std::span<const GeometryFile> files) {
+  request.target = files.front().file;
+  request.unit = files.front().unit;
+  request.mesh.reset();
+  if (files.size() == 1) return;
+  std::vector<TriangleMesh> meshes;
+  std::string names;
+  for (const GeometryFile& file : files) {
+    meshes.push_back(read_mesh(file.file, file.unit));
+    names += (names.empty() ? "" : " + ") + file.file.filename().string();
+  }
+  const std::map<std::string, int> in_files = files_by_part(meshes);
+  std::map<std::string, int> taken;  // how often a name was given
+  TriangleMesh joined;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const std::string stem = files[i].file.stem().string();
+    for (std::string& part : meshes[i].part_names) {
+      if (in_files.at(part) > 1) part = meshes[i].part_names.size() == 1 ? stem : stem + "." + part;
+      if (const int before = taken[part]++; before > 0) part += fmt::format("_{}", before + 1);
+    }
+    joined.append(meshes[i]);
+    for (const std::string& finding : meshes[i].findings)
+      joined.findings.push_back(fmt::format("{}: {}", files[i].file.filename().string(), finding));
+  }
+  request.target = names;
+  request.mesh = std::make_shared<TriangleMesh>(welded(joined));
+}
 
 PreparedTarget prepare_mesh(const RcsRequest& request) {
   requested_sweep(request);  // throws InputError for a contradictory request

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <span>
 #include <vector>
 
+#include "sim/field_tables/field_table.h"
 #include "sim/scattering/beams/contribution_filter.h"
 #include "sim/scattering/target/prepare_target.h"
 #include "tools/rcs/rcs_cavities.h"
@@ -16,6 +18,11 @@ struct RcsTarget {
   ContributionFilter filter;  // contributions that are summed
   std::vector<NamedCavity> cavities;
 };
+
+// Makes mesh files, each in its unit, the request's target: one of them as it is, several as one scatterer. A part has
+// its name; where that is in several files, its file's name, of a file of several parts FILE.PART. At least one file.
+// Throws what read_mesh() throws.
+void set_target_files(RcsRequest& request, std::span<const GeometryFile> files);
 
 // Reads and prepares the request's mesh; its `warnings` are the warnings for the user. Throws InputError for a mesh or
 // material that is missing or invalid, for a contradictory request, and for a mesh that is entirely under water.

@@ -2,6 +2,7 @@
 // Scattering matrices from a plain request, as of a program without a command line.
 #include "tools/rcs/rcs_request.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -15,6 +16,7 @@
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/shapes/generators.h"
 #include "tools/rcs/rcs_table.h"
+#include "tools/rcs/rcs_target.h"
 #include "tools/rcs/rcs_views.h"
 
 namespace seaglint {
@@ -66,6 +68,35 @@ TEST_F(PlateRequest, HasThePlatesEchoAtNormalIncidence) {
   EXPECT_TRUE(result.sweep.models[1].edge_diffraction);
   EXPECT_NEAR(dbsm(result.sweep.models[0].matrices[0][0][0]), expected, 1e-6);
   EXPECT_NEAR(dbsm(result.sweep.models[1].matrices[0][0][3]), expected, 0.1);
+}
+
+// The plate as two files in different units, which share an edge: the same echo, and no edge between them.
+TEST_F(PlateRequest, HasTheEchoOfAllItsFilesTogether) {
+  request_.azimuth_deg = {0, 20, 50};
+  const auto echo = [&] { return compute_rcs(request_, prepare_rcs_target(request_), 1).sweep.models.back().matrices; };
+  const auto whole = echo();
+  const TriangleMesh plate = read_mesh(request_.target);
+  const Bounds box = bounds(plate);
+  const auto write_half = [&](const char* name, double from, double to, double scale) {
+    std::string text;
+    for (const double y : {from, to}) {
+      for (const double z : {box.lower.z(), box.upper.z()})
+        text += fmt::format("v {} {} {}\n", box.lower.x() * scale, y * scale, z * scale);
+    }
+    write_file(folder_ / name, text + "f 1 3 4 2\n");
+    return folder_ / name;
+  };
+  const double middle = 0.3 * box.lower.y() + 0.7 * box.upper.y();
+  set_target_files(request_, std::vector<GeometryFile>{{write_half("left.obj", box.lower.y(), middle, 1), "m"},
+                                                       {write_half("right.obj", middle, box.upper.y(), 1000), "mm"}});
+  EXPECT_EQ(request_.target, "left.obj + right.obj");
+  ASSERT_TRUE(request_.mesh);
+  EXPECT_THAT(request_.mesh->part_names, testing::ElementsAre("left", "right"));
+  const auto halves = echo();
+  for (std::size_t view = 0; view < 3; ++view) {
+    for (const std::size_t element : {0, 3})
+      EXPECT_LT(std::abs(halves[view][0][element] - whole[view][0][element]), 1e-6 * std::abs(whole[0][0][0]));
+  }
 }
 
 TEST_F(PlateRequest, WritesATableWithItsTransmitter) {

@@ -65,6 +65,7 @@ class Exports:
     polarisation: list[str]
     phi: list[str]
     frequency_ghz: list[str]
+    elevation_deg: list[str]
     incidence: list[str]
     origin_m: list[str]
     floor_db: float

@@ -85,9 +85,10 @@ def _numbers(name, value):
 def compare(export: str | os.PathLike | Sequence[str | os.PathLike], against: str | os.PathLike | None = None, *, target: Mesh | str | os.PathLike | None = None, unit: str = "m",
             materials: str | Mapping[str, str] | None = None, crease_deg: float | None = None, edges: bool = True, max_bounces: int = 40, min_patch_m: float = 0.0,
             sheet_thickness_mm: float = 0.0, polarisation: str | list[str] | None = None, incidence: str | tuple[float, float] | list | None = None,
-            frequency_hz: float | list[float] | None = None, phi: tuple[float, float] | list | None = None, origin_m: tuple[float, float, float] | list | None = None,
+            frequency_hz: float | list[float] | None = None, elevation_deg: float | list[float] | None = None, phi: tuple[float, float] | list | None = None, origin_m: tuple[float, float, float] | list | None = None,
             floor_db: float = 80.0, as_is: bool = False, interpolate_m: float | None = None, method: str = "beams", ray_spacing_m: float = 0.0, threads: int = 0) -> dict:
-    """Differences of exports (CST, FEKO, HFSS, PyAEDT, a chamber, a table of `seaglint rcs`) from a mesh or a file.
+    """Differences of exports (CST, FEKO, HFSS, PyAEDT, a chamber, a table of `seaglint rcs`) or folders of them from a
+    mesh or a file.
 
     target: a Mesh or a file in `unit`, solved at the exports' own angles and frequencies, with the settings of rcs();
     or against: another file. Returns the dictionary of compare.json (tools/compare): for each export and polarisation
@@ -95,7 +96,8 @@ def compare(export: str | os.PathLike | Sequence[str | os.PathLike], against: st
     (phase, origin, conjugation, sign), lobes, nulls, warnings.
 
     What an export does not say, one value for all or a list of one for each: polarisation "vv" (received,
-    transmitted) or "v" (transmitted); incidence "monostatic" or (theta, phi) in degrees; frequency_hz; phi (a, b): the
+    transmitted) or "v" (transmitted); incidence "monostatic" or (theta, phi) in degrees; frequency_hz; elevation_deg
+    of a table by azimuth; phi (a, b): the
     file's phi is a * azimuth + b degrees; origin_m of its phase, body frame. floor_db: levels further below the
     export's maximum are clipped. as_is: no fit before the correlation. interpolate_m: extent of the target, if
     `against` has other angles.
@@ -107,6 +109,7 @@ def compare(export: str | os.PathLike | Sequence[str | os.PathLike], against: st
     exports.polarisation = _per_export("polarisation", polarisation, _word)
     exports.incidence = _per_export("incidence", incidence, lambda name, value: value if isinstance(value, str) else _numbers(name, value))
     exports.frequency_ghz = _per_export("frequency_hz", frequency_hz, lambda name, value: repr(number(name, value) / 1e9))
+    exports.elevation_deg = _per_export("elevation_deg", elevation_deg, lambda name, value: repr(number(name, value, -90, 90)))
     exports.phi, exports.origin_m = _per_export("phi", phi, _numbers), _per_export("origin_m", origin_m, _numbers)
     exports.floor_db = number("floor_db", floor_db, 1, 300)
     if (target is None) == (against is None):
