@@ -216,20 +216,41 @@ class NamedTable {
   std::vector<std::size_t> elements_;  // of kElements
 };
 
+bool is_azimuth(const std::string& key, bool with_unit) {
+  return std::any_of(std::begin(kAzimuth), std::end(kAzimuth), [&](const std::string name) {
+    return key == name + "_deg" || key == name + "_rad" || (key == name && !with_unit);
+  });
+}
+
+bool is_level(const std::string& key, bool with_unit) {
+  if (with_unit)
+    return std::any_of(std::begin(kLevelUnits), std::end(kLevelUnits),
+                       [&](const std::string unit) { return key == unit || key.ends_with("_" + unit); });
+  return std::any_of(kElements.begin(), kElements.end() - 1,
+                     [&](const char* element) { return has_part(key, element); }) ||
+         has_part(key, "rcs");
+}
+
+// Names of columns with their units.
 bool is_names(const FirstRow& row) {
-  if (row.has("theta_deg") && row.has("phi_deg")) return true;
-  const auto is_azimuth = [](const std::string& key) {
-    return std::any_of(std::begin(kAzimuth), std::end(kAzimuth), [&](const std::string name) {
-      return key == name || key == name + "_deg" || key == name + "_rad";
-    });
+  const auto any = [&](auto is) {
+    return std::any_of(row.keys.begin(), row.keys.end(), [&](const std::string& key) { return is(key, true); });
   };
-  const auto is_level = [](const std::string& key) {
-    return std::any_of(kElements.begin(), kElements.end() - 1,
-                       [&](const char* element) { return has_part(key, element); }) ||
-           has_part(key, "dbsm") || has_part(key, "rcs");
+  return (row.has("theta_deg") && row.has("phi_deg")) || (any(is_azimuth) && any(is_level));
+}
+
+// Names, some of them without a unit, of as many columns as a row of numbers has: other lines are sentences.
+bool is_names_above_numbers(const FirstRow& row, const std::vector<FirstRow>& rows) {
+  const auto any = [&](auto is) {
+    return std::any_of(row.keys.begin(), row.keys.end(), [&](const std::string& key) { return is(key, false); });
   };
-  return std::any_of(row.keys.begin(), row.keys.end(), is_azimuth) &&
-         std::any_of(row.keys.begin(), row.keys.end(), is_level);
+  const auto is_row_of_it = [&](const FirstRow& other) {
+    return other.cells.size() == row.cells.size() && parse_written_number(other.cells[0]).has_value();
+  };
+  return any(is_azimuth) &&
+         (any(is_level) ||
+          std::any_of(row.keys.begin(), row.keys.end(), [](const std::string& key) { return is_level(key, true); })) &&
+         std::any_of(rows.begin(), rows.end(), is_row_of_it);
 }
 
 }  // namespace
@@ -249,9 +270,10 @@ bool has_four_columns(const TextSource& source) {
 }
 
 bool is_named_table(const TextSource& source) {
-  if (any_first_row(source, is_names)) return true;
-  const std::vector<FirstRow> comments = first_rows(source, true);
-  return std::any_of(comments.begin(), comments.end(), is_names);
+  const std::vector<FirstRow> rows = first_rows(source), comments = first_rows(source, true);
+  return std::any_of(rows.begin(), rows.end(),
+                     [&](const FirstRow& row) { return is_names(row) || is_names_above_numbers(row, rows); }) ||
+         std::any_of(comments.begin(), comments.end(), is_names);
 }
 
 void read_four_columns(const TextSource& source, const FieldTableSettings& settings, FieldTable& table) {

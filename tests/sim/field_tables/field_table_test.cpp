@@ -429,6 +429,7 @@ TEST_F(FieldTableFile, ByAzimuthIsReadAsChambersWriteIt) {
   for (const char* text :
        {"Azimuth (deg),HH (dBsm),VV (dBsm)\n-20,-2.5,3.25\n-16,-1,4\n",
         "AZ_deg;hh_dBsm;vv_dBsm\n-20;-2,5;3,25\n-16;-1;4\n",
+        "Azimuth (\xc2\xb0),HH (dBsm),VV (dBsm)\n-20,-2.5,3.25\n-16,-1,4\n",
         "azimuth[deg] HH[dBsm] VV[dBsm]\n-20 -2.5 3.25\n-16 -1 4\n",
         "Azimuth\tHH\tVV\n(deg)\t(dBsm)\t(dBsm)\n-20\t-2.5\t3.25\n-16\t-1\t4\n",
         "# azimuth_deg hh_dbsm vv_dbsm\n-20 -2.5 3.25\n-16 -1 4\n",
@@ -450,6 +451,15 @@ TEST_F(FieldTableFile, ByAzimuthIsReadAsChambersWriteIt) {
       EXPECT_NEAR(cut.values[0].level_dbsm, cut.element == Polarisation::kHh ? -2.5 : 3.25, 1e-8);
       EXPECT_FALSE(cut.has_phase());
     }
+  }
+}
+
+// Sentences about an azimuth are no names of columns.
+TEST_F(FieldTableFile, OfFourColumnsMayHaveSentencesAboveThem) {
+  for (const char* above : {"# azimuth cut, rcs of the plate in dBsm\n", "azimuth cut of the rcs\n", "# az HH\n"}) {
+    const RcsCut cut = read("a.V.txt", std::string(above) + "1e10 90 0 -3\n1e10 90 1 -4\n");
+    ASSERT_EQ(cut.values.size(), 2u) << above;
+    EXPECT_EQ(cut.values[1].phi_deg, 1);
   }
 }
 
