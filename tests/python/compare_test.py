@@ -52,6 +52,20 @@ def test_what_an_export_does_not_say(tmp_path):
     assert turned["exports"][0]["rms_db"] > 0.01
 
 
+def test_tables_by_azimuth_and_folders(tmp_path):
+    """A chamber's table says neither frequency nor elevation; a folder is all its tables."""
+    values = seaglint.rcs(REFLECTOR, 10e9, [0, 5, 10], elevation_deg=3)[0, 0]
+    for name, element in (("HH", 0), ("VV", 1)):
+        level = 10 * np.log10(4 * np.pi * np.abs(values[:, element, element]) ** 2)
+        rows = "".join(f"{azimuth};{one:.6f}\n" for azimuth, one in zip((0, 5, 10), level))
+        (tmp_path / f"{name}.csv").write_text(f"Azimuth (deg);{name} (dBsm)\n" + rows)
+    compared = seaglint.compare(tmp_path, target=REFLECTOR, frequency_hz=10e9, elevation_deg=3)
+    assert [entry["polarisation"] for entry in compared["exports"]] == ["hh", "vv"]
+    assert all(entry["pairs"] == 3 and entry["rms_db"] < 1e-5 for entry in compared["exports"])
+    with pytest.raises(seaglint.InputError, match="elevation_deg: value 91: must be within"):
+        seaglint.compare(tmp_path, target=REFLECTOR, frequency_hz=10e9, elevation_deg=91)
+
+
 @pytest.mark.parametrize("call, message", [
     (lambda file: seaglint.compare(file), "compare: give either target, a mesh, or against, a file"),
     (lambda file: seaglint.compare(file, file, target=REFLECTOR), "compare: give either target, a mesh, or against, a file"),
