@@ -12,6 +12,7 @@ namespace seaglint {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::AllOf;
 using testing::HasSubstr;
 
 bool has_python() { return fs::exists(kPython) && run_words({kPython, "-c", "import h5py, numpy"}).code == 0; }
@@ -142,6 +143,21 @@ TEST_F(DataSetUse, IsExportedInTheSameBytesAtAnyTime) {
   nanosleep(&pause, nullptr);
   ASSERT_EQ(run_program({"export", data_, "-o", out}).code, 0);
   EXPECT_EQ(read_file(out), first);
+}
+
+// A directory set.mat with .npz files would look like a file that MATLAB reads.
+TEST_F(DataSetUse, IsNotExportedUnderTheNameOfAnotherFormat) {
+  for (const char* name : {"set.mat", "set.h5", "set.csv", "set.npy", "set.MAT", "set.tar", "set.zip"}) {
+    const fs::path out = folder_->path() / name;
+    const ProgramResult result = run_program({"export", data_, "-o", out});
+    EXPECT_EQ(result.code, 2) << name;
+    EXPECT_THAT(result.err, AllOf(HasSubstr(std::string(name) + ": "), HasSubstr("is no format of --as: npz writes"),
+                                  HasSubstr("webdataset")));
+    EXPECT_FALSE(fs::exists(out)) << name;
+    if (name != std::string("set.tar"))
+      EXPECT_EQ(run_program({"export", data_, "-o", out, "--as", "webdataset"}).code, 2) << name;
+  }
+  EXPECT_EQ(run_program({"export", data_, "-o", folder_->path() / "set.v2"}).code, 0);
 }
 
 // Two data sets in one directory would be read as one.

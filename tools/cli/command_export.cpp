@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <cctype>
 #include <memory>
 #include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
 
 #include "classify/dataset/directory/export.h"
 #include "classify/dataset/directory/webdataset.h"
@@ -20,6 +26,12 @@ namespace seaglint {
 namespace {
 
 namespace fs = std::filesystem;
+
+// Endings of files that other programs write or read.
+constexpr std::array<std::string_view, 23> kOtherFormats{
+    ".mat",  ".h5",    ".hdf5",     ".hdf",     ".csv",   ".tsv",     ".txt", ".npy",
+    ".json", ".jsonl", ".xlsx",     ".parquet", ".arrow", ".feather", ".pkl", ".pickle",
+    ".pt",   ".pth",   ".tfrecord", ".zarr",    ".nc",    ".zip",     ".gz"};
 
 constexpr double kMegabyte = 1e6;  // bytes
 constexpr double kDefaultTar_mb = 500;
@@ -50,12 +62,27 @@ void export_npz(const DatasetReader& reader, const fs::path& output, const StopF
   print_out("{}: {} samples in {} files\n", output.string(), reader.size(), reader.shards());
 }
 
+// A name that ends as a file of another format would become a directory of that name.
+void require_format(const ExportArguments& arguments) {
+  std::string ending = fs::path(arguments.output).extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const bool is_other = std::ranges::find(kOtherFormats, ending) != kOtherFormats.end();
+  const bool is_archive = ending == ".tar" || (ending == ".npz" && arguments.format == "webdataset");
+  if (arguments.format == "webdataset" && is_archive)
+    throw InputError(fmt::format("{}: --as webdataset writes a directory", arguments.output));
+  std::error_code error;
+  if ((!is_other && !is_archive) || fs::is_regular_file(arguments.output, error)) return;  // that is no directory
+  throw InputError(
+      fmt::format("{}: {} is no format of --as: npz writes one file FILE.npz or a directory of them, "
+                  "webdataset a directory of .tar archives",
+                  arguments.output, ending));
+}
+
 void export_dataset(const ExportArguments& arguments, const StopFlag& stop) {
   const bool webdataset = arguments.format == "webdataset";
   if (!webdataset && arguments.max_tar_mb) throw InputError("--max-tar-mb: only with --as webdataset");
   const fs::path output = arguments.output;
-  if (webdataset && (output.extension() == ".tar" || output.extension() == ".npz"))
-    throw InputError(fmt::format("{}: --as webdataset writes a directory", output.string()));
+  require_format(arguments);
   const DatasetReader reader(find_data_set(arguments.directory));
   warn(data_set_warnings(reader));
   if (!webdataset) return export_npz(reader, output, stop);
