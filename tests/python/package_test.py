@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The Python package against the program: the same values, the same errors; Ctrl-C, threads, workers."""
 import multiprocessing
+import os
+import pathlib
 import pickle
+import shutil
 import subprocess
 import sys
 import threading
@@ -17,6 +20,33 @@ from program import REFLECTOR, interrupt, program, rows_of
 def test_import_loads_no_torch():
     code = "import seaglint, sys; assert 'torch' not in sys.modules; print(any('torch' in line for line in open('/proc/self/maps')))"
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True).stdout == "False\n"
+
+
+def import_of_a_copy(folder, *, compiled_as=None):
+    """The error of importing the package without its compiled module, or with one of another Python's name."""
+    package = pathlib.Path(seaglint.__file__).parent
+    shutil.copytree(package, folder / "python/seaglint", ignore=shutil.ignore_patterns("_core*.so", "__pycache__"))
+    if compiled_as:
+        (folder / "python/seaglint" / compiled_as).write_bytes(b"")
+    result = subprocess.run([sys.executable, "-c", "import seaglint"], capture_output=True, text=True, env={**os.environ, "PYTHONPATH": str(folder / "python")})
+    assert result.returncode == 1
+    return result.stderr.splitlines()
+
+
+def test_import_without_the_compiled_module_says_what_builds_it(tmp_path):
+    (tmp_path / "CMakeCache.txt").touch()
+    errors = import_of_a_copy(tmp_path)
+    assert errors[-1] == f"ImportError: the compiled module of seaglint is not built: run `cmake --build {tmp_path} --target seaglint_python`"
+    assert not any("circular" in line or "During handling" in line for line in errors)
+
+
+def test_import_outside_of_a_build_says_how_to_build(tmp_path):
+    assert import_of_a_copy(tmp_path)[-1] == "ImportError: the compiled module of seaglint is not built: run `cmake --preset release && cmake --build --preset release --target seaglint_python`"
+
+
+def test_import_by_another_python_says_which_one_the_module_is_for(tmp_path):
+    error = import_of_a_copy(tmp_path, compiled_as="_core.cpython-12-none.so")[-1]
+    assert "is not built for Python" in error and "but as _core.cpython-12-none.so" in error
 
 
 def test_rcs_is_that_of_the_program(tmp_path):

@@ -7,10 +7,31 @@ SeaglintWarning. Long work releases Python's lock and ends at Ctrl-C.
 """
 from __future__ import annotations
 
+import importlib.machinery
 import os
 import pathlib
+import sys
 
-from . import _core
+
+def _no_core():
+    """Why the compiled module is not there, and what builds it; nothing where it is there and fails."""
+    here = pathlib.Path(__file__).resolve().parent
+    if any((here / ("_core" + suffix)).is_file() for suffix in importlib.machinery.EXTENSION_SUFFIXES):
+        return None
+    build = next((folder for folder in here.parents if (folder / "CMakeCache.txt").is_file()), None)
+    command = f"cmake --build {build} --target seaglint_python" if build else "cmake --preset release && cmake --build --preset release --target seaglint_python"
+    others = ", ".join(sorted(file.name for file in here.glob("_core.*.so")))
+    what = f"is not built for Python {sys.version_info.major}.{sys.version_info.minor} ({sys.executable}), but as {others}: run the Python that it is for, /usr/bin/python3" if others else f"is not built: run `{command}`"
+    return f"the compiled module of seaglint {what}"
+
+
+try:
+    from . import _core
+except ImportError:
+    _why = _no_core()
+    if _why is None:
+        raise
+    raise ImportError(_why, name="seaglint._core") from None
 from ._common import SeaglintWarning
 from ._core import InputError, WorkError
 from ._dataset import Dataset
