@@ -117,10 +117,17 @@ bool holds(const fs::path& file, const Shard& content, std::string& sha256) {
   }
   const auto same = [](const Sample& a, const Sample& b) {
     return same_row(a.record, b.record) && a.magnitude == b.magnitude && a.complex_values == b.complex_values &&
-           a.hop_code == b.hop_code && a.centre_list == b.centre_list;
+           a.echo == b.echo && a.hop_code == b.hop_code && a.centre_list == b.centre_list;
   };
-  return there.origin == content.origin && there.axes == content.axes &&
+  return there.origin == content.origin && there.classes == content.classes && there.axes == content.axes &&
          std::equal(there.samples.begin(), there.samples.end(), content.samples.begin(), content.samples.end(), same);
+}
+
+// True if the shard has the arrays that the scenario stores, and no others.
+bool has_arrays_of(const DatasetSpec& dataset, const Shard& shard) {
+  return std::ranges::all_of(shard.samples, [&](const Sample& sample) {
+    return sample.complex_values.empty() != dataset.complex_maps && sample.echo.empty() != dataset.echoes;
+  });
 }
 
 }  // namespace
@@ -221,7 +228,7 @@ bool DatasetWriter::complete(std::size_t shard) {
   }
   require_version(file, content.origin.program_version);
   const ShardRange range = plan_.shard(shard);
-  if (content.samples.size() != range.count) return false;
+  if (content.samples.size() != range.count || !has_arrays_of(scenario_.dataset, content)) return false;
   for (std::size_t i = 0; i < range.count; ++i) {
     const SampleRecord planned = planned_record(scenario_, plan_, range.first + i);
     if (!record_mismatches(content.samples[i].record, planned).empty()) return false;

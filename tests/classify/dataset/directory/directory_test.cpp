@@ -205,6 +205,33 @@ TEST_F(DataSetDirectory, AcceptsAShardOfAConcurrentProcess) {
   EXPECT_THROW(writer.put(0, other), WorkError);
 }
 
+// Otherwise the manifest would have the checksum of other content.
+TEST_F(DataSetDirectory, RefusesAShardOfAConcurrentProcessWithOtherEchoes) {
+  scenario_.dataset.echoes = true;
+  const auto with_echoes = [&](double last) {
+    Shard shard = shard_of(0);
+    for (Sample& sample : shard.samples) sample.echo = {1, 2, 3, last};  // two pulses of one frequency
+    return shard;
+  };
+  DatasetWriter writer(directory_, scenario_, false, kTestVersion);
+  writer.put(0, with_echoes(4));
+  const NoSpace none;
+  EXPECT_NO_THROW(writer.put(0, with_echoes(4)));
+  EXPECT_THROW(writer.put(0, with_echoes(5)), WorkError);
+  EXPECT_THROW(writer.put(0, shard_of(0)), WorkError);
+}
+
+TEST_F(DataSetDirectory, RegeneratesShardsWithoutTheArraysThatItsScenarioStores) {
+  for (bool DatasetSpec::*array : {&DatasetSpec::echoes, &DatasetSpec::complex_maps}) {
+    scenario_.dataset.*array = true;
+    DatasetWriter writer(directory_, scenario_, false, kTestVersion);
+    writer.put(0, shard_of(0));
+    EXPECT_FALSE(DatasetWriter(directory_, scenario_, true, kTestVersion).complete(0));
+    scenario_.dataset.*array = false;
+    fs::remove_all(directory_);
+  }
+}
+
 // The manifest has the checksums of what was written, not of what lies there.
 TEST_F(DataSetDirectory, IsIncompleteWithAShardThatIsDamagedAfterItWasWritten) {
   DatasetWriter writer(directory_, scenario_, false, kTestVersion);
