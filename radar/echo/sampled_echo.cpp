@@ -2,13 +2,17 @@
 #include "radar/echo/sampled_echo.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/fourier.h"
 #include "sim/core/process/error.h"
+#include "sim/core/text/number.h"
 
 namespace seaglint {
 namespace {
@@ -36,20 +40,73 @@ struct CentredTransform {
 
 }  // namespace
 
-PulseTrain train_for_samples(const PulseTrain& train, const RadarSpec& radar) {
-  const double sampling_hz = radar.sampling_mhz * 1e6, pulse_s = radar.pulse_width_us * 1e-6;
+namespace {
+
+// Refinements of a frequency grid, odd, so that pulse and range window fit into one period of the samples.
+struct Refinements {
+  int lowest = 1;
+  int highest = 1;
+};
+
+Refinements refinements_of(const PulseTrain& train, double pulse_s) {
   const double needed_s = pulse_s + 2 * train.unambiguous_range_m() / kSpeedOfLight;
-  const int min_refinement = static_cast<int>(std::ceil(needed_s * train.baseband_step_hz));
-  int refinement = min_refinement + (min_refinement + 1) % 2;
-  while (whole_ratio(sampling_hz, train.baseband_step_hz / refinement) == 0) {
-    refinement += 2;
-    if (refinement > 4 * min_refinement) {
-      throw InputError(
-          fmt::format("radar.sampling_mhz: value {}: must be a multiple of a frequency step below {:.6g} MHz "
-                      "for an echo in samples",
-                      radar.sampling_mhz, train.baseband_step_hz * 1e-6 / min_refinement));
+  const int least = static_cast<int>(std::ceil(needed_s * train.baseband_step_hz));
+  return {least + (least + 1) % 2, 4 * least};
+}
+
+// The lowest refinement of which the sampling rate is a whole number of steps; 0 without one.
+int fitting_refinement(double sampling_hz, double step_hz, const Refinements& range) {
+  for (int refinement = range.lowest; refinement <= range.highest; refinement += 2) {
+    if (whole_ratio(sampling_hz, step_hz / refinement) != 0) return refinement;
+  }
+  return 0;
+}
+
+// The nearest rate that fits, MHz, above (direction 1) or below (-1) one that does not. One of at most six digits,
+// which a scenario can state, precedes nearer ones: of each refinement the first within kSteps steps. 0 without any.
+double nearest_rate_mhz(double sampling_mhz, double step_hz, const Refinements& range, int direction) {
+  constexpr int kSteps = 20, kRefinements = 1000;  // of thousands the first have the longest steps
+  double nearest = 0, nearest_short = 0;
+  const auto take = [&](double& best, double rate_mhz) {
+    const bool is_nearer = best == 0 || direction * (best - rate_mhz) > 0;
+    if (rate_mhz > 0 && direction * (rate_mhz - sampling_mhz) > 0 && is_nearer) best = rate_mhz;
+  };
+  const int last = std::min(range.highest, range.lowest + kRefinements);
+  for (int refinement = range.lowest; refinement <= last; refinement += 2) {
+    const double step_mhz = step_hz * 1e-6 / refinement;
+    const double below = std::floor(sampling_mhz / step_mhz);
+    for (int k = 0; k < kSteps; ++k) {
+      const double rate_mhz = (direction > 0 ? below + 1 + k : below - k) * step_mhz;
+      if (k == 0) take(nearest, rate_mhz);
+      const double rounded = parse_number(fmt::format("{:.6g}", rate_mhz)).value_or(0);
+      if (whole_ratio(rounded, step_mhz) == 0) continue;
+      take(nearest_short, rounded);
+      break;
     }
   }
+  return nearest_short != 0 ? nearest_short : nearest;
+}
+
+[[noreturn]] void refuse_rate(const RadarSpec& radar, double step_hz, const Refinements& range) {
+  std::vector<std::string> nearest;
+  for (const int direction : {-1, 1}) {
+    const double rate_mhz = nearest_rate_mhz(radar.sampling_mhz, step_hz, range, direction);
+    if (rate_mhz > 0 && rate_mhz >= radar.bandwidth_mhz) nearest.push_back(fmt::format("{}", rate_mhz));
+  }
+  throw InputError(
+      fmt::format("radar.sampling_mhz: value {}: must be a multiple of a frequency step below {:.6g} MHz for an echo "
+                  "in samples{}{}",
+                  radar.sampling_mhz, step_hz * 1e-6 / range.lowest,
+                  nearest.empty() ? "" : "; the nearest: ", fmt::join(nearest, " and ")));
+}
+
+}  // namespace
+
+PulseTrain train_for_samples(const PulseTrain& train, const RadarSpec& radar) {
+  const double sampling_hz = radar.sampling_mhz * 1e6, pulse_s = radar.pulse_width_us * 1e-6;
+  const Refinements range = refinements_of(train, pulse_s);
+  const int refinement = fitting_refinement(sampling_hz, train.baseband_step_hz, range);
+  if (refinement == 0) refuse_rate(radar, train.baseband_step_hz, range);
   PulseTrain fine = train;
   fine.grid_refinement = refinement;
   fine.bins_per_hop *= refinement;

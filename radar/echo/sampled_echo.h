@@ -24,7 +24,7 @@ struct SampledEcho {
 
 // The same pulses on a frequency grid refined by an odd integer, so that pulse and range window fit into one period of
 // the samples and every frequency of the coarse grid is on the fine grid. Throws InputError when radar.sampling_mhz is
-// not an integer multiple of any such step, up to four times the smallest refinement.
+// not an integer multiple of any such step, up to four times the smallest refinement, with the nearest rates that are.
 PulseTrain train_for_samples(const PulseTrain& train, const RadarSpec& radar);
 
 // Samples in one period of the grid of `fine`; 0 when sampling_hz is not an integer multiple of its step.

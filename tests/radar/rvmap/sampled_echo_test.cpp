@@ -7,6 +7,8 @@
 
 #include <cmath>
 #include <cstdio>
+#include <sstream>
+#include <string>
 #include <utility>
 
 #include "radar/echo/echo.h"
@@ -87,6 +89,45 @@ TEST(SampledEcho, ContainsTheWholePulseAndTheWindow) {
   for (std::size_t b = 0; b < train.frequencies(); ++b)
     EXPECT_NEAR(fine.baseband_hz[25 * b + 12], train.baseband_hz[b], 1e-6);
   EXPECT_EQ(sampled.time_s.size() * 64, sampled.values.size());
+}
+
+// Each rate of the message is a whole number of the steps of one odd refinement, and is accepted.
+TEST(SampledEcho, WithARateThatDoesNotFitIsRefusedWithTheNearestRatesThatDo) {
+  for (const double wrong_mhz : {50.013, 51.2349, 40.001, 25.000001, 66.66}) {
+    for (const double hop_step_mhz : {25.0, 10.0 / 3, 7.0}) {
+      RadarSpec radar = radar_with(false);
+      radar.hop_step_mhz = hop_step_mhz;
+      radar.sampling_mhz = wrong_mhz;
+      const PulseTrain train = make_pulse_train(radar, 239.8, 1, 2);
+      std::string message = "accepted";
+      try {
+        train_for_samples(train, radar);
+      } catch (const InputError& error) {
+        message = error.what();
+      }
+      const std::string mark = "; the nearest: ";
+      const std::size_t at = message.find(mark);
+      ASSERT_NE(at, std::string::npos) << message << wrong_mhz << " " << hop_step_mhz;
+      std::istringstream rates(message.substr(at + mark.size()));
+      double below = 0, above = 0;
+      std::string word;
+      rates >> below;
+      if (below < wrong_mhz) {
+        rates >> word >> above;
+        EXPECT_EQ(word, "and");
+      } else {  // that below is less than the bandwidth
+        std::swap(below, above);
+      }
+      for (const double rate : {below, above}) {
+        if (rate == 0) continue;
+        radar.sampling_mhz = rate;
+        EXPECT_NO_THROW(train_for_samples(train, radar)) << message;
+        EXPECT_NEAR(rate, wrong_mhz, train.baseband_step_hz * 1e-6) << message;
+      }
+      EXPECT_LT(below, wrong_mhz);
+      EXPECT_GT(above, wrong_mhz);
+    }
+  }
 }
 
 TEST(SampledEcho, OfAPointAtRestIsTheChirpTimesItsAmplitude) {
