@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/core/process/data_folder.h"
 #include "sim/core/process/error.h"
+#include "sim/core/text/named_file.h"
 #include "sim/motion/ship/long_waves.h"
 #include "sim/motion/ship/rao_files.h"
 

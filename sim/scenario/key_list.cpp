@@ -133,9 +133,8 @@ std::string list_keys(std::string_view of) {
     for (const KeyEntry& row : rows) known.push_back(row.key);
     std::erase_if(rows, [&](const KeyEntry& row) { return row.key != asked && !row.key.starts_with(asked + "."); });
     if (rows.empty()) {
-      const std::string near = suggestion(asked, known);
       throw InputError(fmt::format("{}: unknown key or section: {}", of,
-                                   near.starts_with("did you mean") ? near : "`seaglint keys` lists all"));
+                                   near_suggestion(asked, known).value_or("`seaglint keys` lists all")));
     }
   }
   std::size_t path_width = 0;

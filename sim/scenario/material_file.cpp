@@ -9,6 +9,7 @@
 #include "sim/core/process/data_folder.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
+#include "sim/core/text/named_file.h"
 #include "sim/core/text/suggestion.h"
 #include "sim/scenario/fields.h"
 #include "sim/scenario/files/scenario_document.h"
@@ -155,7 +156,8 @@ std::optional<fs::path> find_material_file(const std::string& name, const fs::pa
   const fs::path path = is_file ? fs::path(name) : fs::path("assets/materials") / (name + ".yaml");
   if (std::optional<fs::path> file = search_file(path.string(), folder)) return file;
   if (is_file) {
-    throw InputError(fmt::format("{}: value '{}': no such material file, {}", where, name, places_text(folder)));
+    throw InputError(fmt::format("{}: value '{}': no such material file, {}{}", where, name, places_text(folder),
+                                 similar_file(name, folder)));
   }
   std::error_code error;
   std::vector<std::string> names{"pec"};

@@ -12,10 +12,10 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/reproducible_functions.h"
-#include "sim/core/process/data_folder.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/core/process/utf8.h"
+#include "sim/core/text/named_file.h"
 #include "sim/scenario/contradictions.h"
 #include "sim/scenario/files/document.h"
 #include "sim/scenario/files/hop_code_file.h"

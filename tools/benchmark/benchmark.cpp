@@ -10,6 +10,7 @@
 #include "sim/core/process/data_folder.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
+#include "sim/core/text/named_file.h"
 #include "sim/core/text/suggestion.h"
 #include "sim/scenario/sample_plan.h"
 #include "tools/benchmark/benchmark_result.h"

@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "sim/core/process/data_folder.h"
+#include "sim/core/text/named_file.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/mesh/triangle_mesh.h"
 #include "tools/bindings/bindings.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/bindings/mesh_request.h"
 
-#include "sim/core/process/data_folder.h"
+#include "sim/core/text/named_file.h"
 
 namespace seaglint {
 

@@ -5,8 +5,8 @@
 
 #include "classify/dataset/directory/dataset_writer.h"
 #include "classify/model/model_card.h"
-#include "sim/core/process/data_folder.h"
 #include "sim/core/process/error.h"
+#include "sim/core/text/named_file.h"
 
 namespace seaglint {
 

@@ -4,11 +4,11 @@
 #include <memory>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/core/process/data_folder.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/core/process/printable.h"
 #include "sim/core/process/standard_output.h"
+#include "sim/core/text/named_file.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/mesh/mesh_diagnostics.h"
 #include "sim/geometry/mesh/topology.h"

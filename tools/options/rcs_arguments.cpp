@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <iterator>
 
-#include "sim/core/process/data_folder.h"
 #include "sim/core/process/error.h"
+#include "sim/core/text/named_file.h"
 #include "sim/core/text/number.h"
 #include "tools/options/renamed_words.h"
 #include "tools/rcs/rcs_target.h"

@@ -14,8 +14,8 @@ std::string unknown_option(const CommandWords& words, const std::string& word) {
   const std::string name = word.substr(0, word.find('='));
   if (const auto renamed = renamed_word(words.command, name))
     return fmt::format("unknown option '{}': {}", name, *renamed);
-  const std::string meant = suggestion(name, words.options);
-  return fmt::format("unknown option '{}'{}", name, meant.starts_with("did you mean") ? ": " + meant : "");
+  const std::optional<std::string> meant = near_suggestion(name, words.options);
+  return fmt::format("unknown option '{}'{}", name, meant ? ": " + *meant : "");
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include <cstdlib>
 #include <system_error>
 
-#include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 
 namespace seaglint {
@@ -60,21 +59,6 @@ std::string places_text(const fs::path& folder) {
   for (const fs::path& place : search_folders(folder))
     places.push_back(place.empty() ? "in the working directory" : "in " + place.string());
   return places.size() == 1 ? "not " + places[0] : fmt::format("neither {}", fmt::join(places, " nor "));
-}
-
-fs::path find_file(const std::string& name, const fs::path& folder, const std::string& where) {
-  if (const std::optional<fs::path> file = search_file(name, folder)) return *file;
-  if (fs::path(name).is_absolute()) throw InputError(fmt::format("{}: value '{}': no such file", where, name));
-  throw InputError(fmt::format("{}: value '{}': no such file, {}", where, name, places_text(folder)));
-}
-
-fs::path find_input(const std::string& name, const std::string& below) {
-  if (const std::optional<fs::path> file = search_file(name, {})) return *file;
-  if (fs::path(name).is_absolute()) return name;
-  const fs::path folder = below.empty() || data_folder().empty() ? fs::path() : data_folder() / below;
-  if (!folder.empty() && is_there(folder / name)) return folder / name;
-  throw InputError(fmt::format("{}: no such file, {}{}", name, places_text({}),
-                               folder.empty() ? "" : fmt::format(" nor in {}", folder.string())));
 }
 
 }  // namespace seaglint

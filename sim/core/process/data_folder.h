@@ -29,13 +29,4 @@ std::optional<std::filesystem::path> search_file(const std::string& name, const 
 // "neither in A nor in the working directory nor in B", the places of search_file().
 std::string places_text(const std::filesystem::path& folder);
 
-// Path of the file `name` by search_file(). Throws InputError, beginning with `where`, with all places when there is
-// none.
-std::filesystem::path find_file(const std::string& name, const std::filesystem::path& folder, const std::string& where);
-
-// Path of the file `name` of a command line by search_file() without a folder, then in `below` of data_folder()
-// ("scenarios": the file name alone suffices). An absolute name as it is, whether it exists or not. Throws InputError
-// "NAME: no such file, ..." with all places when there is none.
-std::filesystem::path find_input(const std::string& name, const std::string& below = "");
-
 }  // namespace seaglint

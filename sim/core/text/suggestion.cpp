@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <utility>
 
@@ -32,23 +33,92 @@ std::size_t distance(std::string_view a, std::string_view b) {
   return last[b.size()];
 }
 
-}  // namespace
+constexpr std::size_t kLongest = 100;  // longer words get no suggestion
 
-std::string suggestion(std::string_view misspelt, const std::vector<std::string>& names) {
-  constexpr std::size_t kLongest = 100;  // longer words get no suggestion
-  const std::size_t near = std::max<std::size_t>(1, misspelt.size() / 3);
-  std::size_t best = near + 1;
-  const std::string* nearest = nullptr;
+std::size_t near_distance(std::string_view misspelt) { return std::max<std::size_t>(1, misspelt.size() / 3); }
+
+constexpr std::array<std::string_view, 30> kUnits{
+    "m",    "mm",  "cm",  "km",  "ft", "in",    "s",  "ms", "us", "ns", "hz",  "khz",   "mhz",   "ghz",   "db",
+    "dbsm", "deg", "rad", "mps", "kn", "knots", "kw", "w",  "c",  "k",  "psu", "rad_s", "deg_s", "hours", "min"};
+
+// A name without the unit at its end: "bandwidth" of "bandwidth_mhz", "--frequency" of "--frequency-ghz".
+std::string_view without_unit(std::string_view name) {
+  for (const std::string_view unit : kUnits) {
+    if (name.size() < unit.size() + 2 || distance(name.substr(name.size() - unit.size()), unit) != 0) continue;
+    const char before = name[name.size() - unit.size() - 1];
+    if (before == '_' || before == '-') return name.substr(0, name.size() - unit.size() - 1);
+  }
+  return name;
+}
+
+// A distance and the name that has it.
+struct Nearest {
+  std::size_t distance = 0;
+  const std::string* name = nullptr;
+};
+
+// The first of the nearest names within near_distance(); `reduced` is applied to the word and to each name.
+template <typename Reduced>
+Nearest nearest_of(std::string_view misspelt, const std::vector<std::string>& names, const Reduced& reduced) {
+  const std::string_view word = reduced(misspelt);
+  Nearest best{near_distance(word) + 1};
   for (const std::string& name : names) {
     if (misspelt.size() > kLongest) break;
-    const std::size_t d = distance(misspelt, name);
-    if (d < best) {
-      best = d;
-      nearest = &name;
-    }
+    const std::size_t d = distance(word, reduced(name));
+    if (d < best.distance) best = {d, &name};
   }
-  if (nearest != nullptr) return fmt::format("did you mean '{}'?", *nearest);
-  return fmt::format("must be one of {}", fmt::join(names, ", "));
+  return best;
+}
+
+// True if one of the words of `name`, and those behind it, begin with `part`: "sea_state" in "hh_sea_state".
+bool has_words(std::string_view name, std::string_view part) {
+  for (std::size_t begin = 0; begin + part.size() <= name.size(); ++begin) {
+    const bool at_word = begin == 0 || std::string_view("_-.").find(name[begin - 1]) != std::string_view::npos;
+    if (at_word && distance(name.substr(begin, part.size()), part) == 0) return true;
+  }
+  return false;
+}
+
+// Names that contain the word, or whose own words the word begins with.
+std::vector<std::string_view> names_with(std::string_view misspelt, const std::vector<std::string>& names) {
+  constexpr std::size_t kShortest = 3;
+  const std::string_view word = without_unit(misspelt);
+  std::vector<std::string_view> found;
+  if (word.size() < kShortest || misspelt.size() > kLongest) return found;
+  for (const std::string& name : names) {
+    const std::string_view stem = without_unit(name);
+    const bool begins = stem.size() > kShortest && word.size() > stem.size() &&
+                        (word[stem.size()] == '_' || word[stem.size()] == '-') &&
+                        distance(word.substr(0, stem.size()), stem) == 0;
+    if (begins || has_words(name, word)) found.push_back(name);
+  }
+  return found;
+}
+
+}  // namespace
+
+std::optional<std::string> nearest(std::string_view misspelt, const std::vector<std::string>& names) {
+  const Nearest found = nearest_of(misspelt, names, [](std::string_view name) { return name; });
+  return found.name == nullptr ? std::nullopt : std::optional(*found.name);
+}
+
+std::optional<std::string> near_suggestion(std::string_view misspelt, const std::vector<std::string>& names) {
+  const Nearest whole = nearest_of(misspelt, names, [](std::string_view name) { return name; });
+  const Nearest stem = nearest_of(misspelt, names, without_unit);
+  const bool is_whole = whole.name != nullptr && (stem.name == nullptr || whole.distance <= stem.distance);
+  if (const std::string* name = is_whole ? whole.name : stem.name) return fmt::format("did you mean '{}'?", *name);
+  constexpr std::size_t kMost = 4;
+  std::vector<std::string_view> with = names_with(misspelt, names);
+  if (with.empty() || with.size() > kMost) return std::nullopt;
+  const std::string last = fmt::format("'{}'?", with.back());
+  with.pop_back();
+  if (with.empty()) return "did you mean " + last;
+  return fmt::format("did you mean '{}' or {}", fmt::join(with, "', '"), last);
+}
+
+std::string suggestion(std::string_view misspelt, const std::vector<std::string>& names) {
+  const std::optional<std::string> near = near_suggestion(misspelt, names);
+  return near ? *near : fmt::format("must be one of {}", fmt::join(names, ", "));
 }
 
 }  // namespace seaglint

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Named files are found in the folder that is given, the working directory and the data of the program, in this order;
+// a name that finds none is refused with the one that it means.
+#include "sim/core/text/named_file.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <utility>
+
+#include "sim/core/process/data_folder.h"
+#include "sim/core/process/error.h"
+#include "sim/core/process/file.h"
+#include "tests/temporary_folder.h"
+
+namespace seaglint {
+namespace {
+
+namespace fs = std::filesystem;
+
+class NamedFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    for (const char* name : {"given", "here", "data/scenarios"}) fs::create_directories(root() / name);
+    fs::current_path(root() / "here");
+    set_data_folder(root() / "data");
+  }
+  void TearDown() override {
+    fs::current_path(before_);
+    set_data_folder(data_before_);
+  }
+  fs::path root() const { return folder_.path(); }
+  void make(const std::string& name) const { write_file(root() / name, "x"); }
+
+  std::string refusal(const std::function<void()>& call) const {
+    try {
+      call();
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "found";
+  }
+
+  const fs::path before_ = fs::current_path(), data_before_ = data_folder();
+  const TemporaryFolder folder_;
+};
+
+TEST_F(NamedFile, IsSearchedInTheDataOfTheProgramLast) {
+  const auto found = [&] { return find_file("a", root() / "given", "key"); };
+  EXPECT_EQ(refusal(found), fmt::format("key: value 'a': no such file, neither in {0}/given nor in the working "
+                                        "directory nor in {0}/data",
+                                        root().string()));
+  make("data/a");
+  EXPECT_EQ(found(), root() / "data/a");
+  make("here/a");
+  EXPECT_EQ(found(), "a");
+  make("given/a");
+  EXPECT_EQ(found(), root() / "given/a");
+  EXPECT_EQ(find_file("a", "", "key"), "a");
+  EXPECT_EQ(refusal([&] { find_file("/none/a", root() / "given", "key"); }), "key: value '/none/a': no such file");
+}
+
+TEST_F(NamedFile, OfAScenarioNeedsNoFolder) {
+  make("data/scenarios/quick.yaml");
+  EXPECT_EQ(find_input("quick.yaml", "scenarios"), root() / "data/scenarios/quick.yaml");
+  EXPECT_EQ(find_input("scenarios/quick.yaml", "scenarios"), root() / "data/scenarios/quick.yaml");
+  EXPECT_EQ(refusal([&] { find_input("quick.yaml"); }),
+            fmt::format("quick.yaml: no such file, neither in the working directory nor in {}/data: did you mean "
+                        "'scenarios/quick.yaml'?",
+                        root().string()));
+  make("here/quick.yaml");
+  EXPECT_EQ(find_input("quick.yaml", "scenarios"), "quick.yaml");
+  set_data_folder("");
+  EXPECT_EQ(refusal([&] { find_input("none", "scenarios"); }), "none: no such file, not in the working directory");
+}
+
+TEST_F(NamedFile, ThatIsMisspeltIsSuggestedAsItMustBeWritten) {
+  for (const char* folder : {"data/assets/materials", "given/meshes"}) fs::create_directories(root() / folder);
+  for (const char* file : {"data/assets/combatant_144m.glb", "data/assets/materials/steel.yaml", "given/hull.obj",
+                           "given/meshes/decoy.stl", "given/.secret.obj", "data/scenarios/quick.yaml"})
+    make(file);
+  const std::pair<const char*, const char*> meant[] = {{"combatant_144.glb", "assets/combatant_144m.glb"},
+                                                       {"combatant_144m.stl", "assets/combatant_144m.glb"},
+                                                       {"asset/combatant_144m.glb", "assets/combatant_144m.glb"},
+                                                       {"hul.obj", "hull.obj"},
+                                                       {"decoy.stl", "meshes/decoy.stl"},
+                                                       {"meshes/decoi.stl", "meshes/decoy.stl"},
+                                                       {"assets/materials/stel.yaml", "assets/materials/steel.yaml"}};
+  for (const auto& [written, right] : meant) {
+    const std::string message = refusal([&name = written, this] { find_file(name, root() / "given", "key"); });
+    EXPECT_TRUE(message.ends_with(fmt::format("/data: did you mean '{}'?", right))) << message;
+    EXPECT_NE(find_file(right, root() / "given", "key"), fs::path());
+  }
+  EXPECT_EQ(refusal([&] { find_file((root() / "given/hall.obj").string(), "", "key"); }),
+            fmt::format("key: value '{0}/given/hall.obj': no such file: did you mean '{0}/given/hull.obj'?",
+                        root().string()));
+  for (const char* far : {"secret.obj", "frigate.glb"})
+    EXPECT_TRUE(refusal([&] { find_file(far, root() / "given", "key"); }).ends_with("/data")) << far;
+  const std::string scenario = refusal([] { find_input("quik.yaml", "scenarios"); });
+  EXPECT_TRUE(scenario.ends_with("/scenarios: did you mean 'scenarios/quick.yaml'?")) << scenario;
+}
+
+}  // namespace
+}  // namespace seaglint
