@@ -12,6 +12,7 @@
 #include "sim/core/numbers/dispersion.h"
 #include "sim/core/process/error.h"
 #include "sim/scenario/cases.h"
+#include "sim/scenario/files/error_list.h"
 #include "sim/scenario/files/override.h"
 #include "sim/scenario/layout/layout.h"
 
@@ -21,37 +22,49 @@ namespace {
 
 constexpr int kMinSamples = 8;  // of a pulse
 
-void check_radar(const RadarSpec& radar, const ScenarioDocument& document) {
-  if (radar.pulse_width_us >= radar.pri_us) {
-    document.fail_at("radar.pulse_width_us", fmt::format("must be shorter than radar.pri_us, {}", radar.pri_us));
-  }
-  if (radar.bandwidth_mhz > radar.sampling_mhz) {
-    document.fail_at("radar.bandwidth_mhz", fmt::format("must be at most radar.sampling_mhz, {}", radar.sampling_mhz));
-  }
-  if (!(lowest_ghz(radar) > 0)) {
-    document.fail_at("radar.bandwidth_mhz",
-                     fmt::format("must be below twice radar.carrier_ghz, {:g}", 2e3 * radar.carrier_ghz));
-  }
+void check_radar(const RadarSpec& radar, const ScenarioDocument& document, ErrorList& errors) {
+  errors.check({"radar.pulse_width_us", "radar.pri_us"}, [&] {
+    if (radar.pulse_width_us >= radar.pri_us)
+      document.fail_at("radar.pulse_width_us", fmt::format("must be shorter than radar.pri_us, {}", radar.pri_us));
+  });
+  errors.check({"radar.bandwidth_mhz", "radar.sampling_mhz"}, [&] {
+    if (radar.bandwidth_mhz > radar.sampling_mhz) {
+      document.fail_at("radar.bandwidth_mhz",
+                       fmt::format("must be at most radar.sampling_mhz, {}", radar.sampling_mhz));
+    }
+  });
+  errors.check({"radar.bandwidth_mhz", "radar.carrier_ghz"}, [&] {
+    if (!(lowest_ghz(radar) > 0)) {
+      document.fail_at("radar.bandwidth_mhz",
+                       fmt::format("must be below twice radar.carrier_ghz, {:g}", 2e3 * radar.carrier_ghz));
+    }
+  });
   // Fewer samples do not represent a chirp: the single sample of a shorter pulse would have the energy of a pulse of
   // one sample interval.
-  if (radar.pulse_width_us * radar.sampling_mhz < kMinSamples) {
-    document.fail_at("radar.pulse_width_us", fmt::format("must be at least {:g} us, {} samples of radar.sampling_mhz",
-                                                         kMinSamples / radar.sampling_mhz, kMinSamples));
-  }
+  errors.check({"radar.pulse_width_us", "radar.sampling_mhz"}, [&] {
+    if (radar.pulse_width_us * radar.sampling_mhz < kMinSamples) {
+      document.fail_at("radar.pulse_width_us", fmt::format("must be at least {:g} us, {} samples of radar.sampling_mhz",
+                                                           kMinSamples / radar.sampling_mhz, kMinSamples));
+    }
+  });
 }
 
 // Pulses with jitter must not overlap; a hop code file requires hop_code: file.
-void check_pulse_train(const RadarSpec& radar, const ScenarioDocument& document) {
-  if (2 * radar.pri_jitter_us > radar.pri_us - radar.pulse_width_us) {
-    document.fail_at("radar.pri_jitter_us",
-                     fmt::format("pulses would overlap: must be at most (pri_us - pulse_width_us) / 2, {}",
-                                 (radar.pri_us - radar.pulse_width_us) / 2));
-  }
-  const YamlNode* node = document.root.find("radar");
-  const bool has_file = node != nullptr && node->find("hop_code_file") != nullptr;
-  if (has_file && radar.hop_code != HopCode::kFile)
-    document.fail_at("radar.hop_code_file", "not allowed here: valid only with hop_code: file");
-  if (!has_file && radar.hop_code == HopCode::kFile) document.fail_at("radar.hop_code_file", "this key is missing");
+void check_pulse_train(const RadarSpec& radar, const ScenarioDocument& document, ErrorList& errors) {
+  errors.check({"radar.pri_jitter_us", "radar.pri_us", "radar.pulse_width_us"}, [&] {
+    if (2 * radar.pri_jitter_us > radar.pri_us - radar.pulse_width_us) {
+      document.fail_at("radar.pri_jitter_us",
+                       fmt::format("pulses would overlap: must be at most (pri_us - pulse_width_us) / 2, {}",
+                                   (radar.pri_us - radar.pulse_width_us) / 2));
+    }
+  });
+  errors.check({"radar.hop_code_file", "radar.hop_code"}, [&] {
+    const YamlNode* node = document.root.find("radar");
+    const bool has_file = node != nullptr && node->find("hop_code_file") != nullptr;
+    if (has_file && radar.hop_code != HopCode::kFile)
+      document.fail_at("radar.hop_code_file", "not allowed here: valid only with hop_code: file");
+    if (!has_file && radar.hop_code == HopCode::kFile) document.fail_at("radar.hop_code_file", "this key is missing");
+  });
 }
 
 // The echo of the range window must end before the next pulse.
@@ -401,27 +414,38 @@ void check_parts(const Scenario& scenario, const std::set<std::string>& companio
   }
 }
 
-void check_contradictions(const Scenario& scenario, const ScenarioDocument& document) {
-  check_radar(scenario.radar, document);
-  check_pulse_train(scenario.radar, document);
-  check_window(scenario, document);
-  check_grazing(scenario, document);
-  check_case_count(scenario, document);
-  check_directions("view.azimuth_deg", scenario.view.azimuth_deg, document);
-  check_directions("sea.propagation_deg", scenario.sea.propagation_deg, document);
-  check_directions("sea.coming_from_deg", scenario.sea.coming_from_deg, document);
-  check_alternatives(document);
-  check_spectrum(scenario.sea, document);
-  const std::vector<SeaState> states = sea_states(scenario.sea);
-  check_clutter(scenario, states, document);
-  check_sea(scenario.sea, states, document);
-  check_sea_reflection(scenario, document);
-  for (const TargetSpec& target : scenario.targets) check_target(target, document);
-  for (const TargetSpec& target : scenario.targets) check_companions(scenario, target, document);
-  check_roles(scenario, document);
-  check_labels(scenario, document);
-  check_intra_pulse_motion(scenario, document);
-  check_dataset(scenario, document);
+void check_contradictions(const Scenario& scenario, const ScenarioDocument& document, ErrorList& errors) {
+  check_radar(scenario.radar, document, errors);
+  check_pulse_train(scenario.radar, document, errors);
+  errors.check({"map.range_span_m", "radar.pulse_width_us", "radar.pri_us"}, [&] { check_window(scenario, document); });
+  errors.check({"view.elevation_deg", "clutter"}, [&] { check_grazing(scenario, document); });
+  errors.check({"view", "sea", "targets", "dataset.maps_per_case"}, [&] { check_case_count(scenario, document); });
+  errors.check({"view.azimuth_deg"},
+               [&] { check_directions("view.azimuth_deg", scenario.view.azimuth_deg, document); });
+  errors.check({"sea"}, [&] { check_alternatives(document); });
+  errors.check({"sea"}, [&] { check_spectrum(scenario.sea, document); });
+  if (!errors.concerns("sea") && !errors.concerns("view")) {  // their sweeps have few values
+    const std::vector<SeaState> states = sea_states(scenario.sea);
+    errors.check({"clutter", "radar.polarisation", "radar.carrier_ghz", "radar.bandwidth_mhz", "radar.hop_count",
+                  "radar.hop_step_mhz"},
+                 [&] { check_clutter(scenario, states, document); });
+    errors.check({"sea"}, [&] { check_sea(scenario.sea, states, document); });
+  }
+  errors.check({"sea.propagation_deg"},
+               [&] { check_directions("sea.propagation_deg", scenario.sea.propagation_deg, document); });
+  errors.check({"sea_reflection", "view.elevation_deg", "radar"}, [&] { check_sea_reflection(scenario, document); });
+  for (const TargetSpec& target : scenario.targets) {
+    const std::string path = "targets." + target.name;
+    errors.check({path}, [&] { check_target(target, document); });
+  }
+  errors.check({"targets"}, [&] {
+    for (const TargetSpec& target : scenario.targets) check_companions(scenario, target, document);
+  });
+  errors.check({"targets"}, [&] { check_roles(scenario, document); });
+  errors.check({"targets", "dataset.classes"}, [&] { check_labels(scenario, document); });
+  errors.check({"targets", "radar.intra_pulse_motion"}, [&] { check_intra_pulse_motion(scenario, document); });
+  errors.check({"dataset.maps_per_case", "dataset.realisations_per_case", "dataset.maps_per_interval"},
+               [&] { check_dataset(scenario, document); });
 }
 
 }  // namespace seaglint

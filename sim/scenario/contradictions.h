@@ -11,8 +11,10 @@
 
 namespace seaglint {
 
-// Throws InputError for the first inconsistency, at the key that most likely causes it.
-void check_contradictions(const Scenario& scenario, const ScenarioDocument& document);
+class ErrorList;
+
+// Records an error for each inconsistency between keys without errors, at the key that most likely causes it.
+void check_contradictions(const Scenario& scenario, const ScenarioDocument& document, ErrorList& errors);
 
 // Throws InputError for a part that is not among `companions`, the companions that the scenario's targets have with any
 // of its drawn values: it would be in no map.

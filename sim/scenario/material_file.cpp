@@ -12,6 +12,7 @@
 #include "sim/core/text/named_file.h"
 #include "sim/core/text/suggestion.h"
 #include "sim/scenario/fields.h"
+#include "sim/scenario/files/error_list.h"
 #include "sim/scenario/files/scenario_document.h"
 #include "sim/scenario/reader.h"
 
@@ -144,9 +145,11 @@ MaterialSpec read_material(const fs::path& file) {
 
 MaterialSpec parse_material(const std::string& yaml, const std::string& file_name) {
   const ScenarioDocument document{file_name, {}, parse_yaml(yaml, file_name)};
+  ErrorList errors(document);
   MaterialSpec spec;
-  read_fields(document, [&](FieldVisitor& visitor) { visit(spec, visitor); });
-  check_material(spec, document);
+  read_fields(document, errors, [&](FieldVisitor& visitor) { visit(spec, visitor); });
+  errors.check({""}, [&] { check_material(spec, document); });
+  errors.throw_if_any();
   return spec;
 }
 

@@ -14,6 +14,7 @@
 #include "sim/core/text/shown.h"
 #include "sim/core/text/suggestion.h"
 #include "sim/scenario/fields.h"
+#include "sim/scenario/files/error_list.h"
 #include "sim/scenario/files/node_values.h"
 #include "sim/scenario/renamed_keys.h"
 
@@ -57,186 +58,186 @@ class KeyCollector : public FieldVisitor {
   }
 };
 
-// Reads the fields of one map. Fields without a key in the map keep their defaults.
+// Where values are read from, and the errors of them.
+struct Source {
+  const ScenarioDocument& document;
+  ErrorList& errors;
+};
+
+// Reads the fields of one map. Fields without a key in the map, and those with an error, keep their defaults.
 class Reader : public FieldVisitor {
  public:
   // Visits the fields twice: for the keys they allow, then for the values.
-  static void read(const ScenarioDocument& document, const YamlNode& map, const std::string& path,
-                   const Fields& fields) {
-    Reader reader(document, map, path);
+  static void read(const Source& source, const YamlNode& map, const std::string& path, const Fields& fields) {
+    Reader reader(source, map, path);
     reader.check_keys(fields);
     fields(reader);
   }
 
   void number(const char* key, double& value, const Bound& bound) override {
-    if (const YamlNode* node = map_.find(key)) value = number_of(*node, path_of(key), bound, "a number");
+    read_value(key, [&](const YamlNode& node) { value = number_of(node, path_of(key), bound, "a number"); });
   }
 
   void number_or_auto(const char* key, std::optional<double>& value, const Bound& bound) override {
-    const YamlNode* node = map_.find(key);
-    if (node == nullptr) return;
-    value.reset();
-    if (node->kind == YamlNode::Kind::kScalar && node->text == "auto") return;
-    value = number_of(*node, path_of(key), bound, "auto or a number");
+    read_value(key, [&](const YamlNode& node) {
+      const bool is_auto = node.kind == YamlNode::Kind::kScalar && node.text == "auto";
+      value = is_auto ? std::nullopt : std::optional(number_of(node, path_of(key), bound, "auto or a number"));
+    });
   }
 
   void integer(const char* key, int& value, const Bound& bound) override {
-    const YamlNode* node = map_.find(key);
-    if (node == nullptr) return;
-    const std::optional<std::int64_t> read = integer_of(*node);
-    if (!read || !bound.holds(static_cast<double>(*read))) {
-      const bool single = bound.lowest == bound.highest;
-      fail(*node, path_of(key),
-           single ? fmt::format("must be {}", bound.lowest) : "must be a whole number " + bound.text());
-    }
-    value = static_cast<int>(*read);
+    read_value(key, [&](const YamlNode& node) {
+      const std::optional<std::int64_t> read = integer_of(node);
+      if (!read || !bound.holds(static_cast<double>(*read))) {
+        const bool single = bound.lowest == bound.highest;
+        fail(node, path_of(key),
+             single ? fmt::format("must be {}", bound.lowest) : "must be a whole number " + bound.text());
+      }
+      value = static_cast<int>(*read);
+    });
   }
 
   void natural(const char* key, std::uint64_t& value) override {
-    const YamlNode* node = map_.find(key);
-    if (node == nullptr) return;
-    const std::optional<std::int64_t> read = integer_of(*node);
-    if (!read || *read < 0) fail(*node, path_of(key), "must be a whole number within 0 and 9223372036854775807");
-    value = static_cast<std::uint64_t>(*read);
+    read_value(key, [&](const YamlNode& node) {
+      const std::optional<std::int64_t> read = integer_of(node);
+      if (!read || *read < 0) fail(node, path_of(key), "must be a whole number within 0 and 9223372036854775807");
+      value = static_cast<std::uint64_t>(*read);
+    });
   }
 
   void flag(const char* key, bool& value) override {
-    const YamlNode* node = map_.find(key);
-    if (node == nullptr) return;
-    // The three spellings of the YAML 1.2 core schema.
-    const auto is_one_of = [&](std::initializer_list<const char*> words) {
-      return is_plain(*node) && std::find(words.begin(), words.end(), node->text) != words.end();
-    };
-    value = is_one_of({"true", "True", "TRUE"});
-    if (!value && !is_one_of({"false", "False", "FALSE"})) fail(*node, path_of(key), "must be true or false");
+    read_value(key, [&](const YamlNode& node) {
+      // The three spellings of the YAML 1.2 core schema.
+      const auto is_one_of = [&](std::initializer_list<const char*> words) {
+        return is_plain(node) && std::find(words.begin(), words.end(), node.text) != words.end();
+      };
+      value = is_one_of({"true", "True", "TRUE"});
+      if (!value && !is_one_of({"false", "False", "FALSE"})) fail(node, path_of(key), "must be true or false");
+    });
   }
 
   void text(const char* key, std::string& value) override {
-    if (const YamlNode* node = map_.find(key)) value = text_of(*node, path_of(key));
+    read_value(key, [&](const YamlNode& node) { value = text_of(node, path_of(key)); });
   }
 
   void choice(const char* key, std::size_t& index, Names names) override {
-    const YamlNode* node = map_.find(key);
-    if (node == nullptr) return;
-    const auto found = std::find(names.begin(), names.end(), std::string_view(node->text));
-    if (node->kind != YamlNode::Kind::kScalar || found == names.end()) {
-      refuse_renamed(*node, path_of(key));
-      fail(*node, path_of(key),
-           fmt::format("must be {}{}", names.size() > 2 ? "one of " : "",
-                       fmt::join(names, names.size() > 2 ? ", " : " or ")));
-    }
-    index = static_cast<std::size_t>(found - names.begin());
+    const bool is_read = read_value(key, [&](const YamlNode& node) {
+      const auto found = std::find(names.begin(), names.end(), std::string_view(node.text));
+      if (node.kind != YamlNode::Kind::kScalar || found == names.end()) {
+        refuse_renamed(node, path_of(key));
+        fail(node, path_of(key),
+             fmt::format("must be {}{}", names.size() > 2 ? "one of " : "",
+                         fmt::join(names, names.size() > 2 ? ", " : " or ")));
+      }
+      index = static_cast<std::size_t>(found - names.begin());
+    });
+    if (!is_read) needs_are_known_ = false;
   }
 
   void triple(const char* key, std::array<double, 3>& values, const Bound& bound) override {
-    const YamlNode* node = map_.find(key);
-    if (node == nullptr) return;
-    if (node->kind != YamlNode::Kind::kList || node->items.size() != 3) {
-      fail(*node, path_of(key), "must be a list of three numbers [x, y, z]");
-    }
-    for (std::size_t i = 0; i < 3; ++i) {
-      values[i] = number_of(node->items[i], fmt::format("{}.{}", path_of(key), i), bound, "a number");
-    }
+    read_value(key, [&](const YamlNode& node) {
+      if (node.kind != YamlNode::Kind::kList || node.items.size() != 3)
+        fail(node, path_of(key), "must be a list of three numbers [x, y, z]");
+      for (std::size_t i = 0; i < 3; ++i)
+        values[i] = number_of(node.items[i], fmt::format("{}.{}", path_of(key), i), bound, "a number");
+    });
   }
 
   void ratio(const char* key, double& fraction) override {
-    const YamlNode* node = map_.find(key);
-    if (node == nullptr) return;
-    const std::size_t colon = node->text.find(':');
-    if (node->kind == YamlNode::Kind::kScalar && colon != std::string::npos) {
-      const std::optional<double> a = parse_number(std::string_view(node->text).substr(0, colon));
-      const std::optional<double> b = parse_number(std::string_view(node->text).substr(colon + 1));
-      if (a && b && *a > 0 && *b > 0) {
-        const double read = *a / (*a + *b);
-        if (read > 0 && read < 1) {
-          fraction = read;
-          return;
+    read_value(key, [&](const YamlNode& node) {
+      const std::size_t colon = node.text.find(':');
+      if (node.kind == YamlNode::Kind::kScalar && colon != std::string::npos) {
+        const std::optional<double> a = parse_number(std::string_view(node.text).substr(0, colon));
+        const std::optional<double> b = parse_number(std::string_view(node.text).substr(colon + 1));
+        if (a && b && *a > 0 && *b > 0) {
+          const double read = *a / (*a + *b);
+          if (read > 0 && read < 1) {
+            fraction = read;
+            return;
+          }
         }
       }
-    }
-    fail(*node, path_of(key), "must be a ratio a:b of two positive numbers");
+      fail(node, path_of(key), "must be a ratio a:b of two positive numbers");
+    });
   }
 
   void sweep(const char* key, Sweep& values, const Bound& bound, Names words, std::size_t* word) override {
-    const YamlNode* node = map_.find(key);
-    if (node == nullptr) return;
-    const auto found = std::find(words.begin(), words.end(), std::string_view(node->text));
-    if (node->kind == YamlNode::Kind::kScalar && found != words.end()) {
-      *word = static_cast<std::size_t>(found - words.begin()) + 1;
-      values.clear();
-      return;
-    }
-    refuse_renamed(*node, path_of(key));
-    if (word != nullptr) *word = 0;
-    values = node->kind == YamlNode::Kind::kList ? list_sweep(*node, path_of(key), bound)
-                                                 : scalar_sweep(*node, path_of(key), bound, words);
-    Sweep sorted = values;
-    std::sort(sorted.begin(), sorted.end());
-    const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
-    if (twice != sorted.end())
-      document_.fail(node->location, path_of(key), fmt::format("value '{}' appears twice", *twice));
+    read_value(key, [&](const YamlNode& node) {
+      const auto found = std::find(words.begin(), words.end(), std::string_view(node.text));
+      if (node.kind == YamlNode::Kind::kScalar && found != words.end()) {
+        *word = static_cast<std::size_t>(found - words.begin()) + 1;
+        values.clear();
+        return;
+      }
+      refuse_renamed(node, path_of(key));
+      Sweep read = node.kind == YamlNode::Kind::kList ? list_sweep(node, path_of(key), bound)
+                                                      : scalar_sweep(node, path_of(key), bound, words);
+      Sweep sorted = read;
+      std::sort(sorted.begin(), sorted.end());
+      const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
+      if (twice != sorted.end())
+        document().fail(node.location, path_of(key), fmt::format("value '{}' appears twice", *twice));
+      if (word != nullptr) *word = 0;
+      values = std::move(read);
+    });
   }
 
   void hold_outs(const char* key, std::vector<HoldOutSpec>& columns) override {
-    const YamlNode* node = map_.find(key);
-    if (node == nullptr) return;
-    constexpr std::size_t kMaxColumns = 100, kMaxValues = 1000;
-    if (node->kind != YamlNode::Kind::kMap || node->entries.size() > kMaxColumns)
-      fail(*node, path_of(key), fmt::format("must be a map of at most {} columns with their values", kMaxColumns));
-    check_duplicates(*node, path_of(key));
-    columns.clear();
-    for (const YamlEntry& entry : node->entries) {
-      const std::string path = path_of(key) + "." + entry.key;
-      const bool is_list = entry.value.kind == YamlNode::Kind::kList;
-      const std::span<const YamlNode> values = is_list ? std::span(entry.value.items) : std::span(&entry.value, 1);
-      if (values.empty() || values.size() > kMaxValues)
-        fail(entry.value, path, fmt::format("must be a value or a list of 1 to {} values", kMaxValues));
-      columns.push_back({entry.key, {}});
-      for (const YamlNode& value : values) columns.back().values.push_back(text_of(value, path));
-    }
+    read_value(key, [&](const YamlNode& node) {
+      constexpr std::size_t kMaxColumns = 100, kMaxValues = 1000;
+      if (node.kind != YamlNode::Kind::kMap || node.entries.size() > kMaxColumns)
+        fail(node, path_of(key), fmt::format("must be a map of at most {} columns with their values", kMaxColumns));
+      check_duplicates(node, path_of(key));
+      columns.clear();
+      for (const YamlEntry& entry : node.entries) {
+        const std::string path = path_of(key) + "." + entry.key;
+        const bool is_list = entry.value.kind == YamlNode::Kind::kList;
+        const std::span<const YamlNode> values = is_list ? std::span(entry.value.items) : std::span(&entry.value, 1);
+        if (values.empty() || values.size() > kMaxValues)
+          fail(entry.value, path, fmt::format("must be a value or a list of 1 to {} values", kMaxValues));
+        columns.push_back({entry.key, {}});
+        for (const YamlNode& value : values) columns.back().values.push_back(text_of(value, path));
+      }
+    });
   }
 
   void section(const char* key, const Fields& fields) override {
-    if (const YamlNode* node = map_.find(key)) {
-      expect_map(*node, path_of(key));
-      read(document_, *node, path_of(key), fields);
-    }
+    if (const YamlNode* node = map_.find(key)) read_map(*node, path_of(key), fields);
   }
 
   void list(const char* key, std::size_t, std::size_t max_size, const std::function<void(std::size_t)>& resize,
             const std::function<void(std::size_t, FieldVisitor&)>& item) override {
     const YamlNode* node = map_.find(key);
     if (node == nullptr) return;
-    if (node->kind != YamlNode::Kind::kList || node->items.empty() || node->items.size() > max_size) {
-      fail(*node, path_of(key), fmt::format("must be a list of 1 to {} maps", max_size));
-    }
+    const bool is_list = read_value(key, [&](const YamlNode& value) {
+      if (value.kind != YamlNode::Kind::kList || value.items.empty() || value.items.size() > max_size)
+        fail(value, path_of(key), fmt::format("must be a list of 1 to {} maps", max_size));
+    });
+    if (!is_list) return;
     resize(node->items.size());
-    for (std::size_t i = 0; i < node->items.size(); ++i) {
-      const std::string path = fmt::format("{}.{}", path_of(key), i);
-      expect_map(node->items[i], path);
-      read(document_, node->items[i], path, [&](FieldVisitor& visitor) { item(i, visitor); });
-    }
+    for (std::size_t i = 0; i < node->items.size(); ++i)
+      read_map(node->items[i], fmt::format("{}.{}", path_of(key), i), [&](FieldVisitor& visitor) { item(i, visitor); });
   }
 
   void words(const char* key, std::vector<std::string>& values, std::size_t least, std::size_t most) override {
-    const YamlNode* node = map_.find(key);
-    if (node == nullptr) return;
-    if (node->kind != YamlNode::Kind::kList || node->items.size() < least || node->items.size() > most)
-      fail(*node, path_of(key), fmt::format("must be a list of {} to {} names", least, most));
-    constexpr std::size_t kLongest = 40;
-    values.clear();
-    std::set<std::string> different;  // with '_' for a space, as in names of columns
-    for (const YamlNode& item : node->items) {
-      const std::string path = fmt::format("{}.{}", path_of(key), values.size()), &name = item.text;
-      const auto is_allowed = [](char c) { return c == ' ' || is_name_character(c); };
-      if (item.kind != YamlNode::Kind::kScalar || name.empty() || name.size() > kLongest || name.front() == ' ' ||
-          name.back() == ' ' || !std::all_of(name.begin(), name.end(), is_allowed))
-        fail(item, path, fmt::format("must be 1 to {} letters, digits, '_', '-' or spaces within", kLongest));
-      std::string word = name;
-      std::replace(word.begin(), word.end(), ' ', '_');
-      if (!different.insert(word).second) fail(item, path, "must differ from the others, also with '_' for a space");
-      values.push_back(name);
-    }
+    read_value(key, [&](const YamlNode& node) {
+      if (node.kind != YamlNode::Kind::kList || node.items.size() < least || node.items.size() > most)
+        fail(node, path_of(key), fmt::format("must be a list of {} to {} names", least, most));
+      constexpr std::size_t kLongest = 40;
+      values.clear();
+      std::set<std::string> different;  // with '_' for a space, as in names of columns
+      for (const YamlNode& item : node.items) {
+        const std::string path = fmt::format("{}.{}", path_of(key), values.size()), &name = item.text;
+        const auto is_allowed = [](char c) { return c == ' ' || is_name_character(c); };
+        if (item.kind != YamlNode::Kind::kScalar || name.empty() || name.size() > kLongest || name.front() == ' ' ||
+            name.back() == ' ' || !std::all_of(name.begin(), name.end(), is_allowed))
+          fail(item, path, fmt::format("must be 1 to {} letters, digits, '_', '-' or spaces within", kLongest));
+        std::string word = name;
+        std::replace(word.begin(), word.end(), ' ', '_');
+        if (!different.insert(word).second) fail(item, path, "must differ from the others, also with '_' for a space");
+        values.push_back(name);
+      }
+    });
   }
 
   void dictionary(const char* key, const std::vector<std::string>&, std::size_t max_size,
@@ -244,38 +245,56 @@ class Reader : public FieldVisitor {
                   const std::function<void(std::size_t, FieldVisitor&)>& item) override {
     const YamlNode* node = map_.find(key);
     if (node == nullptr) return;
-    if (node->kind != YamlNode::Kind::kMap || node->entries.empty() || node->entries.size() > max_size) {
-      fail(*node, path_of(key), fmt::format("must be a map of 1 to {} named maps", max_size));
-    }
-    check_duplicates(*node, path_of(key));
+    std::vector<const YamlEntry*> entries;
     std::vector<std::string> names;
+    const bool is_map = errors().attempt({path_of(key)}, [&] {
+      if (node->kind != YamlNode::Kind::kMap || node->entries.empty() || node->entries.size() > max_size)
+        fail(*node, path_of(key), fmt::format("must be a map of 1 to {} named maps", max_size));
+      check_duplicates(*node, path_of(key));
+    });
+    if (!is_map) return;
     for (const YamlEntry& entry : node->entries) {
-      check_name(entry, path_of(key));
+      if (!errors().attempt({path_of(key)}, [&] { check_name(entry, path_of(key)); })) continue;
+      entries.push_back(&entry);
       names.push_back(entry.key);
     }
     rename(names);
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      const std::string path = path_of(key) + "." + names[i];
-      expect_map(node->entries[i].value, path);
-      read(document_, node->entries[i].value, path, [&](FieldVisitor& visitor) { item(i, visitor); });
-    }
+    for (std::size_t i = 0; i < names.size(); ++i)
+      read_map(entries[i]->value, path_of(key) + "." + names[i], [&](FieldVisitor& visitor) { item(i, visitor); });
   }
 
   void require(const char* key) override {
-    if (map_.find(key) == nullptr) document_.fail(map_.location, path_of(key), "this key is missing");
+    if (map_.find(key) != nullptr || !needs_are_known_) return;
+    errors().attempt({path_of(key)}, [&] { document().fail(map_.location, path_of(key), "this key is missing"); });
   }
 
   bool optional(const char* key, bool) override { return map_.find(key) != nullptr; }
 
  private:
-  Reader(const ScenarioDocument& document, const YamlNode& map, std::string path)
-      : document_(document), map_(map), path_(std::move(path)) {}
+  Reader(const Source& source, const YamlNode& map, std::string path)
+      : source_(source), map_(map), path_(std::move(path)) {}
+
+  const ScenarioDocument& document() const { return source_.document; }
+  ErrorList& errors() const { return source_.errors; }
+
+  // Calls read(node) for the value of a key, and records its error. False where there is one, of earlier or of now.
+  template <typename Read>
+  bool read_value(const char* key, const Read& read) {
+    const YamlNode* node = map_.find(key);
+    if (node == nullptr) return true;
+    const std::string path = path_of(key);
+    return !errors().is_unusable(path) && errors().attempt({path}, [&] { read(*node); });
+  }
+
+  void read_map(const YamlNode& node, const std::string& path, const Fields& fields) {
+    if (errors().attempt({path}, [&] { expect_map(node, path); })) read(source_, node, path, fields);
+  }
 
   std::string path_of(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
 
   [[noreturn]] void fail(const YamlNode& node, const std::string& path, const std::string& bound) const {
     const std::string note = node.kind == YamlNode::Kind::kScalar ? lookalike_note(node.text) : "";
-    document_.fail(node.location, path, fmt::format("{}: {}{}", value_text(node), bound, note));
+    document().fail(node.location, path, fmt::format("{}: {}{}", value_text(node), bound, note));
   }
 
   // A value of an earlier version is refused by its new name.
@@ -288,34 +307,74 @@ class Reader : public FieldVisitor {
     if (node.kind != YamlNode::Kind::kMap) fail(node, path, "must be a map of key: value");
   }
 
-  void check_duplicates(const YamlNode& map, const std::string& path) const {
+  // An entry and a later one with the same key.
+  struct Duplicate {
+    const YamlEntry* first;
+    const YamlEntry* second;
+  };
+
+  static std::vector<Duplicate> duplicates(const YamlNode& map) {
     std::vector<const YamlEntry*> sorted;
     for (const YamlEntry& entry : map.entries) sorted.push_back(&entry);
-    std::stable_sort(sorted.begin(), sorted.end(),
-                     [](const YamlEntry* a, const YamlEntry* b) { return a->key < b->key; });
-    const auto twice = std::adjacent_find(sorted.begin(), sorted.end(),
-                                          [](const YamlEntry* a, const YamlEntry* b) { return a->key == b->key; });
-    if (twice == sorted.end()) return;
-    const YamlEntry& first = **twice;
-    const YamlEntry& second = **(twice + 1);
-    document_.fail(second.location, path.empty() ? second.key : path + "." + second.key,
-                   fmt::format("this key appears twice, first in line {}", first.location.line));
+    std::ranges::stable_sort(sorted, {}, &YamlEntry::key);
+    std::vector<Duplicate> found;
+    for (std::size_t i = 1; i < sorted.size(); ++i) {
+      if (sorted[i - 1]->key == sorted[i]->key) found.push_back({sorted[i - 1], sorted[i]});
+    }
+    return found;
   }
 
-  void check_keys(const Fields& fields) const {
-    check_duplicates(map_, path_);
+  [[noreturn]] void refuse_duplicate(const Duplicate& keys, const std::string& path) const {
+    document().fail(keys.second->location, path.empty() ? keys.second->key : path + "." + keys.second->key,
+                    fmt::format("this key appears twice, first in line {}", keys.first->location.line));
+  }
+
+  void check_duplicates(const YamlNode& map, const std::string& path) const {
+    const std::vector<Duplicate> found = duplicates(map);
+    if (!found.empty()) refuse_duplicate(found.front(), path);
+  }
+
+  void check_keys(const Fields& fields) {
+    for (const Duplicate& keys : duplicates(map_)) {
+      const std::string path = path_of(keys.second->key);
+      if (errors().is_full()) {
+        errors().count_further({path});
+      } else {
+        errors().attempt({path}, [&] { refuse_duplicate(keys, path_); });
+      }
+    }
     KeyCollector allowed;
     fields(allowed);
+    std::sort(allowed.keys.begin(), allowed.keys.end());
+    bool is_cut = false;  // the value before is cut at a comma, as uniform(5, 9) in braces is
     for (const YamlEntry& entry : map_.entries) {
-      if (std::find(allowed.keys.begin(), allowed.keys.end(), entry.key) != allowed.keys.end()) continue;
-      if (const auto renamed = renamed_key(path_of(entry.key), entry.value.text))
-        document_.fail(entry.location, path_of(entry.key), *renamed);
-      const std::string lookalike = lookalike_in(entry.key);
-      document_.fail(
-          entry.location, path_of(entry.key),
-          "unknown key: " + (lookalike.empty() ? suggestion(entry.key, allowed.keys)
-                                               : fmt::format("it has {}; keys are indented by blanks", lookalike)));
+      if (is_cut && entry.value.kind == YamlNode::Kind::kNull) continue;
+      const bool is_known = std::binary_search(allowed.keys.begin(), allowed.keys.end(), entry.key);
+      is_cut = is_known && entry.value.text.find('(') != std::string::npos && errors().is_unusable(path_of(entry.key));
+      if (is_known) continue;
+      if (errors().is_full()) {
+        errors().count_further({path_});
+        needs_are_known_ = false;
+        continue;
+      }
+      errors().attempt({path_}, [&] { refuse_key(entry, fields); });
     }
+  }
+
+  // A misspelt key may be one that the map needs.
+  [[noreturn]] void refuse_key(const YamlEntry& entry, const Fields& fields) {
+    const std::string path = path_of(entry.key);
+    const auto renamed = renamed_key(path, entry.value.text);
+    KeyCollector allowed;
+    fields(allowed);
+    const auto near = near_suggestion(entry.key, allowed.keys);
+    if (renamed || near) needs_are_known_ = false;
+    if (renamed) document().fail(entry.location, path, *renamed);
+    const std::string lookalike = lookalike_in(entry.key);
+    document().fail(entry.location, path,
+                    "unknown key: " + (lookalike.empty()
+                                           ? suggestion(entry.key, allowed.keys)
+                                           : fmt::format("it has {}; keys are indented by blanks", lookalike)));
   }
 
   // Names become parts of file names and of key paths.
@@ -323,9 +382,9 @@ class Reader : public FieldVisitor {
     constexpr std::size_t kLongest = 64;
     if (entry.key.empty() || entry.key.size() > kLongest ||
         !std::all_of(entry.key.begin(), entry.key.end(), is_name_character)) {
-      document_.fail(entry.location, path,
-                     fmt::format("name '{}': must be 1 to {} letters, digits, '_' or '-'",
-                                 entry.key.substr(0, kLongest), kLongest));
+      document().fail(entry.location, path,
+                      fmt::format("name '{}': must be 1 to {} letters, digits, '_' or '-'",
+                                  entry.key.substr(0, kLongest), kLongest));
     }
   }
 
@@ -366,35 +425,38 @@ class Reader : public FieldVisitor {
     try {
       values = parse_range(node.text, kMaxSweepValues);
     } catch (const InputError& error) {
-      document_.fail(node.location, path, error.what());
+      document().fail(node.location, path, error.what());
     }
     if (!std::all_of(values.begin(), values.end(), [&](double value) { return bound.holds(value); }))
       fail(node, path, what);
     return values;
   }
 
-  const ScenarioDocument& document_;
+  Source source_;
   const YamlNode& map_;
   std::string path_;
+  bool needs_are_known_ = true;  // false where an error leaves open which keys the map needs
 };
 
 }  // namespace
 
-void read_fields(const ScenarioDocument& document, const std::function<void(FieldVisitor&)>& fields) {
-  if (document.root.kind == YamlNode::Kind::kNull) {
-    throw InputError(fmt::format("{}: the file is empty: must be a map of key: value", document.file_name));
-  }
-  if (document.root.kind != YamlNode::Kind::kMap) {
-    throw InputError(fmt::format("{}:{}:{}: {}: must be a map of key: value", document.file_name,
-                                 document.root.location.line, document.root.location.column,
-                                 value_text(document.root)));
-  }
-  Reader::read(document, document.root, "", fields);
+void read_fields(const ScenarioDocument& document, ErrorList& errors,
+                 const std::function<void(FieldVisitor&)>& fields) {
+  const YamlNode& root = document.root;
+  const bool is_map = errors.attempt({""}, [&] {
+    if (root.kind == YamlNode::Kind::kNull)
+      throw InputError(fmt::format("{}: the file is empty: must be a map of key: value", document.file_name));
+    if (root.kind != YamlNode::Kind::kMap) {
+      throw InputError(fmt::format("{}:{}:{}: {}: must be a map of key: value", document.file_name, root.location.line,
+                                   root.location.column, value_text(root)));
+    }
+  });
+  if (is_map) Reader::read({document, errors}, root, "", fields);
 }
 
-Scenario read_fields(const ScenarioDocument& document) {
+Scenario read_fields(const ScenarioDocument& document, ErrorList& errors) {
   Scenario scenario;
-  read_fields(document, [&](FieldVisitor& visitor) { visit_fields(scenario, visitor); });
+  read_fields(document, errors, [&](FieldVisitor& visitor) { visit_fields(scenario, visitor); });
   return scenario;
 }
 

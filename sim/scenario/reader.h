@@ -10,12 +10,13 @@
 
 namespace seaglint {
 
+class ErrorList;
 class FieldVisitor;
 
-// Reads every field. Throws InputError for unknown and duplicate keys, missing required ones, wrong types and values
-// out of bounds.
-Scenario read_fields(const ScenarioDocument& document);
+// Reads every field. Records an error for each unknown or duplicate key, missing required one, wrong type and value out
+// of its bounds; such a field has its default.
+Scenario read_fields(const ScenarioDocument& document, ErrorList& errors);
 // The same for another list of fields.
-void read_fields(const ScenarioDocument& document, const std::function<void(FieldVisitor&)>& fields);
+void read_fields(const ScenarioDocument& document, ErrorList& errors, const std::function<void(FieldVisitor&)>& fields);
 
 }  // namespace seaglint

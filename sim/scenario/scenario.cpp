@@ -14,10 +14,12 @@
 #include "sim/core/numbers/reproducible_functions.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
+#include "sim/core/process/input_errors.h"
 #include "sim/core/process/utf8.h"
 #include "sim/core/text/named_file.h"
 #include "sim/scenario/contradictions.h"
 #include "sim/scenario/files/document.h"
+#include "sim/scenario/files/error_list.h"
 #include "sim/scenario/files/hop_code_file.h"
 #include "sim/scenario/files/scenario_document.h"
 #include "sim/scenario/material_file.h"
@@ -74,12 +76,14 @@ std::shared_ptr<const std::vector<int>> find_hop_codes(const Scenario& scenario,
 }
 
 // Reads a document without distributions, and the tables that it names unless `known` has them.
-Scenario read_values(const ScenarioDocument& document, const Scenario* known = nullptr) {
-  Scenario scenario = read_fields(document);
+Scenario read_values(const ScenarioDocument& document, ErrorList& errors, const Scenario* known = nullptr) {
+  Scenario scenario = read_fields(document, errors);
   scenario.folder = fs::path(document.file_name).parent_path();
-  scenario.sea.table_values = find_spectrum_table(scenario, known);
-  scenario.radar.hop_codes = find_hop_codes(scenario, known);
-  check_contradictions(scenario, document);
+  errors.check({"sea.table", "sea.spectrum"},
+               [&] { scenario.sea.table_values = find_spectrum_table(scenario, known); });
+  errors.check({"radar.hop_code_file", "radar.hop_code", "radar.pulses", "radar.hop_count"},
+               [&] { scenario.radar.hop_codes = find_hop_codes(scenario, known); });
+  check_contradictions(scenario, document, errors);
   if (scenario.name.empty()) scenario.name = name_of_file(document.file_name);
   return scenario;
 }
@@ -90,8 +94,9 @@ std::vector<std::string> middles(const std::vector<Variation>& variations) {
   return values;
 }
 
-// Scenarios with one drawn key at one of its ends, the others in their middles.
-void visit_ends(const ScenarioDocument& document, const Scenario& scenario,
+// Scenarios with one drawn key at one of its ends, the others in their middles; the first end with errors of each key
+// adds them to `errors`.
+void visit_ends(const ScenarioDocument& document, const Scenario& scenario, ErrorList& errors,
                 const std::function<void(const Scenario&)>& visit) {
   const std::vector<std::string> middle = middles(scenario.variations);
   for (std::size_t i = 0; i < middle.size(); ++i) {
@@ -99,12 +104,20 @@ void visit_ends(const ScenarioDocument& document, const Scenario& scenario,
     for (const std::string& end : variation.distribution.ends()) {
       std::vector<std::string> values = middle;
       values[i] = end;
-      try {
-        visit(read_values(with_values(document, scenario.variations, values), &scenario));
-      } catch (const InputError& error) {
-        throw InputError(
-            fmt::format("{}; where {}, drawn by {}, is {}", error.what(), variation.key_path, variation.text(), end));
-      }
+      const bool is_read = errors.attempt({variation.key_path}, [&] {
+        try {
+          ErrorList of_end(document);
+          const Scenario read = read_values(with_values(document, scenario.variations, values), of_end, &scenario);
+          of_end.throw_if_any();
+          visit(read);
+        } catch (const InputError& error) {
+          std::vector<std::string> messages = messages_of(error);
+          for (std::string& message : messages)
+            message += fmt::format("; where {}, drawn by {}, is {}", variation.key_path, variation.text(), end);
+          throw_input_errors(std::move(messages));
+        }
+      });
+      if (!is_read) break;
     }
   }
 }
@@ -118,10 +131,13 @@ Scenario read_scenario(const fs::path& file, const std::vector<Override>& overri
 Scenario parse_scenario(const std::string& yaml, const std::string& file_name, const std::vector<Override>& overrides) {
   const auto read = std::make_shared<ScenarioDocument>(ScenarioDocument{file_name, {}, parse_yaml(yaml, file_name)});
   ScenarioDocument& document = *read;
-  for (const Override& override_value : overrides) apply_override(document, override_value);
+  ErrorList errors(document);
+  for (const Override& override_value : overrides)
+    errors.attempt({override_value.key_path}, [&] { apply_override(document, override_value); });
   copy_fixed_values(document);
-  std::vector<Variation> variations = find_variations(document);
-  Scenario scenario = read_values(with_values(document, variations, middles(variations)));
+  std::vector<Variation> variations = find_variations(document, errors);
+  Scenario scenario = read_values(with_values(document, variations, middles(variations)), errors);
+  errors.throw_if_any();
   scenario.document = read;
   scenario.variations = std::move(variations);
   std::set<std::string> companions;  // with any drawn values
@@ -131,8 +147,9 @@ Scenario parse_scenario(const std::string& yaml, const std::string& file_name, c
     }
   };
   collect(scenario);
-  visit_ends(document, scenario, collect);
-  check_parts(scenario, companions, document);
+  visit_ends(document, scenario, errors, collect);
+  errors.check({"targets"}, [&] { check_parts(scenario, companions, document); });
+  errors.throw_if_any();
   return scenario;
 }
 
@@ -140,25 +157,25 @@ Scenario drawn_scenario(const Scenario& scenario, const DrawPlace& place) {
   if (scenario.variations.empty()) return scenario;
   std::vector<std::string> values;
   for (const Variation& variation : scenario.variations) values.push_back(drawn_value(variation, scenario.seed, place));
-  try {
-    Scenario read = read_values(with_values(*scenario.document, scenario.variations, values), &scenario);
-    Scenario drawn = scenario;
-    drawn.variations.clear();
-    drawn.view = std::move(read.view);
-    drawn.sea = std::move(read.sea);
-    drawn.sea_reflection = read.sea_reflection;
-    drawn.targets = std::move(read.targets);
-    drawn.clutter = read.clutter;
-    drawn.radar.hop_code = read.radar.hop_code;
-    drawn.radar.pri_jitter_us = read.radar.pri_jitter_us;
-    drawn.radar.polarisation = read.radar.polarisation;
-    return drawn;
-  } catch (const InputError& error) {
+  ErrorList errors(*scenario.document);
+  Scenario read = read_values(with_values(*scenario.document, scenario.variations, values), errors, &scenario);
+  if (!errors.is_empty()) {
     std::vector<std::string> all;
     for (std::size_t i = 0; i < values.size(); ++i)
       all.push_back(fmt::format("{} {}", scenario.variations[i].key_path, values[i]));
-    throw InputError(fmt::format("{}; of the drawn values {}", error.what(), fmt::join(all, ", ")));
+    errors.throw_if_any(fmt::format("; of the drawn values {}", fmt::join(all, ", ")));
   }
+  Scenario drawn = scenario;
+  drawn.variations.clear();
+  drawn.view = std::move(read.view);
+  drawn.sea = std::move(read.sea);
+  drawn.sea_reflection = read.sea_reflection;
+  drawn.targets = std::move(read.targets);
+  drawn.clutter = read.clutter;
+  drawn.radar.hop_code = read.radar.hop_code;
+  drawn.radar.pri_jitter_us = read.radar.pri_jitter_us;
+  drawn.radar.polarisation = read.radar.polarisation;
+  return drawn;
 }
 
 fs::path find_mesh(const Scenario& scenario, const TargetSpec& target) {
@@ -167,15 +184,17 @@ fs::path find_mesh(const Scenario& scenario, const TargetSpec& target) {
 
 namespace {
 
-// Those of the scenario itself.
-void add_input_files(const Scenario& scenario, std::vector<InputFile>& files) {
+// Those of the scenario itself. Records an error for each that is missing.
+void add_input_files(const Scenario& scenario, std::vector<InputFile>& files, ErrorList& errors) {
   const auto add_file = [&](const std::string& key, const fs::path& path) {
     const bool known = std::any_of(files.begin(), files.end(),
                                    [&](const InputFile& file) { return file.key == key && file.path == path; });
     if (!known) files.push_back({key, path});
   };
   const auto add = [&](const std::string& name, const std::string& key) {
-    if (!name.empty()) add_file(key, file_of(scenario, name, key));
+    errors.attempt({key}, [&] {
+      if (!name.empty()) add_file(key, file_of(scenario, name, key));
+    });
   };
   if (scenario.radar.hop_code == HopCode::kFile) add(scenario.radar.hop_code_file, "radar.hop_code_file");
   if (scenario.sea.spectrum == SpectrumKind::kTable) add(scenario.sea.table, "sea.table");
@@ -185,7 +204,9 @@ void add_input_files(const Scenario& scenario, std::vector<InputFile>& files) {
     add(target.motion.sections, path + ".motion.sections");
     add(target.motion.file, path + ".motion.file");
     const auto add_material = [&](const std::string& name, const std::string& key) {
-      if (const auto file = find_material_file(name, scenario.folder, place_of(scenario, key))) add_file(key, *file);
+      errors.attempt({key}, [&] {
+        if (const auto file = find_material_file(name, scenario.folder, place_of(scenario, key))) add_file(key, *file);
+      });
     };
     add_material(target.material, path + ".material");
     for (std::size_t i = 0; i < target.part_materials.size(); ++i) {
@@ -197,10 +218,19 @@ void add_input_files(const Scenario& scenario, std::vector<InputFile>& files) {
 }  // namespace
 
 std::vector<InputFile> input_files(const Scenario& scenario) {
+  const ScenarioDocument none;
+  const ScenarioDocument& document = scenario.document ? *scenario.document : none;
   std::vector<InputFile> files;
-  add_input_files(scenario, files);
-  if (!scenario.variations.empty())
-    visit_ends(*scenario.document, scenario, [&](const Scenario& end) { add_input_files(end, files); });
+  ErrorList errors(document);
+  add_input_files(scenario, files, errors);
+  errors.throw_if_any();
+  if (scenario.variations.empty()) return files;
+  visit_ends(document, scenario, errors, [&](const Scenario& end) {
+    ErrorList of_end(document);
+    add_input_files(end, files, of_end);
+    of_end.throw_if_any();
+  });
+  errors.throw_if_any();
   return files;
 }
 

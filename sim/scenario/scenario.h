@@ -13,8 +13,9 @@
 
 namespace seaglint {
 
-// Reads and checks a scenario. Throws InputError "file:line:col: key.path: value ...: bound" for the first error:
-// unknown or duplicate keys, wrong types, values out of range, inconsistencies.
+// Reads and checks a scenario. Throws InputError "file:line:col: key.path: value ...: bound", SeveralInputErrors where
+// there are several: unknown or duplicate keys, wrong types, values out of range, inconsistencies of what is read
+// without error. Invalid YAML is one error.
 Scenario read_scenario(const std::filesystem::path& file, const std::vector<Override>& overrides = {});
 Scenario parse_scenario(const std::string& yaml, const std::string& file_name,
                         const std::vector<Override>& overrides = {});
@@ -40,7 +41,7 @@ struct InputFile {
 };
 
 // All input files, those of every choice of a drawn key too, in the order of the targets; empty for a scenario of
-// points. Throws InputError when one is missing.
+// points. Throws an InputError of all that are missing.
 std::vector<InputFile> input_files(const Scenario& scenario);
 
 }  // namespace seaglint

@@ -173,6 +173,39 @@ TEST(Check, RefusesATypoInAKey) {
   expect_refused({"check", file}, "typo.yaml:3:3: radar.carier_ghz: unknown key: did you mean 'carrier_ghz'?\n");
 }
 
+// One run names them all; exit code 2.
+TEST(Check, RefusesAllMistakesOfAScenarioInOneRunALineEach) {
+  const TemporaryFolder folder;
+  const std::string file = folder.path() / "wrong.yaml";
+  write_file(
+      file, "seaglint: 1\nradar:\n  bandwidth: 25\n  pulses: many\ntargets: {a: {label: 1, mesh: a.glb, scale: -1}}\n");
+  const ProgramResult result = run_program({"check", file, "--set", "seed=x"});
+  EXPECT_EQ(result.code, 2);
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(result.err,
+            "seaglint: " + file + ":3:3: radar.bandwidth: unknown key: did you mean 'bandwidth_mhz'?\n" +
+                "seaglint: " + file + ":4:11: radar.pulses: value 'many': must be a whole number within 1 and 65536\n" +
+                "seaglint: " + file + ":5:46: targets.a.scale: value '-1': must be a number within 0.001 and 1000\n" +
+                "seaglint: --set seed: value 'x': must be a whole number within 0 and 9223372036854775807\n");
+}
+
+TEST(Check, RefusesAllMissingFilesWithTheNamesThatTheyMean) {
+  const TemporaryFolder folder;
+  write_mesh(folder.path() / "hull.obj", make_sphere(1, 2));
+  const std::string file = folder.path() / "files.yaml";
+  write_file(file,
+             "seaglint: 1\ntargets:\n  a: {label: 1, mesh: hul.obj, material: aluminum}\n  b: {label: 0, mesh: "
+             "combatant_144.glb}\n");
+  const ProgramResult result = run_program({"check", file});
+  EXPECT_EQ(result.code, 2);
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 3) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("files.yaml:3:23: targets.a.mesh: value 'hul.obj': no such file"));
+  EXPECT_THAT(result.err, HasSubstr(": did you mean 'hull.obj'?\n"));
+  EXPECT_THAT(result.err, HasSubstr("targets.a.material: value 'aluminum': no such material"));
+  EXPECT_THAT(result.err, HasSubstr("did you mean 'aluminium'?\n"));
+  EXPECT_THAT(result.err, HasSubstr(": did you mean 'assets/combatant_144m.glb'?\n"));
+}
+
 TEST(Check, RefusesANegativeWaveHeight) {
   expect_refused({"check", kPoints, "--set", "sea.significant_wave_height_m=-1"},
                  "--set sea.significant_wave_height_m: value '-1': must be a number, a list or from:to:step, 0 or "

@@ -49,6 +49,13 @@ def test_import_by_another_python_says_which_one_the_module_is_for(tmp_path):
     assert "is not built for Python" in error and "but as _core.cpython-12-none.so" in error
 
 
+def test_all_mistakes_of_a_scenario_are_lines_of_one_error():
+    with pytest.raises(seaglint.InputError) as raised:
+        seaglint.Scenario({"seaglint": 1, "radar": {"bandwidth": 25, "pulses": 0}, "targets": {"a": {"label": 1, "mesh": "a.glb"}}})
+    unknown, pulses = str(raised.value).splitlines()
+    assert "radar.bandwidth: unknown key: did you mean 'bandwidth_mhz'?" in unknown and "radar.pulses: value '0'" in pulses
+
+
 def test_rcs_is_that_of_the_program(tmp_path):
     azimuth, elevation, ghz = np.arange(0, 30, 7.5), [2, 5], [9.5, 10]
     values = seaglint.rcs(REFLECTOR, np.multiply(ghz, 1e9), azimuth, elevation)

@@ -14,6 +14,7 @@
 
 #include "seaglint_version.h"
 #include "sim/core/process/error.h"
+#include "sim/core/process/input_errors.h"
 #include "sim/core/process/printable.h"
 #include "sim/core/process/standard_error.h"
 #include "sim/core/process/standard_output.h"
@@ -85,7 +86,8 @@ int run(CommandContext& context) {
     context.work();
     return end_output();
   } catch (const InputError& error) {
-    return fail(2, error.what());
+    for (const std::string& message : messages_of(error)) fail(2, message);
+    return 2;
   } catch (const std::filesystem::filesystem_error& error) {
     return fail(1, fmt::format("{}: {}", error.path1().string(), error.code().message()));
   } catch (const std::bad_alloc&) {

@@ -58,6 +58,12 @@ void store_signal(const GeneratedSample& made, bool complex_maps, Sample& stored
 
 namespace {
 
+// The scenario; throws an InputError of all files that it names and that are missing.
+Scenario with_files(Scenario scenario) {
+  input_files(scenario);
+  return scenario;
+}
+
 // Throws InputError for an observation whose drawn values contradict each other.
 void check_draws(const Scenario& scenario, const SamplePlan& plan) {
   if (scenario.variations.empty()) return;

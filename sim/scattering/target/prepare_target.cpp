@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <utility>
+#include <vector>
 
 #include "sim/core/process/error.h"
+#include "sim/core/process/input_errors.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/mesh/mesh_diagnostics.h"
 #include "sim/scattering/target/part_materials.h"
@@ -26,7 +28,9 @@ auto at_place(const std::string& place, const Work& work) {
     return work();
   } catch (const InputError& error) {
     if (place.empty()) throw;
-    throw InputError(fmt::format("{}: {}", place, error.what()));
+    std::vector<std::string> messages = messages_of(error);
+    for (std::string& message : messages) message = fmt::format("{}: {}", place, message);
+    throw_input_errors(std::move(messages));
   }
 }
 

@@ -10,6 +10,7 @@
 
 #include "sim/core/process/error.h"
 #include "sim/core/text/words.h"
+#include "sim/scenario/files/error_list.h"
 #include "sim/scenario/files/scenario_document.h"
 
 namespace seaglint {
@@ -60,23 +61,24 @@ std::optional<std::string> same_key(const YamlNode& node) {
   return std::string(trimmed(std::string_view(node.text).substr(5, node.text.size() - 6)));
 }
 
-void find(const ScenarioDocument& document, const YamlNode& node, const std::string& path,
-          std::vector<Variation>& found) {
-  const auto below = [&](const std::string& key) { return path.empty() ? key : path + "." + key; };
-  for (std::size_t i = 0; i < node.items.size(); ++i) {
-    const YamlNode& item = node.items[i];
-    const std::string at = below(std::to_string(i));
-    find(document, item, at, found);
-    if (distribution_of(document, item, at))
-      document.fail(item.location, at, fmt::format("value '{}': a distribution cannot be one of a list", item.text));
-  }
-  for (const YamlEntry& entry : node.entries) {
-    const std::string at = below(entry.key);
-    const YamlNode& value = entry.value;
-    find(document, value, at, found);
+// What a search for drawn keys finds.
+struct Search {
+  const ScenarioDocument& document;
+  ErrorList& errors;
+  std::vector<Variation> found{};
+};
+
+void find(Search& search, const YamlNode& node, const std::string& path);
+
+// The variation of an entry of a map, if it is one.
+void find_entry(Search& search, const YamlEntry& entry, const std::string& at) {
+  const ScenarioDocument& document = search.document;
+  const YamlNode& value = entry.value;
+  find(search, value, at);
+  search.errors.attempt({at}, [&] {
     const std::optional<std::string> same = same_key(value);
     std::optional<Distribution> distribution = distribution_of(document, value, at);
-    if (!distribution && !same) continue;
+    if (!distribution && !same) return;
     if (same == at) document.fail(value.location, at, fmt::format("value '{}': {}", value.text, kOtherKey));
     const std::optional<DrawnPer> per = drawn_per(at);
     if (!per) {
@@ -85,8 +87,23 @@ void find(const ScenarioDocument& document, const YamlNode& node, const std::str
                                 "sea_reflection, clutter, targets (without label and role), and as {}",
                                 value.text, fmt::join(kOfRadar, ", ")));
     }
-    found.push_back({at, distribution.value_or(Distribution{}), *per, same.value_or(at)});
+    search.found.push_back({at, distribution.value_or(Distribution{}), *per, same.value_or(at)});
+  });
+}
+
+void find(Search& search, const YamlNode& node, const std::string& path) {
+  const ScenarioDocument& document = search.document;
+  const auto below = [&](const std::string& key) { return path.empty() ? key : path + "." + key; };
+  for (std::size_t i = 0; i < node.items.size(); ++i) {
+    const YamlNode& item = node.items[i];
+    const std::string at = below(std::to_string(i));
+    find(search, item, at);
+    search.errors.attempt({at}, [&] {
+      if (distribution_of(document, item, at))
+        document.fail(item.location, at, fmt::format("value '{}': a distribution cannot be one of a list", item.text));
+    });
   }
+  for (const YamlEntry& entry : node.entries) find_entry(search, entry, below(entry.key));
 }
 
 // The scalar at a path through maps; null where there is none.
@@ -117,9 +134,12 @@ std::string Variation::text() const {
 }
 
 void copy_fixed_values(ScenarioDocument& document) {
-  std::vector<Variation> found;
-  find(document, document.root, "", found);
+  ErrorList errors(document);  // find_variations() finds them too
+  Search search{document, errors};
+  find(search, document.root, "");
+  const std::vector<Variation>& found = search.found;
   for (const Variation& variation : found) {
+    if (errors.is_unusable(variation.drawn_as)) continue;
     const bool is_drawn = std::ranges::find(found, variation.drawn_as, &Variation::key_path) != found.end();
     const YamlNode* fixed = is_drawn ? nullptr : scalar_at(document.root, variation.drawn_as);
     if (fixed == nullptr) continue;
@@ -129,19 +149,27 @@ void copy_fixed_values(ScenarioDocument& document) {
   }
 }
 
-std::vector<Variation> find_variations(const ScenarioDocument& document) {
-  std::vector<Variation> found;
-  find(document, document.root, "", found);
-  std::ranges::sort(found, {}, &Variation::key_path);
-  for (Variation& variation : found) {
-    if (variation.drawn_as == variation.key_path) continue;
-    const auto other = std::ranges::find(found, variation.drawn_as, &Variation::key_path);
-    if (other == found.end() || other->drawn_as != other->key_path || other->per != variation.per) {
-      document.fail_at(variation.key_path, kOtherKey);
+std::vector<Variation> find_variations(const ScenarioDocument& document, ErrorList& errors) {
+  Search search{document, errors};
+  find(search, document.root, "");
+  const std::vector<Variation>& found = search.found;
+  std::vector<Variation> variations;
+  for (Variation variation : found) {
+    if (variation.drawn_as != variation.key_path) {
+      const auto other = std::ranges::find(found, variation.drawn_as, &Variation::key_path);
+      const bool is_drawn = other != found.end() && other->drawn_as == other->key_path && other->per == variation.per;
+      if (!is_drawn && errors.is_unusable(variation.drawn_as)) {
+        errors.exclude(variation.key_path);
+      } else if (!is_drawn) {
+        errors.attempt({variation.key_path}, [&] { document.fail_at(variation.key_path, kOtherKey); });
+      }
+      if (!is_drawn) continue;
+      variation.distribution = other->distribution;
     }
-    variation.distribution = other->distribution;
+    variations.push_back(std::move(variation));
   }
-  return found;
+  std::ranges::sort(variations, {}, &Variation::key_path);
+  return variations;
 }
 
 std::string drawn_value(const Variation& variation, std::uint64_t seed, const DrawPlace& place) {

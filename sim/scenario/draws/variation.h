@@ -11,6 +11,7 @@
 
 namespace seaglint {
 
+class ErrorList;
 struct ScenarioDocument;
 
 // How often a value is drawn: keys of `sea`, `sea_reflection` and `targets` once per sea realisation; those of `view`
@@ -36,14 +37,13 @@ struct DrawPlace {
   std::uint64_t map = 0;
 };
 
-// Gives keys that are same(KEY) the value of KEY where that is written and not drawn. Throws InputError as
-// find_variations() does.
+// Gives keys that are same(KEY) the value of KEY where that is written and not drawn.
 void copy_fixed_values(ScenarioDocument& document);
 
 // The drawn keys of a document, by their paths. In the place of a distribution, same(KEY) gives a key the draws of KEY,
-// which is drawn as often: twins with one layout in each sea. Throws InputError with the place for a wrong
-// distribution, for a key that must be common to all maps, and for same() of another key.
-std::vector<Variation> find_variations(const ScenarioDocument& document);
+// which is drawn as often: twins with one layout in each sea. Records an error for a wrong distribution, for a key that
+// must be common to all maps, and for same() of another key; such keys are not among the result.
+std::vector<Variation> find_variations(const ScenarioDocument& document, ErrorList& errors);
 
 // The value of a variation at a place: keyed by (seed, kDraw, drawn_as and number), independent of all other keys.
 std::string drawn_value(const Variation& variation, std::uint64_t seed, const DrawPlace& place);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -52,6 +53,10 @@ void remove_alternatives(YamlNode& section, const std::string& section_path, con
 void apply_override(ScenarioDocument& document, const Override& override_value) {
   require_utf8(override_value);
   const std::string name = "--set " + override_value.key_path;
+  const std::vector<std::string> keys = split_path(override_value.key_path);
+  for (const std::string& key : keys) {
+    if (key.empty()) throw InputError(fmt::format("{}: must be key.path=value", name));
+  }
   const int index = static_cast<int>(document.override_paths.size());
   document.override_paths.push_back(override_value.key_path);
   YamlNode value;
@@ -63,8 +68,7 @@ void apply_override(ScenarioDocument& document, const Override& override_value) 
   mark_as_override(value, index);
 
   YamlNode* node = &document.root;
-  for (const std::string& key : split_path(override_value.key_path)) {
-    if (key.empty()) throw InputError(fmt::format("{}: must be key.path=value", name));
+  for (const std::string& key : keys) {
     if (node->kind == YamlNode::Kind::kList) {
       const std::optional<std::uint64_t> position = parse_natural(key);
       if (!position || *position >= node->items.size()) {

@@ -5,8 +5,6 @@
 
 #include <algorithm>
 
-#include "sim/core/process/error.h"
-
 namespace seaglint {
 
 namespace {
@@ -54,12 +52,16 @@ std::string ScenarioDocument::place(const Location& location, const std::string&
   return key_path == override_path ? "--set " + override_path : fmt::format("--set {}: {}", override_path, key_path);
 }
 
+Location ScenarioDocument::location_of(const std::string& key_path) const {
+  return closest(root, key_path).node->location;
+}
+
 std::string ScenarioDocument::place_of(const std::string& key_path) const {
-  return place(closest(root, key_path).node->location, key_path);
+  return place(location_of(key_path), key_path);
 }
 
 void ScenarioDocument::fail(const Location& location, const std::string& key_path, const std::string& what) const {
-  throw InputError(fmt::format("{}: {}", place(location, key_path), what));
+  throw PlacedError(location, fmt::format("{}: {}", place(location, key_path), what));
 }
 
 void ScenarioDocument::fail_at(const std::string& key_path, const std::string& what) const {
