@@ -16,10 +16,17 @@ double echo_duration_us(const RadarSpec& radar, double window_m) {
 
 namespace {
 
-// Peak period of a wind sea by a rule. DNV: 3.96 sqrt(Hs), within the validity of JONSWAP by DNV-RP-C205, 3.5.5.5, 3.6
-// to 5 sqrt(Hs). Fetch: f U/g = 3.5 (g F/U^2)^-0.33 (Hasselmann et al. 1973), not limited by the fully developed sea.
+// Peak periods of a wind sea: given, by its steepness, or by a rule. DNV: 3.96 sqrt(Hs), within the validity of JONSWAP
+// by DNV-RP-C205, 3.5.5.5, 3.6 to 5 sqrt(Hs). Fetch: f U/g = 3.5 (g F/U^2)^-0.33 (Hasselmann et al. 1973), not limited
+// by the fully developed sea.
 Sweep peak_periods(const SeaSpec& spec, double height) {
   if (spec.table_values) return {2 * kPi / spec.table_values->peak_omega()};
+  if (!spec.steepness.empty()) {
+    Sweep periods;  // of the steepness Sp = 2 pi Hs / (g Tp^2)
+    for (const double steepness : spec.steepness)
+      periods.push_back(std::sqrt(2 * kPi * height / (kGravity * steepness)));
+    return periods;
+  }
   switch (spec.period_rule) {
     case PeakPeriod::kDnvWindSea: return {3.96 * std::sqrt(height)};
     case PeakPeriod::kWindAndFetch: {

@@ -13,7 +13,7 @@ namespace seaglint {
 // Duration of the echo of a range window of full width window_m, pulse included, us; it must end before the next pulse.
 double echo_duration_us(const RadarSpec& radar, double window_m);
 
-// All sea states of the sweeps: significant wave height slowest, then peak period, gamma, propagation.
+// All sea states of the sweeps: significant wave height slowest, then peak period (or steepness), gamma, propagation.
 std::vector<SeaState> sea_states(const SeaSpec& spec);
 
 // Significant wave height of wind sea and swell together, m.

@@ -147,8 +147,8 @@ void check_spectrum(const SeaSpec& sea, const ScenarioDocument& document) {
   only("table", is_table, "spectrum: table");
   only("table_time", is_table, "spectrum: table");
   only("peak_period_s", !is_table, "spectrum: jonswap or bretschneider; a table has its own peak");
-  for (const char* mean : {"energy_period_s", "zero_crossing_period_s"})
-    only(mean, !is_table, "spectrum: jonswap or bretschneider; a table has its own peak");
+  for (const char* other : {"energy_period_s", "zero_crossing_period_s", "steepness"})
+    only(other, !is_table, "spectrum: jonswap or bretschneider; a table has its own peak");
   only("gamma", is_jonswap, "spectrum: jonswap");
   only("normalisation", is_jonswap, "spectrum: jonswap");
   only("wind", sea.period_rule == PeakPeriod::kWindAndFetch, "peak_period_s: wind_and_fetch");
@@ -180,6 +180,17 @@ void check_mean_period(const std::string& section, bool energy, bool zero_crossi
       fmt::format("its peak period is {:.4g} s: must be within {} and {}", peak_period_s, kShortest, kLongest));
 }
 
+// A steepness gives a peak period within the bounds of the key.
+void check_steepness(const SeaState& state, const ScenarioDocument& document) {
+  if (state.significant_wave_height_m == 0)
+    document.fail_at("sea.significant_wave_height_m", "must be greater than 0 with sea.steepness");
+  if (state.peak_period_s < 0.5 || state.peak_period_s > 40) {
+    document.fail_at("sea.steepness",
+                     fmt::format("gives a peak period of {:.4g} s at {:.4g} m: must be within 0.5 and 40 s",
+                                 state.peak_period_s, state.significant_wave_height_m));
+  }
+}
+
 void check_sea(const SeaSpec& sea, const std::vector<SeaState>& states, const ScenarioDocument& document) {
   for (const SeaState& state : states) {
     const double height = state.significant_wave_height_m;
@@ -190,6 +201,7 @@ void check_sea(const SeaSpec& sea, const std::vector<SeaState>& states, const Sc
     if (sea.period_rule == PeakPeriod::kDnvWindSea && height == 0) {
       document.fail_at("sea.significant_wave_height_m", "must be greater than 0 with peak_period_s: dnv_wind_sea");
     }
+    if (!sea.steepness.empty()) check_steepness(state, document);
     const WaveSystemState& swell = state.swell;
     check_breaking("sea.significant_wave_height_m", height, state.peak_period_s, state.depth_m, document);
     check_breaking("sea.swell.significant_wave_height_m", swell.significant_wave_height_m, swell.peak_period_s,
@@ -389,9 +401,9 @@ void check_case_count(const Scenario& scenario, const ScenarioDocument& document
   constexpr double kMaxMaps = 1e9;
   const SeaSpec& sea = scenario.sea;
   double cases = 1;
-  for (const Sweep* sweep :
-       {&scenario.view.azimuth_deg, &scenario.view.elevation_deg, &sea.significant_wave_height_m, &sea.peak_period_s,
-        &sea.energy_period_s, &sea.zero_crossing_period_s, &sea.gamma, &sea.propagation_deg, &sea.coming_from_deg}) {
+  for (const Sweep* sweep : {&scenario.view.azimuth_deg, &scenario.view.elevation_deg, &sea.significant_wave_height_m,
+                             &sea.peak_period_s, &sea.energy_period_s, &sea.zero_crossing_period_s, &sea.steepness,
+                             &sea.gamma, &sea.propagation_deg, &sea.coming_from_deg}) {
     cases *= std::max(1.0, static_cast<double>(sweep->size()));
   }
   if (cases > kMaxCases)

@@ -115,14 +115,23 @@ void visit(SeaSpec& spec, FieldVisitor& v) {
   visit_choice(v, "spectrum", spec.spectrum, {"jonswap", "bretschneider", "table"});
   if (v.optional("table", !spec.table.empty())) v.text("table", spec.table);
   if (v.optional("table_time", !spec.table_time.empty())) v.text("table_time", spec.table_time);
-  visit_sweep(v, "significant_wave_height_m", spec.significant_wave_height_m, kWaveHeights, spec.height_rule,
-              {"from_table"});
-  const bool has_mean_period = !spec.energy_period_s.empty() || !spec.zero_crossing_period_s.empty();
-  if (v.optional("peak_period_s", spec.spectrum != SpectrumKind::kTable && !has_mean_period))
+  const bool is_scatter = !spec.scatter_diagram.empty();
+  if (v.optional("scatter_diagram", is_scatter)) v.text("scatter_diagram", spec.scatter_diagram);
+  if (v.optional("significant_wave_height_m", !is_scatter)) {
+    visit_sweep(v, "significant_wave_height_m", spec.significant_wave_height_m, kWaveHeights, spec.height_rule,
+                {"from_table"});
+  }
+  if (v.optional("steepness", !spec.steepness.empty())) v.sweep("steepness", spec.steepness, within(1e-4, 0.14));
+  const bool follows =
+      !spec.energy_period_s.empty() || !spec.zero_crossing_period_s.empty() || !spec.steepness.empty() || is_scatter;
+  if (v.optional("peak_period_s", spec.spectrum != SpectrumKind::kTable && !follows)) {
     visit_sweep(v, "peak_period_s", spec.peak_period_s, kPeakPeriods, spec.period_rule,
                 {"dnv_wind_sea", "wind_and_fetch"});
-  visit_alternative(v, "energy_period_s", spec.energy_period_s, kMeanPeriods);
-  visit_alternative(v, "zero_crossing_period_s", spec.zero_crossing_period_s, kMeanPeriods);
+  }
+  for (const auto& [key, periods] : {std::pair{"energy_period_s", &spec.energy_period_s},
+                                     {"zero_crossing_period_s", &spec.zero_crossing_period_s}}) {
+    if (v.optional(key, !periods->empty() && !is_scatter)) v.sweep(key, *periods, kMeanPeriods);
+  }
   if (v.optional("wind", spec.period_rule == PeakPeriod::kWindAndFetch)) {
     v.section("wind", [&](FieldVisitor& wind) { visit(spec.wind, wind); });
   }

@@ -371,10 +371,10 @@ class Reader : public FieldVisitor {
     if (renamed || near) needs_are_known_ = false;
     if (renamed) document().fail(entry.location, path, *renamed);
     const std::string lookalike = lookalike_in(entry.key);
-    document().fail(entry.location, path,
-                    "unknown key: " + (lookalike.empty()
-                                           ? suggestion(entry.key, allowed.keys)
-                                           : fmt::format("it has {}; keys are indented by blanks", lookalike)));
+    document().fail(
+        entry.location, path,
+        "unknown key: " + (lookalike.empty() ? suggestion(entry.key, allowed.keys)
+                                             : fmt::format("it has {}; keys are indented by blanks", lookalike)));
   }
 
   // Names become parts of file names and of key paths.

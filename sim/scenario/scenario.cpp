@@ -25,6 +25,7 @@
 #include "sim/scenario/material_file.h"
 #include "sim/scenario/material_spec.h"
 #include "sim/scenario/reader.h"
+#include "sim/scenario/scatter_seas.h"
 
 namespace seaglint {
 
@@ -101,6 +102,7 @@ void visit_ends(const ScenarioDocument& document, const Scenario& scenario, Erro
   const std::vector<std::string> middle = middles(scenario.variations);
   for (std::size_t i = 0; i < middle.size(); ++i) {
     const Variation& variation = scenario.variations[i];
+    if (!variation.is_written()) continue;  // check_scatter() reads pairs that occur
     for (const std::string& end : variation.distribution.ends()) {
       std::vector<std::string> values = middle;
       values[i] = end;
@@ -122,6 +124,26 @@ void visit_ends(const ScenarioDocument& document, const Scenario& scenario, Erro
   }
 }
 
+// Reads the scenario with the extreme pairs of each height of its diagram, the other drawn keys in their middles.
+void check_scatter(const ScenarioDocument& document, const Scenario& scenario, const ScatterDiagram& diagram,
+                   ErrorList& errors) {
+  for (const SeaPair& pair : extreme_pairs(diagram)) {
+    std::vector<std::string> values = middles(scenario.variations);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const Distribution& distribution = scenario.variations[i].distribution;
+      if (distribution.kind == DistributionKind::kScatter)
+        values[i] = fmt::format("{}", distribution.is_period ? pair.period_s : pair.significant_wave_height_m);
+    }
+    ErrorList of_pair(document);
+    read_values(with_values(document, scenario.variations, values), of_pair, &scenario);
+    const bool is_read = errors.attempt({kScatterKey}, [&] {
+      of_pair.throw_if_any(fmt::format("; where sea.scatter_diagram has waves of {:.6g} m with {} {:.6g}",
+                                       pair.significant_wave_height_m, diagram.period_key, pair.period_s));
+    });
+    if (!is_read) break;
+  }
+}
+
 }  // namespace
 
 Scenario read_scenario(const fs::path& file, const std::vector<Override>& overrides) {
@@ -136,6 +158,11 @@ Scenario parse_scenario(const std::string& yaml, const std::string& file_name, c
     errors.attempt({override_value.key_path}, [&] { apply_override(document, override_value); });
   copy_fixed_values(document);
   std::vector<Variation> variations = find_variations(document, errors);
+  const std::shared_ptr<ScatterDiagram> diagram = find_scatter_diagram(document, errors);
+  if (diagram && errors.check({kScatterKey}, [&] { exclude_breaking(document, variations, *diagram); })) {
+    for (Variation& of_pair : scatter_variations(diagram)) variations.push_back(std::move(of_pair));
+    std::ranges::sort(variations, {}, &Variation::key_path);
+  }
   Scenario scenario = read_values(with_values(document, variations, middles(variations)), errors);
   errors.throw_if_any();
   scenario.document = read;
@@ -148,6 +175,7 @@ Scenario parse_scenario(const std::string& yaml, const std::string& file_name, c
   };
   collect(scenario);
   visit_ends(document, scenario, errors, collect);
+  if (diagram) check_scatter(document, scenario, *diagram, errors);
   errors.check({"targets"}, [&] { check_parts(scenario, companions, document); });
   errors.throw_if_any();
   return scenario;
@@ -198,6 +226,7 @@ void add_input_files(const Scenario& scenario, std::vector<InputFile>& files, Er
   };
   if (scenario.radar.hop_code == HopCode::kFile) add(scenario.radar.hop_code_file, "radar.hop_code_file");
   if (scenario.sea.spectrum == SpectrumKind::kTable) add(scenario.sea.table, "sea.table");
+  add(scenario.sea.scatter_diagram, kScatterKey);
   for (const TargetSpec& target : scenario.targets) {
     const std::string path = "targets." + target.name;
     add(target.mesh, path + ".mesh");

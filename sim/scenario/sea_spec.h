@@ -60,6 +60,11 @@ struct SeaSpec {
   // In the place of peak_period_s: the mean periods Te = 2 pi m_-1/m_0 and Tz = 2 pi sqrt(m_0/m_2) of the whole
   // spectrum without a cut-off, 0.3 <= x <= 40; empty: not given. The peak period that they give is within its bounds.
   Sweep energy_period_s, zero_crossing_period_s;
+  // In the place of peak_period_s: Sp = 2 pi Hs / (g Tp^2) (DNV-RP-C205, 3.5.4.1), with the deep-water wavelength at
+  // any depth, 1e-4 <= x <= 0.14; empty: not given.
+  Sweep steepness;
+  // In the place of wave height and period: file of pairs of them, of which each sea realisation has one.
+  std::string scatter_diagram;
   WindSpec wind;
   SpectrumKind spectrum = SpectrumKind::kJonswap;
   std::string table;       // file of spectrum: table, in the scenario's folder or the working directory

@@ -107,7 +107,7 @@ class ValueVisitor : public FieldVisitor {
   // Null for a key that is not drawn.
   const Variation* variation_of(const char* key) const {
     const auto drawn = std::ranges::find(variations_, path_of(key), &Variation::key_path);
-    return drawn == variations_.end() ? nullptr : &*drawn;
+    return drawn == variations_.end() || !drawn->is_written() ? nullptr : &*drawn;
   }
 
   const std::vector<Variation>& variations_;

@@ -27,6 +27,7 @@ struct NamedReader {
 const std::vector<NamedReader> kReaders = {{"numbers", fuzz_numbers},
                                            {"spectrum", fuzz_spectrum},
                                            {"hop_code", fuzz_hop_code},
+                                           {"scatter", fuzz_scatter},
                                            {"series", fuzz_series},
                                            {"sections", fuzz_sections},
                                            {"veres", fuzz_veres},

@@ -12,7 +12,8 @@ namespace seaglint {
 void fuzz_numbers(const std::string& bytes);   // a number, an integer or a range of the command line
 void fuzz_spectrum(const std::string& bytes);  // wave spectrum
 void fuzz_hop_code(const std::string& bytes);
-void fuzz_series(const std::string& bytes);  // motion: own, DualSPHysics, OpenFAST
+void fuzz_scatter(const std::string& bytes);  // scatter diagram
+void fuzz_series(const std::string& bytes);   // motion: own, DualSPHysics, OpenFAST
 void fuzz_sections(const std::string& bytes);
 void fuzz_veres(const std::string& bytes);
 void fuzz_wamit(const std::string& bytes);

@@ -8,6 +8,7 @@
 #include "sim/motion/ship/rao_files.h"
 #include "sim/motion/strip_theory/hull_sections.h"
 #include "sim/scenario/files/hop_code_file.h"
+#include "sim/scenario/files/scatter_diagram.h"
 #include "sim/scenario/files/spectrum_table.h"
 #include "tests/fuzz/readers.h"
 #include "tests/fuzz/refusal.h"
@@ -52,6 +53,17 @@ void fuzz_hop_code(const std::string& bytes) {
     constexpr int kCarriers = 16;
     for (const int carrier : parse_hop_code(bytes, "code.txt", 4, kCarriers))
       SEAGLINT_CHECK(carrier >= 0 && carrier < kCarriers, "a carrier that is none");
+  });
+}
+
+void fuzz_scatter(const std::string& bytes) {
+  is_refused([&] {
+    const ScatterDiagram diagram = parse_scatter_diagram(bytes, "seas.csv");
+    Random random({1, Stream::kTest, 1});
+    const SeaPair pair = diagram.draw(random), likeliest = diagram.likeliest();
+    SEAGLINT_CHECK(pair.significant_wave_height_m > 0 && pair.period_s >= 0 && likeliest.period_s >= 0 &&
+                       std::isfinite(pair.significant_wave_height_m + pair.period_s + likeliest.period_s),
+                   "no sea");
   });
 }
 

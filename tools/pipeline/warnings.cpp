@@ -107,6 +107,13 @@ std::vector<std::string> sea_warnings(const Scenario& scenario, std::span<const 
   std::vector<std::string> lines;
   add_doubt(lines, "sea.components", scenario.sea.components, wind_sea);
   add_doubt(lines, "sea.swell.components", scenario.sea.swell.components, swell);
+  for (const Variation& variation : scenario.variations) {
+    const ScatterDiagram* diagram = variation.distribution.diagram.get();
+    if (diagram == nullptr || variation.distribution.is_period || diagram->excluded_cells == 0) continue;
+    lines.push_back(fmt::format(
+        "{}: the seas of {} of {} cells, {:.2g} % of the counts, may break (Hs above L/7): not drawn", kScatterKey,
+        diagram->excluded_cells, diagram->excluded_cells + diagram->cells.size(), 100 * diagram->excluded_fraction));
+  }
   return lines;
 }
 

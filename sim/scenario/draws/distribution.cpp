@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "sim/core/numbers/reproducible_functions.h"
@@ -63,6 +64,7 @@ bool is_valid(const Distribution& d) {
              std::set<std::string>(d.values.begin(), d.values.end()).size() == d.values.size() &&
              std::all_of(d.values.begin(), d.values.end(),
                          [](const std::string& value) { return value.size() <= kMaxWordBytes; });
+    case DistributionKind::kScatter: break;
   }
   return false;
 }
@@ -72,9 +74,14 @@ double between_logarithmically(double low, double high, double u) {
   return std::clamp(low * reproducible_exp(u * reproducible_log(high / low)), low, high);
 }
 
+std::string of_pair(const SeaPair& pair, bool is_period) {
+  return fmt::format("{}", is_period ? pair.period_s : pair.significant_wave_height_m);
+}
+
 }  // namespace
 
 std::string Distribution::text() const {
+  if (kind == DistributionKind::kScatter) return kScatterKey;
   return fmt::format("{}({})", kNames[static_cast<std::size_t>(kind)], fmt::join(values, ", "));
 }
 
@@ -99,6 +106,7 @@ std::string Distribution::draw(Random& random) const {
       } while (numbers.size() == 4 && (value < numbers[2] || value > numbers[3]));
       return fmt::format("{}", value);
     }
+    case DistributionKind::kScatter: return of_pair(diagram->draw(random), is_period);
     case DistributionKind::kChoice: break;
   }
   return values[random.below(static_cast<std::uint32_t>(values.size()))];
@@ -111,6 +119,7 @@ std::string Distribution::middle() const {
     case DistributionKind::kIntegers: return fmt::format("{}", std::floor(0.5 * (numbers[0] + numbers[1])));
     case DistributionKind::kNormal:
       return fmt::format("{}", numbers.size() == 4 ? std::clamp(numbers[0], numbers[2], numbers[3]) : numbers[0]);
+    case DistributionKind::kScatter: return of_pair(diagram->likeliest(), is_period);
     case DistributionKind::kChoice: break;
   }
   return values.front();
@@ -118,6 +127,14 @@ std::string Distribution::middle() const {
 
 std::vector<std::string> Distribution::ends() const {
   if (kind == DistributionKind::kChoice) return values;
+  if (kind == DistributionKind::kScatter) {
+    double lowest = std::numeric_limits<double>::infinity(), highest = 0;
+    for (const ScatterCell& cell : diagram->cells) {
+      lowest = std::min(lowest, is_period ? cell.lowest_period_s : cell.lowest_height_m);
+      highest = std::max(highest, is_period ? cell.highest_period_s : cell.highest_height_m);
+    }
+    return {fmt::format("{}", lowest), fmt::format("{}", highest)};
+  }
   if (kind != DistributionKind::kNormal) return {values[0], values[1]};
   if (numbers.size() == 4) return {values[2], values[3]};
   return {fmt::format("{}", numbers[0] - kNormalDeviations * numbers[1]),

@@ -37,7 +37,7 @@ std::optional<DrawnPer> drawn_per(const std::string& path) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
   const bool is_class = path.ends_with(".label") || path.ends_with(".role");  // of the target, in all maps
-  if (contains(kPerSea, section) && !is_class) return DrawnPer::kSea;
+  if (contains(kPerSea, section) && !is_class && path != kScatterKey) return DrawnPer::kSea;
   if (section == "view" || contains(kOfRadar, path)) return DrawnPer::kObservation;
   if (section == "clutter") return DrawnPer::kMap;
   return std::nullopt;
@@ -123,6 +123,17 @@ YamlNode& node_at(YamlNode& root, const std::string& path) {
   return *node;
 }
 
+// Adds a key of the section of `path`, with the place of `path` in messages.
+void add_beside(YamlNode& root, const std::string& path, const std::string& key_path, const std::string& value) {
+  const std::size_t dot = path.rfind('.');
+  const Location location = node_at(root, path).location;
+  YamlNode node;
+  node.kind = YamlNode::Kind::kScalar;
+  node.location = location;
+  node.text = value;
+  node_at(root, path.substr(0, dot)).entries.push_back({key_path.substr(key_path.rfind('.') + 1), location, node});
+}
+
 }  // namespace
 
 const char* name(DrawnPer per) {
@@ -130,7 +141,7 @@ const char* name(DrawnPer per) {
 }
 
 std::string Variation::text() const {
-  return drawn_as == key_path ? distribution.text() : fmt::format("same({})", drawn_as);
+  return drawn_as == key_path || !is_written() ? distribution.text() : fmt::format("same({})", drawn_as);
 }
 
 void copy_fixed_values(ScenarioDocument& document) {
@@ -172,6 +183,20 @@ std::vector<Variation> find_variations(const ScenarioDocument& document, ErrorLi
   return variations;
 }
 
+std::vector<Variation> scatter_variations(const std::shared_ptr<const ScatterDiagram>& diagram) {
+  std::vector<Variation> variations;
+  for (const bool is_period : {false, true}) {
+    Variation variation;
+    variation.key_path = "sea." + (is_period ? diagram->period_key : "significant_wave_height_m");
+    variation.distribution.kind = DistributionKind::kScatter;
+    variation.distribution.diagram = diagram;
+    variation.distribution.is_period = is_period;
+    variation.drawn_as = kScatterKey;
+    variations.push_back(std::move(variation));
+  }
+  return variations;
+}
+
 std::string drawn_value(const Variation& variation, std::uint64_t seed, const DrawPlace& place) {
   const std::uint64_t number = variation.per == DrawnPer::kSea           ? place.sea
                                : variation.per == DrawnPer::kObservation ? place.observation
@@ -184,6 +209,10 @@ ScenarioDocument with_values(const ScenarioDocument& document, const std::vector
                              const std::vector<std::string>& values) {
   ScenarioDocument copy = document;
   for (std::size_t i = 0; i < variations.size(); ++i) {
+    if (!variations[i].is_written()) {
+      add_beside(copy.root, kScatterKey, variations[i].key_path, values[i]);
+      continue;
+    }
     copy.drawn_keys.push_back(variations[i].key_path);
     YamlNode& node = node_at(copy.root, variations[i].key_path);
     node.text = values[i];

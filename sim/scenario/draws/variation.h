@@ -4,6 +4,7 @@
 // Keys of a scenario whose values are drawn from distributions, and the scenarios with the drawn values.
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,8 @@ struct Variation {
 
   // As written in a scenario, with commas.
   std::string text() const;
+  // False for the two values of sea.scatter_diagram, whose keys are not in the scenario.
+  bool is_written() const { return distribution.kind != DistributionKind::kScatter; }
 };
 
 // Numbers of a sea realisation, sea_key(), of an observation, and of a map of an observation.
@@ -45,10 +48,13 @@ void copy_fixed_values(ScenarioDocument& document);
 // must be common to all maps, and for same() of another key; such keys are not among the result.
 std::vector<Variation> find_variations(const ScenarioDocument& document, ErrorList& errors);
 
+// Wave height and period drawn from a diagram, both from the same random numbers.
+std::vector<Variation> scatter_variations(const std::shared_ptr<const ScatterDiagram>& diagram);
+
 // The value of a variation at a place: keyed by (seed, kDraw, drawn_as and number), independent of all other keys.
 std::string drawn_value(const Variation& variation, std::uint64_t seed, const DrawPlace& place);
 
-// The document with values[i] in place of variations[i].
+// The document with values[i] in place of variations[i]; keys that are not written are added to their sections.
 ScenarioDocument with_values(const ScenarioDocument& document, const std::vector<Variation>& variations,
                              const std::vector<std::string>& values);
 

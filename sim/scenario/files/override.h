@@ -13,13 +13,13 @@ struct ScenarioDocument;
 // Keys of a section that state one quantity, of which at most one is given. --set of one replaces another.
 struct Alternatives {
   const char* section;
-  std::string_view keys[3];  // empty: fewer
+  std::string_view keys[4];  // empty: fewer
 };
 inline constexpr Alternatives kAlternatives[] = {
-    {"sea", {"peak_period_s", "energy_period_s", "zero_crossing_period_s"}},
-    {"sea", {"propagation_deg", "coming_from_deg", ""}},
+    {"sea", {"peak_period_s", "energy_period_s", "zero_crossing_period_s", "steepness"}},
+    {"sea", {"propagation_deg", "coming_from_deg"}},
     {"sea.swell", {"peak_period_s", "energy_period_s", "zero_crossing_period_s"}},
-    {"sea.swell", {"propagation_deg", "coming_from_deg", ""}},
+    {"sea.swell", {"propagation_deg", "coming_from_deg"}},
 };
 
 // `key.path=value` of --set; the value is YAML and is checked like the file.
