@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <utility>
 #include <vector>
 
@@ -395,22 +396,36 @@ void check_directions(const std::string& key, const Sweep& values_deg, const Sce
   }
 }
 
-// Product of all sweep lengths in floating point, which does not overflow.
+constexpr double kMaxCases = 1e6;
+
+// Products of sweep lengths in floating point, which does not overflow.
+double product_of_lengths(std::initializer_list<const Sweep*> sweeps) {
+  double product = 1;
+  for (const Sweep* sweep : sweeps) product *= std::max(1.0, static_cast<double>(sweep->size()));
+  return product;
+}
+
+double sea_count(const SeaSpec& sea) {
+  return product_of_lengths(
+      {&sea.significant_wave_height_m, &sea.peak_period_s, &sea.energy_period_s, &sea.zero_crossing_period_s,
+       &sea.steepness, &sea.gamma, &sea.propagation_deg, &sea.coming_from_deg});
+}
+
+double case_count(const Scenario& scenario) {
+  return sea_count(scenario.sea) * product_of_lengths({&scenario.view.azimuth_deg, &scenario.view.elevation_deg});
+}
+
 void check_case_count(const Scenario& scenario, const ScenarioDocument& document) {
-  constexpr double kMaxCases = 1e6;
-  constexpr double kMaxMaps = 1e9;
-  const SeaSpec& sea = scenario.sea;
-  double cases = 1;
-  for (const Sweep* sweep : {&scenario.view.azimuth_deg, &scenario.view.elevation_deg, &sea.significant_wave_height_m,
-                             &sea.peak_period_s, &sea.energy_period_s, &sea.zero_crossing_period_s, &sea.steepness,
-                             &sea.gamma, &sea.propagation_deg, &sea.coming_from_deg}) {
-    cases *= std::max(1.0, static_cast<double>(sweep->size()));
-  }
+  const double cases = case_count(scenario);
   if (cases > kMaxCases)
     document.fail_at("view.azimuth_deg",
                      fmt::format("the sweeps of view and sea span {} cases: must be at most {}", cases, kMaxCases));
+}
+
+void check_map_count(const Scenario& scenario, const ScenarioDocument& document) {
+  constexpr double kMaxMaps = 1e9;
   const auto classes = std::ranges::count(scenario.targets, TargetRole::kClass, &TargetSpec::role);
-  const double maps = cases * scenario.dataset.maps_per_case * static_cast<double>(classes);
+  const double maps = case_count(scenario) * scenario.dataset.maps_per_case * static_cast<double>(classes);
   if (maps > kMaxMaps)
     document.fail_at("dataset.maps_per_case", fmt::format("makes {} maps: must be at most {} in all", maps, kMaxMaps));
 }
@@ -431,12 +446,13 @@ void check_contradictions(const Scenario& scenario, const ScenarioDocument& docu
   check_pulse_train(scenario.radar, document, errors);
   errors.check({"map.range_span_m", "radar.pulse_width_us", "radar.pri_us"}, [&] { check_window(scenario, document); });
   errors.check({"view.elevation_deg", "clutter"}, [&] { check_grazing(scenario, document); });
-  errors.check({"view", "sea", "targets", "dataset.maps_per_case"}, [&] { check_case_count(scenario, document); });
+  errors.check({"view", "sea"}, [&] { check_case_count(scenario, document); });
+  errors.check({"view", "sea", "targets", "dataset.maps_per_case"}, [&] { check_map_count(scenario, document); });
   errors.check({"view.azimuth_deg"},
                [&] { check_directions("view.azimuth_deg", scenario.view.azimuth_deg, document); });
   errors.check({"sea"}, [&] { check_alternatives(document); });
   errors.check({"sea"}, [&] { check_spectrum(scenario.sea, document); });
-  if (!errors.concerns("sea") && !errors.concerns("view")) {  // their sweeps have few values
+  if (!errors.concerns("sea") && sea_count(scenario.sea) <= kMaxCases) {
     const std::vector<SeaState> states = sea_states(scenario.sea);
     errors.check({"clutter", "radar.polarisation", "radar.carrier_ghz", "radar.bandwidth_mhz", "radar.hop_count",
                   "radar.hop_step_mhz"},

@@ -30,8 +30,9 @@ std::shared_ptr<ScatterDiagram> find_scatter_diagram(const ScenarioDocument& doc
     diagram = std::make_shared<ScatterDiagram>(
         read_scatter_diagram(find_file(node->text, folder, document.place_of(kScatterKey))));
   });
-  for (const char* key :
-       {"significant_wave_height_m", "peak_period_s", "energy_period_s", "zero_crossing_period_s", "steepness"}) {
+  std::vector<std::string> others = scatter_period_keys();
+  others.insert(others.end(), {"significant_wave_height_m", "steepness"});
+  for (const std::string& key : others) {
     const bool is_alone = errors.attempt({kScatterKey}, [&] {
       if (sea->find(key) != nullptr)
         document.fail_at(fmt::format("sea.{}", key),

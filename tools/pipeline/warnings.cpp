@@ -13,6 +13,7 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/printable.h"
 #include "sim/core/process/standard_error.h"
+#include "sim/scenario/files/scatter_diagram.h"
 #include "sim/sea/realisation.h"
 #include "tools/pipeline/pipeline.h"
 

@@ -10,9 +10,10 @@
 #include <vector>
 
 #include "sim/core/numbers/random.h"
-#include "sim/scenario/files/scatter_diagram.h"
 
 namespace seaglint {
+
+struct ScatterDiagram;
 
 // Key of the diagram of kScatter.
 inline constexpr const char* kScatterKey = "sea.scatter_diagram";

@@ -11,6 +11,7 @@
 #include "sim/core/process/error.h"
 #include "sim/core/text/words.h"
 #include "sim/scenario/files/error_list.h"
+#include "sim/scenario/files/scatter_diagram.h"
 #include "sim/scenario/files/scenario_document.h"
 
 namespace seaglint {

@@ -27,13 +27,16 @@ namespace {
 constexpr std::size_t kMaxBytes = 10'000'000, kMaxLabels = 200;
 constexpr double kLeastHeight_m = 1e-6;
 
-// A period of the first cell, as words of it name it, and the key of `sea` that it is.
+// A period that columns may be: the key of `sea` that it is, words of it in the first cell, and a name of its column.
 struct PeriodName {
-  std::string_view key;
+  const char* key;
   std::array<std::string_view, 2> words;
+  const char* column;
 };
 
-constexpr std::array<PeriodName, 1> kPeriods{{{"peak_period_s", {"tp", "peak_period"}}}};
+constexpr std::array<PeriodName, 3> kPeriods{{{"peak_period_s", {"tp", "peak_period"}, "tp_s"},
+                                              {"energy_period_s", {"te", "energy_period"}, "te_s"},
+                                              {"zero_crossing_period_s", {"tz", "zero_crossing_period"}, "tz_s"}}};
 constexpr std::array<std::string_view, 4> kHeights{"hs", "hm0", "swh", "significant_wave_height"};
 constexpr std::array<std::string_view, 3> kSums{"sum", "total", "all"};
 
@@ -232,9 +235,17 @@ std::optional<ScatterDiagram> diagram_of_sides(const TextSource& source, char se
 
 // A diagram with a cell in each row.
 ScatterDiagram diagram_of_columns(const TextSource& source) {
+  std::vector<std::string> names;
+  for (const PeriodName& name : kPeriods) {
+    names.emplace_back(name.key);
+    names.emplace_back(name.column);
+  }
   const TextTable table(source, {TableColumn::one_of({"significant_wave_height_m", "hs_m", "hm0_m"}),
-                                 TableColumn::one_of({"peak_period_s", "tp_s"}),
-                                 TableColumn::one_of({"count", "counts", "occurrences"})});
+                                 TableColumn(names), TableColumn::one_of({"count", "counts", "occurrences"})});
+  const auto is_column = [&](const PeriodName& name) {
+    return table.key(1) == name.key || table.key(1) == name.column;
+  };
+  const std::string period_key = std::ranges::find_if(kPeriods, is_column)->key;
   std::vector<Label> heights, periods;
   std::map<std::pair<double, double>, std::size_t> pairs;
   for (std::size_t row = 0; row < table.rows(); ++row) {
@@ -245,7 +256,7 @@ ScatterDiagram diagram_of_columns(const TextSource& source) {
   }
   find_ends(table.source(), heights, "wave height");
   find_ends(table.source(), periods, "period");
-  ScatterDiagram diagram{.period_key = std::string(kPeriods[0].key), .cells = {}};
+  ScatterDiagram diagram{.period_key = period_key, .cells = {}};
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const double count = table.number(row, 2, 0);
     if (count == 0) continue;
@@ -278,6 +289,12 @@ ScatterDiagram diagram_of(const TextSource& source) {
 }
 
 }  // namespace
+
+std::vector<std::string> scatter_period_keys() {
+  std::vector<std::string> keys;
+  for (const PeriodName& name : kPeriods) keys.emplace_back(name.key);
+  return keys;
+}
 
 double ScatterDiagram::count() const {
   double sum = 0;

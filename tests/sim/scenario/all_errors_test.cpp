@@ -83,6 +83,13 @@ TEST(AllErrors, AreWithoutThoseThatFollowFromOthers) {
               ElementsAre(HasSubstr("sea.spectrum: value 'jonswp'")));
 }
 
+// No list of sea states is made where the sweeps span too many.
+TEST(AllErrors, OfSweepsThatSpanTooManyCasesAreFoundBesideOthers) {
+  EXPECT_THAT(errors_of("seaglint: 1\nsea: {significant_wave_height_m: 0.001:5:0.001, peak_period_s: 10:30:0.01, "
+                        "gamma: 1:19:0.01}\ntargets:\n  a: {label: x, mesh: a.glb}\n"),
+              ElementsAre(HasSubstr("the sweeps of view and sea span"), HasSubstr("targets.a.label: value 'x'")));
+}
+
 TEST(AllErrors, OfOverridesFollowThoseOfTheFile) {
   EXPECT_THAT(errors_of(kShort + "seed: x\n", {{
                                                    "radar.pulses",

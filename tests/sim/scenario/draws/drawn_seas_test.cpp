@@ -12,6 +12,7 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/dispersion.h"
 #include "sim/core/process/file.h"
+#include "sim/scenario/files/scatter_diagram.h"
 #include "sim/scenario/sample_plan.h"
 #include "sim/scenario/writer.h"
 #include "tests/sim/scenario/parsing.h"
