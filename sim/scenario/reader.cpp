@@ -361,15 +361,13 @@ class Reader : public FieldVisitor {
     }
   }
 
-  // A misspelt key may be one that the map needs.
+  // It may be one that the map needs.
   [[noreturn]] void refuse_key(const YamlEntry& entry, const Fields& fields) {
+    needs_are_known_ = false;
     const std::string path = path_of(entry.key);
-    const auto renamed = renamed_key(path, entry.value.text);
     KeyCollector allowed;
     fields(allowed);
-    const auto near = near_suggestion(entry.key, allowed.keys);
-    if (renamed || near) needs_are_known_ = false;
-    if (renamed) document().fail(entry.location, path, *renamed);
+    if (const auto renamed = renamed_key(path, entry.value.text)) document().fail(entry.location, path, *renamed);
     const std::string lookalike = lookalike_in(entry.key);
     document().fail(
         entry.location, path,

@@ -10,12 +10,18 @@
 
 namespace seaglint {
 
+namespace {
+
+constexpr const char* kVersionKey = "seaglint";
+
+}  // namespace
+
 void ErrorList::add(const InputError& error, Keys keys) {
   if (is_full()) return count_further(keys);
   const auto* placed = dynamic_cast<const PlacedError*>(&error);
   const std::string first = keys.size() == 0 ? "" : std::string(*keys.begin());
   const Location location = placed != nullptr ? placed->location : document_.location_of(first);
-  for (std::string& message : messages_of(error)) errors_.push_back({location, std::move(message)});
+  for (std::string& message : messages_of(error)) errors_.push_back({location, std::move(message), first});
   unusable_.insert(keys.begin(), keys.end());
 }
 
@@ -43,12 +49,15 @@ bool ErrorList::concerns(std::string_view key_path) const {
 
 std::vector<std::string> ErrorList::messages(const std::string& end) const {
   std::vector<Entry> sorted = errors_;
+  const bool is_other_version = unusable_.contains(kVersionKey);
+  if (is_other_version) std::erase_if(sorted, [](const Entry& entry) { return entry.key != kVersionKey; });
   std::ranges::stable_sort(sorted, {}, [](const Entry& entry) {
     return std::tuple(entry.location.override_index, entry.location.line, entry.location.column);
   });
   std::vector<std::string> messages;
   for (const Entry& entry : sorted) messages.push_back(entry.message + end);
-  if (further_ > 0) messages.push_back(fmt::format("{}: and {} more", document_.file_name, further_));
+  if (further_ > 0 && !is_other_version)
+    messages.push_back(fmt::format("{}: and {} more", document_.file_name, further_));
   return messages;
 }
 

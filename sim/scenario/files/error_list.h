@@ -14,7 +14,8 @@
 
 namespace seaglint {
 
-// Each error makes keys unusable: no check that needs one of them reports what follows from the same mistake.
+// Each error makes keys unusable: no check that needs one of them reports what follows from the same mistake. An error
+// of the key `seaglint`, the version of the format, is the only one that is reported.
 class ErrorList {
  public:
   using Keys = std::initializer_list<std::string_view>;
@@ -67,6 +68,7 @@ class ErrorList {
   struct Entry {
     Location location;
     std::string message;
+    std::string key;
   };
 
   const ScenarioDocument& document_;

@@ -133,6 +133,11 @@ TEST(AllErrors, OfAMaterialAreReportedToo) {
   }
 }
 
+TEST(AllErrors, OfAnotherVersionAreThatOfTheVersionAlone) {
+  EXPECT_THAT(errors_of("seaglint: 2\nradars: 1\ntargets: {}\n"),
+              ElementsAre(HasSubstr("seaglint: value '2': must be 1")));
+}
+
 // A file that is no YAML is one error.
 TEST(AllErrors, AreNotThoseBehindInvalidYaml) { EXPECT_EQ(errors_of("seaglint: 1\nradar: [\nseed: x\n").size(), 1u); }
 

@@ -129,7 +129,7 @@ TEST_F(DrawnPairs, AreThoseOfTheDiagramAndCommonToARealisation) {
 }
 
 TEST_F(DrawnPairs, LeaveOutTheCellsInWhichWavesBreakAndStateTheirPart) {
-  const auto diagram_of = [](const Scenario& scenario) { return *scenario.variations[0].distribution.diagram; };
+  const auto diagram_of = [](const Scenario& scenario) { return *scenario.variations.back().distribution.diagram; };
   // The steepest corner of 3 to 4 m at 4 s: L/7 = 3.57 m < 4 m.
   EXPECT_EQ(diagram_of(read("scatter_diagram: seas.csv")).excluded_cells, 2u);
   EXPECT_NEAR(diagram_of(read("scatter_diagram: seas.csv")).excluded_fraction, 0.05, 1e-12);
@@ -149,13 +149,11 @@ TEST_F(DrawnPairs, AreWrittenAsTheirFile) {
   EXPECT_THAT(yaml, testing::Not(HasSubstr("\n  significant_wave_height_m:")));
   EXPECT_THAT(yaml, testing::Not(HasSubstr("\n  peak_period_s:")));
   EXPECT_EQ(effective_yaml(parse_scenario(yaml, folder_.path() / "t.yaml")), yaml);
-  const std::vector<InputFile> files = input_files([&] {
-    Scenario of_sea = scenario;
-    of_sea.targets.clear();
-    return of_sea;
-  }());
-  ASSERT_EQ(files.size(), 1u);
+  for (const char* mesh : {"a.glb", "b.glb"}) write_file(folder_.path() / mesh, "x");
+  const std::vector<InputFile> files = input_files(scenario);
+  ASSERT_EQ(files.size(), 3u);
   EXPECT_EQ(files[0].key, "sea.scatter_diagram");
+  EXPECT_EQ(files[0].path, folder_.path() / "seas.csv");
 }
 
 TEST_F(DrawnPairs, AreRefusedBesideOtherHeightsAndPeriods) {
@@ -170,7 +168,7 @@ TEST_F(DrawnPairs, AreRefusedBesideOtherHeightsAndPeriods) {
   EXPECT_THAT(refusal("scatter_diagram: [seas.csv]"), HasSubstr("sea.scatter_diagram: a list: must be a text"));
   EXPECT_THAT(refusal("scatter_diagram: seas.csv, spectrum: table, table: seas.csv"), HasSubstr("seas.csv"));
   // What some of its pairs contradict is named with one.
-  EXPECT_THAT(refusal("scatter_diagram: seas.csv, cutoff_rad_s: 0.9"),
+  EXPECT_THAT(refusal("scatter_diagram: seas.csv, cutoff_rad_s: 1.4"),
               HasSubstr("where sea.scatter_diagram has waves of 1 m with peak_period_s 4"));
 }
 
