@@ -117,7 +117,8 @@ constexpr Meaning kMeanings[] = {
      "are."},
     {"targets.NAME.material", "Material: pec, a name of assets/materials, or a material file."},
     {"targets.NAME.part_materials.N.part",
-     "Name of a part; a trailing * selects all parts with that prefix; later entries take precedence."},
+     "Name of a part, or of a material of the mesh's file where no part has it; a trailing * selects all with that "
+     "prefix; later entries take precedence."},
     {"targets.NAME.part_materials.N.material", "Material of these parts."},
     {"targets.NAME.sheet_thickness_mm", "Thickness of open surfaces, mm, in the diffraction of their free edges."},
     {"targets.NAME.layout.line.count", "Number of equal bodies in a line along x of the target frame."},

@@ -200,7 +200,7 @@ void add_info(CommandOptions& mesh, CommandContext& context) {
       mesh.add_command("info", "Size, parts, materials, holes, degenerate and non-manifold elements, wedges");
   auto arguments = std::make_shared<InfoArguments>();
   info.add_option("FILE", arguments->file,
-                  "Mesh file: .glb .gltf .obj .stl .ply, or shells in .nas .bdf .dat .unv .msh")
+                  "Mesh file: .glb .gltf .obj .stl .ply, or shells in .nas .bdf .dat .fem .unv .msh")
       .required();
   info.add_option("--unit", arguments->unit, "Unit of the file's lengths: m cm mm km in ft").show_default();
   info.add_option("--min-wedge-angle-deg", arguments->wedge_deg, "Smallest angle between the normals at a wedge")

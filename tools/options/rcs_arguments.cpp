@@ -129,7 +129,7 @@ CommandOption RcsArguments::add_target_to(CommandOptions& command) {
   const CommandOption option =
       command
           .add_option("--target", targets,
-                      "Mesh file: .glb .gltf .obj .stl .ply, or shells in .nas .bdf .dat .unv .msh (repeatable: the "
+                      "Mesh file: .glb .gltf .obj .stl .ply, or shells in .nas .bdf .dat .fem .unv .msh (repeatable: the "
                       "files are the parts of one target)")
           .repeatable("FILE");
   command.add_option("--unit", request.unit, "Unit of the mesh: m, cm, mm, km, in, ft").show_default();

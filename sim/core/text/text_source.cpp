@@ -46,8 +46,7 @@ std::string with_plain_signs(std::string text) {
 std::string text_of(const std::string& name, std::string bytes) {
   const std::string_view kind = foreign_kind(bytes);
   if (!kind.empty()) throw InputError(fmt::format("{}: no plain text: it is {}", name, kind));
-  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
-  if (bytes.starts_with(kByteOrderMark)) bytes.erase(0, kByteOrderMark.size());
+  bytes = plain_lines(std::move(bytes));
   while (bytes.ends_with('\x1a')) bytes.pop_back();
   const auto strange =
       std::find_if(bytes.begin(), bytes.end(), [](char c) { return !is_text_byte(static_cast<unsigned char>(c)); });
@@ -55,7 +54,6 @@ std::string text_of(const std::string& name, std::string bytes) {
     throw InputError(fmt::format("{}:{}: byte 0x{:02x}: no plain text, a binary file or a damaged one", name,
                                  std::count(bytes.begin(), strange, '\n') + 1, static_cast<unsigned char>(*strange)));
   }
-  if (bytes.find('\n') == std::string::npos) std::replace(bytes.begin(), bytes.end(), '\r', '\n');
   return with_plain_signs(utf8_prefix(bytes) == bytes.size() ? std::move(bytes) : utf8_of(bytes));
 }
 

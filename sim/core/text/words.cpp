@@ -10,6 +10,19 @@ constexpr std::string_view kBlanks = " \t\r\n\v\f";
 
 }  // namespace
 
+bool remove_byte_order_mark(std::string& bytes) {
+  constexpr std::string_view kMark = "\xef\xbb\xbf";
+  if (!bytes.starts_with(kMark)) return false;
+  bytes.erase(0, kMark.size());
+  return true;
+}
+
+std::string plain_lines(std::string bytes) {
+  remove_byte_order_mark(bytes);
+  if (bytes.find('\n') == std::string::npos) std::replace(bytes.begin(), bytes.end(), '\r', '\n');
+  return bytes;
+}
+
 std::string_view next_word(std::string_view& text) {
   const std::size_t begin = std::min(text.find_first_not_of(kBlanks), text.size());
   const std::size_t end = std::min(text.find_first_of(kBlanks, begin), text.size());

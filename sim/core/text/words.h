@@ -3,9 +3,16 @@
 
 // Locale-independent lines and words of untrusted text.
 
+#include <string>
 #include <string_view>
 
 namespace seaglint {
+
+// Removes a UTF-8 byte order mark from the front; true where there was one.
+bool remove_byte_order_mark(std::string& bytes);
+
+// A text without a byte order mark, with line ends \r alone made \n.
+std::string plain_lines(std::string bytes);
 
 // The next word separated by spaces, tabs or line ends, removed from the front of `text`; empty at the end.
 std::string_view next_word(std::string_view& text);

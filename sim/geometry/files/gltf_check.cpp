@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <nlohmann/json.hpp>
@@ -32,6 +33,33 @@ std::uint64_t component_size(std::uint64_t type) {
     case 5126: return 4;
     default: return 0;
   }
+}
+
+constexpr std::string_view kBase64Digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+
+// Equality of texts but for upper and lower case.
+bool is_equal(std::string_view a, std::string_view b) {
+  return std::ranges::equal(
+      a, b, {}, [](unsigned char c) { return std::tolower(c); }, [](unsigned char c) { return std::tolower(c); });
+}
+
+bool is_data_uri(std::string_view uri) { return is_equal(uri.substr(0, 5), "data:"); }
+
+// The text without blanks and line ends, with %2B, %2F and %3D as + / =, padded with = to a multiple of four.
+std::string base64_digits(std::string_view text) {
+  std::string digits;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (std::isspace(static_cast<unsigned char>(text[i]))) continue;
+    char digit = text[i];
+    for (const auto& [code, meaning] : {std::pair{"%2b", '+'}, {"%2f", '/'}, {"%3d", '='}}) {
+      if (digit != '%' || !is_equal(text.substr(i, 3), code)) continue;
+      digit = meaning;
+      i += 2;
+    }
+    digits += digit;
+  }
+  while (digits.size() % 4 != 0) digits += '=';
+  return digits;
 }
 
 class Checker {
@@ -66,6 +94,15 @@ class Checker {
       if (plain[name].empty()) plain.erase(name);
     }
     return plain;
+  }
+
+  // Of a file that reduced() accepts.
+  std::vector<std::string> findings() const {
+    const auto meshes = root_.find("meshes");
+    const auto count = meshes == root_.end() ? 0 : std::ranges::count_if(*meshes, has_morph_targets);
+    if (count == 0) return {};
+    return {fmt::format("{} morph targets (shape keys) of weight 0: read in the base shape",
+                        count == 1 ? "1 mesh has" : fmt::format("{} meshes have", count))};
   }
 
  private:
@@ -141,18 +178,33 @@ class Checker {
     if (size > kMaxBytes) fail(fmt::format("{}.byteLength = {} is above {}", at, size, kMaxBytes));
     Json plain{{"byteLength", size}};
     const std::string uri = text(b, "uri");
-    if (!uri.empty()) {
-      // Base64 encodes three bytes in four characters: a declared size beyond the text length is rejected before a
-      // library allocates it.
-      if (uri.starts_with("data:") && size > uri.size()) {
-        fail(fmt::format("{}.byteLength = {} but its data URI has {} letters", at, size, uri.size()));
-      }
+    if (is_data_uri(uri)) {
+      plain["uri"] = "data:application/octet-stream;base64," + base64_of(uri, size, at);
+    } else if (!uri.empty()) {
       plain["uri"] = uri;
     } else if (at != "buffers[0]" || size > binary_size_) {
       fail(fmt::format("{}.byteLength = {} but the file's binary chunk contains {} bytes", at, size,
                        at == "buffers[0]" ? binary_size_ : 0));
     }
     return plain;
+  }
+
+  // The digits of a data URI, data:[type][;parameter ...];base64,DIGITS, that encode `size` bytes: three in four
+  // digits.
+  std::string base64_of(std::string_view uri, std::uint64_t size, const std::string& at) const {
+    const std::size_t comma = uri.find(',');
+    if (comma == std::string_view::npos) fail(at + ".uri is a data URI without a comma");
+    constexpr std::string_view kBase64 = ";base64";
+    const std::string_view head = uri.substr(0, comma);
+    if (head.size() < kBase64.size() || !is_equal(head.substr(head.size() - kBase64.size()), kBase64))
+      fail(at + ".uri is a data URI other than base64, which is not supported");
+    const std::string digits = base64_digits(uri.substr(comma + 1));
+    const std::size_t end = std::min(digits.find_first_not_of(kBase64Digits), digits.size());
+    if (digits.find_first_not_of('=', end) != std::string::npos)
+      fail(fmt::format("{}.uri: digit {} of its base64 is none", at, end + 1));
+    const std::uint64_t bytes = end / 4 * 3 + (end % 4 == 0 ? 0 : end % 4 - 1);
+    if (bytes != size) fail(fmt::format("{}.byteLength = {} but its data URI has {} bytes", at, size, bytes));
+    return digits;
   }
 
   Json view(const Json& v, const std::string& at) const {
@@ -309,8 +361,6 @@ class Checker {
       plain["indices"] = indices;
     }
     if (is_surface) check_corners(plain, mode, at);
-    if (p.contains("targets"))
-      fail(at + " has morph targets, which are not supported: bake the shape into the positions");
     if (p.contains("material")) plain["material"] = index(p, "material", "materials", at);
     return plain;
   }
@@ -325,6 +375,27 @@ class Checker {
       list.push_back(primitive((*primitives)[i], here));
     }
     return Json{{"name", text(m, "name")}, {"primitives", list}};
+  }
+
+  static bool has_morph_targets(const Json& m) {
+    return std::ranges::any_of(m["primitives"], [](const Json& p) { return p.contains("targets"); });
+  }
+
+  // glTF 2.0, section 3.7.2.2: the weights of a node replace those of its mesh, and are 0 by default.
+  void check_weights(const Json& n, const std::string& at) const {
+    const std::uint64_t i = index(n, "mesh", "meshes", at);
+    const Json& m = root_["meshes"][i];
+    if (!has_morph_targets(m)) return;
+    const Json& owner = n.contains("weights") ? n : m;
+    const auto weights = owner.find("weights");
+    const bool at_rest = weights == owner.end() ||
+                         (weights->is_array() && std::ranges::all_of(*weights, [](const Json& w) { return w == 0; }));
+    if (!at_rest) {
+      fail(
+          fmt::format("{}: meshes[{}] has morph targets with weights other than 0, which are not supported: bake the "
+                      "shape into the positions",
+                      at, i));
+    }
   }
 
   void copy_numbers(const Json& from, Json& to, const char* key, std::size_t count, const std::string& at) const {
@@ -369,7 +440,10 @@ class Checker {
       Json children = index_list(n, "children", "nodes", at);
       if (!children.empty()) plain["children"] = children;
     }
-    if (n.contains("mesh")) plain["mesh"] = index(n, "mesh", "meshes", at);
+    if (n.contains("mesh")) {
+      plain["mesh"] = index(n, "mesh", "meshes", at);
+      check_weights(n, at);
+    }
     copy_numbers(n, plain, "matrix", 16, at);
     copy_numbers(n, plain, "translation", 3, at);
     copy_numbers(n, plain, "rotation", 4, at);
@@ -385,16 +459,19 @@ class Checker {
 
 }  // namespace
 
-std::string sanitised_gltf(std::string_view bytes, const std::string& file) {
+SanitisedGltf sanitised_gltf(std::string_view bytes, const std::string& file) {
   const GlbChunks chunks = glb_chunks(bytes, file);
   const Json root = parsed_gltf(chunks.json, file);
-  std::string json;
+  SanitisedGltf plain;
   try {
-    json = Checker(root, file, chunks.binary.size()).reduced().dump();
+    const Checker checker(root, file, chunks.binary.size());
+    plain.bytes = checker.reduced().dump();
+    plain.findings = checker.findings();
   } catch (const Json::exception& error) {
     throw InputError(fmt::format("{}: {}", file, json_problem(error)));
   }
-  return is_glb(bytes) ? glb_of(std::move(json), chunks.binary) : json;
+  if (is_glb(bytes)) plain.bytes = glb_of(std::move(plain.bytes), chunks.binary);
+  return plain;
 }
 
 }  // namespace seaglint

@@ -28,7 +28,13 @@ using Mat4 = Eigen::Matrix4d;
 
 constexpr std::size_t kMaxParts = 65000, kMaxMaterials = 65000;
 
+// The message of the library on one line; a data URI ends behind its scheme.
 std::string one_line(std::string text) {
+  constexpr std::string_view kData = "data:";
+  for (std::size_t at = text.find(kData); at != std::string::npos; at = text.find(kData, at + kData.size())) {
+    const std::size_t end = std::min(text.find_first_of(" \n", at), text.size());
+    text.replace(at + kData.size(), end - at - kData.size(), "...");
+  }
   while (!text.empty() && text.back() == '\n') text.pop_back();
   std::replace(text.begin(), text.end(), '\n', ' ');
   return text;
@@ -36,11 +42,13 @@ std::string one_line(std::string text) {
 
 struct Loaded {
   tinygltf::Model model;
+  std::vector<std::string> findings;
   std::vector<fs::path> buffer_files;  // in the order of the buffers
 };
 
 Loaded load(const std::string& bytes, const fs::path& path) {
-  const std::string plain = sanitised_gltf(bytes, path.string());
+  SanitisedGltf sanitised = sanitised_gltf(bytes, path.string());
+  const std::string& plain = sanitised.bytes;
   std::error_code error;
   GltfFolder folder{fs::canonical(path, error).parent_path(), {}};
   if (error) throw InputError(fmt::format("{}: {}", path.string(), error.message()));
@@ -60,7 +68,7 @@ Loaded load(const std::string& bytes, const fs::path& path) {
     problem = thrown.what();
   }
   if (!good || !problem.empty()) throw InputError(fmt::format("{}: {}", path.string(), one_line(problem)));
-  return {std::move(model), std::move(folder.opened)};
+  return {std::move(model), std::move(sanitised.findings), std::move(folder.opened)};
 }
 
 // glTF 2.0, section 3.5.3: a matrix in column-major order, or translation * rotation * scale with the quaternion as (x,
@@ -383,7 +391,9 @@ class Writer {
 
 TriangleMesh read_gltf(const std::string& bytes, const fs::path& path) {
   const Loaded loaded = load(bytes, path);
-  return Reader(loaded.model, path.string()).read();
+  TriangleMesh mesh = Reader(loaded.model, path.string()).read();
+  mesh.findings.insert(mesh.findings.end(), loaded.findings.begin(), loaded.findings.end());
+  return mesh;
 }
 
 std::vector<fs::path> gltf_buffer_files(const std::string& bytes, const fs::path& path) {

@@ -39,7 +39,7 @@ std::string ending_of(const std::filesystem::path& path) {
 bool is_gltf(const std::string& ending) { return ending == ".glb" || ending == ".gltf"; }
 
 constexpr std::array<const char*, 5> kWritten{".glb", ".gltf", ".obj", ".stl", ".ply"};
-constexpr std::array<const char*, 5> kReadOnly{".nas", ".bdf", ".dat", ".unv", ".msh"};
+constexpr std::array<const char*, 6> kReadOnly{".nas", ".bdf", ".dat", ".fem", ".unv", ".msh"};
 
 bool is_among(const std::string& ending, std::span<const char* const> endings) {
   return std::find(endings.begin(), endings.end(), ending) != endings.end();
@@ -70,9 +70,9 @@ void refuse_foreign(const std::string& ending, std::string_view bytes, const std
 
 TriangleMesh read_polygons(const std::string& ending, std::string bytes, const std::string& file) {
   refuse_foreign(ending, bytes, file);
-  if (ending == ".obj") return read_obj(bytes, file);
+  if (ending == ".obj") return read_obj(std::move(bytes), file);
   if (ending == ".stl") return read_stl(std::move(bytes), file);
-  if (ending == ".ply") return read_ply(bytes, file);
+  if (ending == ".ply") return read_ply(std::move(bytes), file);
   if (ending == ".msh") return read_gmsh(std::move(bytes), file);
   return read_nastran(std::move(bytes), file);
 }

@@ -2,7 +2,7 @@
 #pragma once
 
 // Mesh files: .glb and .gltf (tinygltf), .obj, .ply, .stl (binary: OpenMesh), and shells of solvers, which are read
-// only: NASTRAN (.nas .bdf .dat), I-DEAS universal files (.unv), Gmsh (.msh). The file name extension selects the
+// only: NASTRAN (.nas .bdf .dat .fem), I-DEAS universal files (.unv), Gmsh (.msh). The file name extension selects the
 // format.
 
 #include <array>
@@ -25,7 +25,7 @@ namespace seaglint {
 // Normals of glTF (NORMAL), OBJ (vn) and PLY (nx, ny, nz) become corner normals; those that are no unit vectors are
 // normalised, invalid ones are none and refuse nothing. Facet normals of STL are ignored: they follow from the
 // vertices.
-//   The others define no axes: they are read as body axes. Groups, objects, solids and properties are parts.
+//   The others define no axes: they are read as body axes. Groups, objects, solids, properties are parts.
 //   A universal file that states its unit is read in it; `unit` must be "m" or agree, unless the file states metres.
 TriangleMesh read_mesh(const std::filesystem::path& path, const std::string& unit = "m");
 

@@ -9,6 +9,7 @@
 #include <map>
 #include <span>
 #include <unordered_map>
+#include <utility>
 
 #include "sim/core/process/error.h"
 #include "sim/core/process/utf8.h"
@@ -22,14 +23,13 @@
 namespace seaglint {
 namespace {
 
+constexpr std::size_t kMaxNames = 65000;  // of groups, of materials
+
 class ObjReader {
  public:
-  ObjReader(std::string_view bytes, const std::string& file) : rest_(bytes), file_(file) {}
+  ObjReader(std::string_view text, const std::string& file) : rest_(text), file_(file) {}
 
   TriangleMesh read() {
-    // UTF-8 byte order mark.
-    constexpr std::string_view kMark = "\xEF\xBB\xBF";
-    if (rest_.starts_with(kMark)) rest_.remove_prefix(kMark.size());
     // Faces may name vertices of later lines, so the vertices are counted first.
     std::string_view all = rest_;
     while (!all.empty()) {
@@ -77,7 +77,7 @@ class ObjReader {
   struct Face {
     std::size_t first, count;  // corners
     std::size_t line;
-    std::size_t part;  // index into part_names_
+    std::size_t group, material;  // in groups_ and materials_
   };
 
   [[noreturn]] void fail(const std::string& what) const {
@@ -96,11 +96,14 @@ class ObjReader {
     if (keyword == "v") vertex(line);
     if (keyword == "vn") normal(line);
     if (keyword == "f") face(line);
-    if (keyword == "g" || keyword == "o") group(line);
+    if (keyword == "g" || keyword == "o") groups_.begin(name_of(line, "default"));
+    if (keyword == "usemtl") materials_.begin(name_of(line, "default"));
+    if (groups_.names.size() > kMaxNames) fail(fmt::format("more than {} groups", kMaxNames));
+    if (materials_.names.size() > kMaxNames) fail(fmt::format("more than {} materials", kMaxNames));
     if (is_free_form(keyword)) {
       if (free_form_++ == 0) first_free_form_ = keyword, first_free_form_line_ = line_;
     }
-    // Texture coordinates and material files are ignored.
+    // Texture coordinates and the files of materials are ignored.
   }
 
   // Curves and surfaces (Wavefront OBJ specification, "Free-form curve/surface attributes").
@@ -165,10 +168,7 @@ class ObjReader {
       corners_.push_back(static_cast<std::uint32_t>(index - 1));
       corner_normals_.push_back(normal_index(word));
     }
-    const std::size_t count = corners_.size() - first;
-    if (count < 3) fail(fmt::format("a face of {} corners", count));
-    if (part_names_.empty()) begin_part("body");
-    faces_.push_back({first, count, line_, part_});
+    faces_.push_back({first, corners_.size() - first, line_, groups_.current, materials_.current});
   }
 
   // Called once all vertices are read.
@@ -181,7 +181,8 @@ class ObjReader {
     for (const auto& [i, j, k] : triangles_of_polygon(polygon_, odd_, place)) {
       const std::uint32_t a = corners[i], b = corners[j], c = corners[k];
       if (a == b || b == c || c == a) continue;
-      builder_.begin_part(part_names_[face.part]);
+      builder_.begin_part(groups_.any() ? groups_.name(face.group, "body") : materials_.name(face.material, "body"));
+      builder_.begin_material(materials_.name(face.material, Material{}.name));
       if (normals_.empty()) {
         builder_.triangle(a, b, c);
       } else {
@@ -191,21 +192,30 @@ class ObjReader {
     }
   }
 
-  void group(std::string_view line) {
+  static std::string name_of(std::string_view line, const char* without) {
     std::string name;
     for (std::string_view word = next_word(line); !word.empty(); word = next_word(line)) {
       if (!name.empty()) name += ' ';
       name += word;
     }
-    begin_part(name.empty() ? "default" : utf8_of(name));
+    return name.empty() ? without : utf8_of(name);
   }
 
-  void begin_part(const std::string& name) {
-    const auto [place, is_new] = part_of_name_.try_emplace(name, part_names_.size());
-    if (is_new && part_names_.size() > 65000) fail("more than 65000 groups");
-    if (is_new) part_names_.push_back(name);
-    part_ = place->second;
-  }
+  // Names in order of first appearance, those without faces included, and the one of the lines that follow.
+  struct Names {
+    static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+    std::vector<std::string> names;
+    std::unordered_map<std::string, std::size_t> number;
+    std::size_t current = kNone;
+
+    bool any() const { return !names.empty(); }
+    void begin(const std::string& name) {
+      const auto [place, is_new] = number.try_emplace(name, names.size());
+      if (is_new) names.push_back(name);
+      current = place->second;
+    }
+    std::string name(std::size_t i, const std::string& without) const { return i == kNone ? without : names[i]; }
+  };
 
   std::string_view rest_;
   const std::string& file_;
@@ -222,9 +232,8 @@ class ObjReader {
   std::int64_t vertex_count_ = 0;
   std::int64_t vertices_so_far_ = 0;
   std::size_t line_ = 0;
-  std::vector<std::string> part_names_;  // in order of first appearance, groups without faces included
-  std::unordered_map<std::string, std::size_t> part_of_name_;
-  std::size_t part_ = 0;
+  Names groups_;     // groups and objects: the parts
+  Names materials_;  // the parts of a file without groups and objects
 };
 
 // Three numbers in the fewest digits that read back as the same doubles; -0 becomes +0.
@@ -250,7 +259,10 @@ struct NumberedNormals {
 
 }  // namespace
 
-TriangleMesh read_obj(std::string_view bytes, const std::string& file) { return ObjReader(bytes, file).read(); }
+TriangleMesh read_obj(std::string bytes, const std::string& file) {
+  const std::string text = plain_lines(std::move(bytes));
+  return ObjReader(text, file).read();
+}
 
 std::string obj_bytes(const TriangleMesh& mesh) {
   std::string text = fmt::format("# {} vertices, {} faces\n", mesh.vertices.size(), mesh.triangles.size());

@@ -13,7 +13,7 @@ namespace seaglint {
 // Positions and normals are the doubles that the text states; a normal that is missing or no number is none. Polygons
 // are triangulated (triangulate_polygon); triangles with two equal vertices are dropped. Throws InputError with file,
 // line or byte, and cause.
-TriangleMesh read_obj(std::string_view bytes, const std::string& file);
+TriangleMesh read_obj(std::string bytes, const std::string& file);
 
 // Positions and normals with the digits that restore the doubles, a group per run of triangles of one part.
 std::string obj_bytes(const TriangleMesh& mesh);

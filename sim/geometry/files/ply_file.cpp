@@ -235,7 +235,6 @@ class PlyReader {
         const double index = number(type);
         corners_.push_back(corner(index, "face", i));
       }
-      if (count < 3) fail(fmt::format("face {} has {} corners", i, count));
       corner_count_.push_back(static_cast<std::uint32_t>(count));
     });
   }
@@ -305,7 +304,18 @@ void append_raw(std::string& bytes, T value) {
 
 }  // namespace
 
-TriangleMesh read_ply(std::string_view bytes, const std::string& file) { return PlyReader(bytes, file).read(); }
+TriangleMesh read_ply(std::string bytes, const std::string& file) {
+  remove_byte_order_mark(bytes);
+  // Line ends \r alone become \n; of a binary file the header only has lines.
+  constexpr std::string_view kEnd = "end_header\r";
+  const std::size_t found = std::string_view(bytes).find(kEnd);
+  if (found != std::string::npos && bytes.find('\n') > found + kEnd.size()) {
+    const bool is_text = bytes.find("format ascii") < found;
+    const auto end = bytes.begin() + static_cast<std::ptrdiff_t>(is_text ? bytes.size() : found + kEnd.size());
+    std::replace(bytes.begin(), end, '\r', '\n');
+  }
+  return PlyReader(bytes, file).read();
+}
 
 std::string ply_bytes(const TriangleMesh& mesh) {
   static_assert(std::endian::native == std::endian::little);

@@ -7,6 +7,8 @@
 #include <array>
 #include <cctype>
 #include <cstring>
+#include <utility>
+#include <vector>
 
 #include "sim/core/process/error.h"
 #include "sim/core/process/utf8.h"
@@ -25,19 +27,39 @@ constexpr std::size_t kHeader = 84,
 
 constexpr std::size_t kMaxSolids = 65000;
 
-// Header, count, then facets of a normal and three vertices as little-endian float32; no trailing bytes.
+std::uint32_t count_in(std::string_view bytes) {
+  std::uint32_t count = 0;
+  if (bytes.size() >= kHeader) std::memcpy(&count, bytes.data() + 80, 4);
+  return count;
+}
+
+// Whether bytes behind the last triangle hold geometry: further triangles where the count is wrong, or a second file.
+bool are_triangles(std::string_view left) {
+  const bool is_file =
+      left.size() >= kHeader + kFacet && count_in(left) > 0 && count_in(left) <= (left.size() - kHeader) / kFacet;
+  return left.size() % kFacet == 0 || is_file;
+}
+
+// Header, count, then facets of a normal and three vertices as little-endian float32. Other bytes behind them are a
+// finding.
 TriangleMesh read_binary(std::string bytes, const std::string& file) {
   if (bytes.size() < kHeader)
     throw InputError(fmt::format("{}: {} bytes are no binary STL, which begins with 84", file, bytes.size()));
-  std::uint32_t count = 0;
-  std::memcpy(&count, bytes.data() + 80, 4);
+  const std::uint32_t count = count_in(bytes);
   const std::size_t available = (bytes.size() - kHeader) / kFacet;
   if (count > available)
     throw InputError(fmt::format("{}: promises {} triangles, contains {}", file, count, available));
   const std::size_t end = kHeader + kFacet * count;
-  if (bytes.size() > end)
-    throw InputError(fmt::format("{}: promises {} triangles, which end at byte {}; {} bytes are left over", file, count,
-                                 end, bytes.size() - end));
+  const std::string_view left = std::string_view(bytes).substr(end);
+  std::vector<std::string> findings;
+  if (!left.empty()) {
+    if (are_triangles(left))
+      throw InputError(fmt::format("{}: promises {} triangles, which end at byte {}; {} bytes are left over", file,
+                                   count, end, left.size()));
+    findings.push_back(fmt::format("{} {} left over behind the last of {} triangles: not read", left.size(),
+                                   left.size() == 1 ? "byte is" : "bytes are", count));
+    bytes.resize(end);
+  }
   for (std::size_t t = 0; t < count; ++t) {
     for (std::size_t i = 0; i < 9; ++i) {
       char* at = bytes.data() + kHeader + t * kFacet + 12 + 4 * i;
@@ -49,15 +71,17 @@ TriangleMesh read_binary(std::string bytes, const std::string& file) {
       std::memcpy(at, &value, 4);
     }
   }
-  return read_stl_soup(bytes, count, file);
+  TriangleMesh mesh = read_stl_soup(bytes, count, file);
+  mesh.findings.insert(mesh.findings.end(), findings.begin(), findings.end());
+  return mesh;
 }
 
 class AsciiStl {
  public:
-  AsciiStl(std::string_view bytes, const std::string& file) : bytes_(bytes), rest_(bytes), file_(file) {}
+  AsciiStl(std::string text, const std::string& file) : text_(std::move(text)), rest_(text_), file_(file) {}
 
   TriangleMesh read() {
-    for (std::string word = lower_word(); !word.empty(); word = lower_word()) {
+    for (std::string word = keyword(); !word.empty(); word = keyword()) {
       if (word == "solid") {
         begin_solid();
       } else if (word == "facet") {
@@ -75,7 +99,7 @@ class AsciiStl {
 
  private:
   [[noreturn]] void fail(const std::string& what) const {
-    const auto line = std::count(bytes_.begin(), bytes_.end() - static_cast<std::ptrdiff_t>(rest_.size()), '\n') + 1;
+    const auto line = std::count(text_.begin(), text_.end() - static_cast<std::ptrdiff_t>(rest_.size()), '\n') + 1;
     throw InputError(fmt::format("{}:{}: {}", file_, line, what));
   }
 
@@ -86,8 +110,14 @@ class AsciiStl {
     return word;
   }
 
+  // The next keyword in lower case; "end loop" is endloop.
+  std::string keyword() {
+    const std::string word = lower_word();
+    return word == "end" ? word + lower_word() : word;
+  }
+
   void expect(const char* word) {
-    const std::string found = lower_word();
+    const std::string found = keyword();
     if (found != word) fail(fmt::format("\"{}\" where {} belongs", shown(found), word));
   }
 
@@ -132,7 +162,7 @@ class AsciiStl {
     builder_.triangle(a, b, c);
   }
 
-  std::string_view bytes_;
+  const std::string text_;
   std::string_view rest_;
   const std::string& file_;
   MeshBuilder builder_;
@@ -140,23 +170,29 @@ class AsciiStl {
   bool in_solid_ = false;
 };
 
+// "solid" comes first, behind a byte order mark perhaps; no text has bytes such as 0 at its beginning.
+bool is_text(std::string_view bytes) {
+  constexpr std::string_view kMark = "\xef\xbb\xbf", kSolid = "solid";
+  std::string_view start = bytes;
+  if (start.starts_with(kMark)) start.remove_prefix(kMark.size());
+  const std::string_view word = next_word(start);
+  const bool says_solid =
+      std::ranges::equal(word, kSolid, [](unsigned char a, unsigned char b) { return std::tolower(a) == b; });
+  const std::string_view head = bytes.substr(0, 512);
+  const bool has_other_bytes = std::any_of(head.begin(), head.end(), [](char c) {
+    return (c >= 0 && c < 0x20 && c != '\n' && c != '\r' && c != '\t' && c != '\f') || c == 0x7f;
+  });
+  return says_solid && !has_other_bytes;
+}
+
 }  // namespace
 
 TriangleMesh read_stl(std::string bytes, const std::string& file) {
   // Binary files may also begin with "solid": then their size decides.
-  std::uint32_t count = 0;
-  if (bytes.size() >= kHeader) std::memcpy(&count, bytes.data() + 80, 4);
-  const bool has_binary_size = bytes.size() >= kHeader && bytes.size() == kHeader + kFacet * std::size_t{count};
-  std::string_view start = bytes;
-  const std::string_view word = next_word(start);
-  const bool says_solid = word.size() == 5 && (word == "solid" || word == "SOLID" || word == "Solid");
-  // No text has bytes such as 0 at its beginning.
-  const std::string_view head = std::string_view(bytes).substr(0, 512);
-  const bool has_other_bytes = std::any_of(head.begin(), head.end(), [](char c) {
-    return (c >= 0 && c < 0x20 && c != '\n' && c != '\r' && c != '\t' && c != '\f') || c == 0x7f;
-  });
-  if (has_binary_size || !says_solid || has_other_bytes) return read_binary(std::move(bytes), file);
-  return AsciiStl(bytes, file).read();
+  const bool has_binary_size =
+      bytes.size() >= kHeader && bytes.size() == kHeader + kFacet * std::size_t{count_in(bytes)};
+  if (!has_binary_size && is_text(bytes)) return AsciiStl(plain_lines(std::move(bytes)), file).read();
+  return read_binary(std::move(bytes), file);
 }
 
 }  // namespace seaglint

@@ -14,17 +14,26 @@ namespace seaglint {
 std::vector<MaterialSpec> assign_materials(TriangleMesh& mesh, const MaterialSpec& all,
                                            std::span<const PartMaterial> parts) {
   std::vector<MaterialSpec> materials{all};
-  std::vector<std::uint16_t> of_part(mesh.part_names.size(), 0);
+  // Number of the last entry that applies.
+  std::vector<std::uint16_t> of_part(mesh.part_names.size(), 0), of_file_material(mesh.materials.size(), 0);
   for (const PartMaterial& entry : parts) {
     const bool prefix = entry.part.ends_with('*');
     const std::string name = prefix ? entry.part.substr(0, entry.part.size() - 1) : entry.part;
-    bool found = false;
-    for (std::size_t part = 0; part < mesh.part_names.size(); ++part) {
-      if (prefix ? !mesh.part_names[part].starts_with(name) : mesh.part_names[part] != name) continue;
-      of_part[part] = static_cast<std::uint16_t>(materials.size());
-      found = true;
+    const auto number = static_cast<std::uint16_t>(materials.size());
+    const auto applies = [&](const std::string& other, std::uint16_t& last) {
+      const bool matches = prefix ? other.starts_with(name) : other == name;
+      if (matches) last = number;
+      return matches;
+    };
+    bool found = false, found_material = false;
+    for (std::size_t part = 0; part < of_part.size(); ++part)
+      found = applies(mesh.part_names[part], of_part[part]) || found;
+    // Faces without a material of their own have the default's name.
+    for (std::size_t m = 0; !found && m < of_file_material.size(); ++m) {
+      if (mesh.materials[m].name != Material{}.name)
+        found_material = applies(mesh.materials[m].name, of_file_material[m]) || found_material;
     }
-    if (!found) {
+    if (!found && !found_material) {
       throw InputError(
           fmt::format("part '{}': the mesh has no such part: {}", entry.part, suggestion(entry.part, mesh.part_names)));
     }
@@ -32,9 +41,11 @@ std::vector<MaterialSpec> assign_materials(TriangleMesh& mesh, const MaterialSpe
   }
   mesh.materials.clear();
   for (const MaterialSpec& material : materials) mesh.materials.push_back({material.name});
-  mesh.triangle_material.assign(mesh.triangles.size(), 0);
+  mesh.triangle_material.resize(mesh.triangles.size(), 0);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (t < mesh.triangle_part.size()) mesh.triangle_material[t] = of_part[mesh.triangle_part[t]];
+    std::uint16_t& material = mesh.triangle_material[t];
+    material = material < of_file_material.size() ? of_file_material[material] : std::uint16_t{0};
+    if (t < mesh.triangle_part.size()) material = std::max(material, of_part[mesh.triangle_part[t]]);
   }
   return materials;
 }

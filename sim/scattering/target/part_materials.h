@@ -13,13 +13,13 @@
 namespace seaglint {
 
 struct PartMaterial {
-  std::string part;  // name of a part; with a trailing *, every part whose name has that prefix
+  std::string part;  // name of a part, else of a material of the mesh's file; with a trailing *, all with that prefix
   MaterialSpec material;
 };
 
-// Assigns a material to every triangle: `all`, or the last entry of `parts` that matches its part. Overwrites
+// Assigns a material to every triangle: `all`, or the last entry of `parts` that matches it. Overwrites
 // mesh.materials and triangle_material and returns the specifications in the order of mesh.materials. Throws InputError
-// for a part that the mesh does not have.
+// for a name that neither parts nor materials of the mesh have.
 std::vector<MaterialSpec> assign_materials(TriangleMesh& mesh, const MaterialSpec& all,
                                            std::span<const PartMaterial> parts);
 

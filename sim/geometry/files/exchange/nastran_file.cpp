@@ -140,9 +140,14 @@ class NastranReader {
     const std::int64_t property = cards_.integer(3, 0);
     std::array<std::int64_t, 4> corners{};
     for (std::size_t i = 0; i < kind->corners; ++i) corners[i] = cards_.integer(4 + i);
-    if (kind->offset_field > 0 && cards_.has(kind->offset_field) && cards_.real(kind->offset_field) != 0)
-      ++with_offset_;
+    if (kind->offset_field > 0 && has_offset(kind->offset_field)) ++with_offset_;
     model_.shell(part_of(property), {corners.data(), kind->corners}, kind->quadratic, cards_.at());
+  }
+
+  // ZOFFS: a length or, of OptiStruct, a face of the shell.
+  bool has_offset(std::size_t field) const {
+    const std::string_view text = cards_.field(field);
+    return !text.empty() && (text == "TOP" || text == "BOTTOM" || cards_.real(field) != 0);
   }
 
   std::uint32_t part_of(std::int64_t property) {

@@ -222,6 +222,7 @@ std::vector<std::string> OddPolygons::sentences() const {
         fmt::format("{} {}: {} (the first odd polygon: {})", count, count == 1 ? one : many, treatment, first_place));
   };
   constexpr const char* kFan = "taken as the fan of the first corner";
+  add(too_few, "polygon has fewer than three corners", "polygons have fewer than three corners", "dropped");
   add(without_area, "polygon goes out and back without area", "polygons go out and back without area", "dropped");
   add(crossing, "polygon crosses itself", "polygons cross themselves", kFan);
   add(large, "concave polygon has too many corners", "concave polygons have too many corners", kFan);
@@ -230,6 +231,11 @@ std::vector<std::string> OddPolygons::sentences() const {
 
 Triangles triangles_of_polygon(std::span<const Vec3> corner, OddPolygons& odd,
                                const std::function<std::string()>& place) {
+  if (corner.size() < 3) {
+    if (odd.first_place.empty()) odd.first_place = place();
+    ++odd.too_few;
+    return {};
+  }
   const std::vector<std::uint32_t> kept = without_spikes(corner);
   std::optional<Triangles> triangles;
   if (corner.size() == 3 || kept.size() == corner.size()) {

@@ -26,6 +26,7 @@ std::optional<std::vector<std::array<std::uint32_t, 3>>> triangulate_polygon(std
 
 // Polygons of a file that are no simple polygons, counted.
 struct OddPolygons {
+  std::size_t too_few = 0;       // with fewer than three corners, such as edges left over: dropped
   std::size_t without_area = 0;  // that go out and back the same way: dropped
   std::size_t crossing = 0;      // that cross themselves: the fan of their first vertex
   std::size_t large = 0;         // concave with more than kMaxConcaveVertices vertices: the same

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Meshes as other programs write them, and damaged ones (tests/cases/README.md).
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,6 +8,7 @@
 #include <string>
 
 #include "sim/core/process/error.h"
+#include "sim/core/process/file.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/mesh/mesh_diagnostics.h"
 #include "tests/sim/geometry/mesh_file.h"
@@ -136,11 +138,112 @@ TEST_F(FieldMesh, ThatIsNoSuchFileIsNamedAsWhatItIs) {
                "no .obj file: it is a text in UTF-16: save it as UTF-8");
   expect_error(put("a.stl", std::string("\xff\xfes\0o\0l\0i\0d\0", 12)), "UTF-16");
   expect_error(put("a.obj", "PK\x03\x04....."), "a zip archive");
-  // A binary STL whose comment begins with solid, with bytes left over.
-  std::string binary = "solid by a CAD program";
-  binary.resize(80, ' ');
-  binary.append("\x01\0\0\0", 4).append(50, '\0').append("xyz");
-  expect_error(put("a.stl", binary), "promises 1 triangles, which end at byte 134; 3 bytes are left over");
+}
+
+std::string quoted_size(const TriangleMesh& mesh) {
+  const Bounds box = bounds(mesh);
+  const Vec3 size = box.upper - box.lower;
+  return fmt::format("{} triangles, {:.4g} x {:.4g} x {:.4g} m, {:.4g} m^3", mesh.triangles.size(), size.x(), size.y(),
+                     size.z(), enclosed_volume(mesh));
+}
+
+// A box of 3 x 1.2 x 0.8 m in each spelling.
+const char* const kFloat = "12 triangles, 3 x 1.2 x 0.8 m, 2.88 m^3";
+
+TEST_F(FieldMesh, OfTextIsReadWithEveryLineEndAByteOrderMarkAndKeywordsInTwoWords) {
+  for (const char* name : {"end_solid.stl", "bom.stl", "cr_line_ends.stl"}) {
+    const TriangleMesh mesh = read_mesh(kMeshes + name);
+    EXPECT_EQ(quoted_size(mesh), kFloat) << name;
+    EXPECT_EQ(mesh.part_names, std::vector<std::string>{"float"}) << name;
+    EXPECT_THAT(mesh.findings, testing::IsEmpty()) << name;
+  }
+  const std::string text = "solid a b\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n";
+  EXPECT_EQ(read_mesh(put("a.stl", text + "end loop\nEnd Facet\nEND SOLID a b\n")).triangles.size(), 1u);
+  expect_error(put("a.stl", text + "end\nfacet\n"), "a.stl:8: \"endfacet\" where endloop belongs");
+
+  // The same triangle in the other text formats; a line end \r is one also where others are \r\n or \n elsewhere.
+  const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", mark = "\xef\xbb\xbf";
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  const auto old_mac = [](std::string lines) {
+    std::replace(lines.begin(), lines.end(), '\n', '\r');
+    return lines;
+  };
+  for (const auto& [name, written] : {std::pair{"a.obj", obj}, {"a.ply", ply}}) {
+    for (const std::string& other : {written, mark + written, old_mac(written), mark + old_mac(written)})
+      EXPECT_EQ(read_mesh(put(name, other)).triangles.size(), 1u) << name << ' ' << other;
+  }
+  expect_error(put("a.obj", old_mac("v 0 0 0\nv x 0 0\n")), "a.obj:2: \"x\" is not a coordinate");
+
+  // A binary PLY has lines in its header only, and \r and \n among its numbers.
+  std::string header =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty uchar x\nproperty uchar y\nproperty uchar z\n"
+      "element face 1\nproperty list uchar uchar vertex_indices\nend_header\n";
+  const std::string numbers("\r\r\0\n\r\0\r\n\0\3\0\1\2", 13);
+  EXPECT_EQ(read_mesh(put("a.ply", header + numbers)).vertices,
+            read_mesh(put("a.ply", old_mac(header) + numbers)).vertices);
+}
+
+TEST_F(FieldMesh, OfBinaryStlIsReadWithAFindingOfTheBytesBehindIt) {
+  const TriangleMesh mesh = read_mesh(kMeshes + "newline_behind.stl");
+  EXPECT_EQ(quoted_size(mesh), kFloat);
+  EXPECT_THAT(mesh.findings, testing::ElementsAre("1 byte is left over behind the last of 12 triangles: not read"));
+  const std::string bytes = read_file(kMeshes + "newline_behind.stl");
+  const std::string file = bytes.substr(0, bytes.size() - 1);
+  EXPECT_THAT(read_mesh(put("a.stl", file + std::string(512, '\0'))).findings,
+              testing::ElementsAre("512 bytes are left over behind the last of 12 triangles: not read"));
+  // The comment may begin with solid.
+  EXPECT_EQ(quoted_size(read_mesh(put("a.stl", "solid" + bytes.substr(5)))), kFloat);
+  // More triangles than promised, and a second file behind the first.
+  expect_error(put("a.stl", file + std::string(50, '\0')),
+               "12 triangles, which end at byte 684; 50 bytes are left over");
+  expect_error(put("a.stl", file + bytes), "12 triangles, which end at byte 684; 685 bytes are left over");
+}
+
+TEST_F(FieldMesh, WithFacesOfTwoCornersIsReadAndCountsThem) {
+  const TriangleMesh mesh = read_mesh(kMeshes + "face_of_two_corners.obj");
+  EXPECT_EQ(quoted_size(mesh), kFloat);
+  EXPECT_THAT(mesh.findings,
+              testing::ElementsAre(HasSubstr("1 polygon has fewer than three corners: dropped (the first odd "
+                                             "polygon: line ")));
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 3\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n2 0 1\n3 0 1 2\n1 2\n";
+  const TriangleMesh other = read_mesh(put("a.ply", ply));
+  EXPECT_EQ(other.triangles.size(), 1u);
+  EXPECT_THAT(other.findings, testing::ElementsAre("2 polygons have fewer than three corners: dropped (the first odd "
+                                                   "polygon: face 0)"));
+  expect_error(put("a.obj", "v 0 0 0\nv 1 0 0\nf 1 2\n"), "a.obj: contains no triangles");
+  expect_error(put("a.obj", "v 0 0 0\nv 1 0 0\nf 1 7\n"), "a.obj:3: the face names vertex 7, there are 2");
+}
+
+TEST_F(FieldMesh, OfOptiStructIsReadAsBulkDataOfNastran) {
+  const TriangleMesh mesh = read_mesh(kMeshes + "exchange/hypermesh.fem");
+  EXPECT_EQ(quoted_size(mesh), kFloat);
+  const std::string nodes = "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,1.,1.,0.\nGRID,4,,0.,1.,0.\n";
+  const TriangleMesh named = read_mesh(put("A.FEM",
+                                           "$$ Optistruct Input Deck\nSUBCASE 1\nBEGIN BULK\n$$\n"
+                                           "$HMNAME COMP                   7\"deck\" 7 \"steel\" 4\n"
+                                           "$HWCOLOR COMP                  7       5\n" +
+                                               nodes + "CQUAD4,1,7,1,2,3,4,,TOP\nENDDATA\n"));
+  EXPECT_EQ(named.part_names, std::vector<std::string>{"deck"});
+  EXPECT_THAT(named.findings, testing::ElementsAre(HasSubstr("1 shell with an offset from the nodes")));
+}
+
+TEST_F(FieldMesh, OfObjHasItsMaterialsAsPartsWhereItHasNoGroups) {
+  const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
+  const auto parts = [&](const std::string& faces) { return read_mesh(put("a.obj", corners + faces)).part_names; };
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(parts("usemtl hull\nf 1 2 3\nusemtl glass of a\tbridge\nf 1 2 4\nusemtl hull\nf 2 3 4\n"),
+            (Names{"hull", "glass of a bridge"}));
+  EXPECT_EQ(parts("f 1 2 3\nusemtl glass\nf 1 2 4\n"), (Names{"body", "glass"}));
+  EXPECT_EQ(parts("usemtl hull\nf 1 2 3\no mast\nf 1 2 4\n"), (Names{"body", "mast"}));
+  EXPECT_EQ(parts("g deck\nusemtl hull\nf 1 2 3\nusemtl glass\nf 1 2 4\n"), (Names{"deck"}));
+  const TriangleMesh mesh = read_mesh(put("a.obj", corners + "g deck\nusemtl hull\nf 1 2 3\nusemtl glass\nf 1 2 4\n"));
+  ASSERT_EQ(mesh.materials.size(), 2u);
+  EXPECT_EQ(mesh.materials[1].name, "glass");
+  EXPECT_EQ(mesh.triangle_material, (std::vector<std::uint16_t>{0, 1}));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "sim/core/process/error.h"
 #include "sim/geometry/mesh/topology.h"
 #include "sim/geometry/shapes/generators.h"
 #include "tests/sim/geometry/mesh_file.h"
@@ -101,12 +102,69 @@ TEST_F(GltfFile, WithAnUnsupportedTransformIsRefused) {
       put("a.gltf",
           gltf_with(R"([{"mesh":0,"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":0}}}}])")),
       "EXT_mesh_gpu_instancing");
-  std::string json = gltf_with(R"([{"mesh":0}])");
-  expect_error(put("a.gltf", json.insert(json.find("\"attributes\""), R"("targets":[{"POSITION":0}],)")),
-               "meshes[0].primitives[0] has morph targets");
   EXPECT_EQ(read_mesh(put("a.gltf", gltf_with(R"([{"mesh":0,"extensions":{"KHR_lights_punctual":{"light":0}}}])")))
                 .triangles.size(),
             1u);
+}
+
+// Shape keys of Blender. The weights of a node replace those of its mesh, and are 0 by default.
+TEST_F(GltfFile, WithMorphTargetsIsReadInItsBaseShapeWhereAllWeightsAre0) {
+  const auto with = [&](const std::string& mesh_weights, const std::string& node_weights) {
+    std::string json = gltf_with(R"([{"mesh":0)" + node_weights + "}]");
+    json.insert(json.find("\"attributes\""), R"("targets":[{"POSITION":0},{"POSITION":0}],)");
+    return put("a.gltf", json.insert(json.find("\"primitives\""), mesh_weights));
+  };
+  for (const auto& [mesh, node] : {std::pair{"", ""},
+                                   {R"("weights":[0,0],)", ""},
+                                   {R"("weights":[0.0,-0.0],)", ""},
+                                   {R"("weights":[0,1],)", R"(,"weights":[0,0])"}}) {
+    const TriangleMesh read = read_mesh(with(mesh, node));
+    EXPECT_EQ(read.vertices, read_mesh(put("base.gltf", gltf_with(R"([{"mesh":0}])"))).vertices);
+    EXPECT_EQ(read.findings,
+              std::vector<std::string>{"1 mesh has morph targets (shape keys) of weight 0: read in the base shape"});
+  }
+  const char* const refused = "nodes[0]: meshes[0] has morph targets with weights other than 0";
+  expect_error(with(R"("weights":[0,0.5],)", ""), refused);
+  expect_error(with(R"("weights":[0,0],)", R"(,"weights":[1e-3,0])"), refused);
+  expect_error(with(R"("weights":["a",0],)", ""), refused);
+  const TriangleMesh blender = read_mesh(SEAGLINT_SOURCE_DIR "/tests/cases/meshes/shape_key_at_rest.gltf");
+  EXPECT_EQ(blender.triangles.size(), 12u);
+  EXPECT_NEAR(enclosed_volume(blender), 3 * 1.2 * 0.8, 1e-6);
+}
+
+// RFC 2397: data:[type][;attribute=value ...];base64,DIGITS. A message has none of the digits.
+TEST_F(GltfFile, MayHaveItsBufferInADataUriWithParametersOrWithoutType) {
+  const std::string json = gltf_with(R"([{"mesh":0}])");
+  const std::size_t from = json.find("data:"), comma = json.find(',', from), to = json.find('"', from);
+  const std::string digits = json.substr(comma + 1, to - comma - 1);
+  const auto with = [&](const std::string& head, const std::string& data) {
+    return put("a.gltf", std::string(json).replace(from, to - from, head + "," + data));
+  };
+  const std::vector<Vec3> vertices = read_mesh(put("plain.gltf", json)).vertices;
+  for (const char* head :
+       {"data:application/octet-stream;charset=utf-8;base64", "data:;base64", "DATA:;charset=x;BASE64",
+        "data:application/gltf-buffer;a=b;c=d;base64", "data:model/vnd.something;base64"})
+    EXPECT_EQ(read_mesh(with(head, digits)).vertices, vertices) << head;
+  EXPECT_EQ(read_mesh(with("data:;base64", digits.substr(0, 8) + "\\n " + digits.substr(8))).vertices, vertices);
+
+  const auto refusal = [&](const std::string& head, const std::string& data) {
+    try {
+      read_mesh(with(head, data));
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  const auto expect_short = [&](const std::string& message, const char* what) {
+    EXPECT_NE(message.find(what), std::string::npos) << message;
+    EXPECT_EQ(message.find("AAAA"), std::string::npos) << message;
+  };
+  expect_short(refusal("data:text/plain", digits), "buffers[0].uri is a data URI other than base64");
+  expect_short(refusal("data:;base64", digits.substr(4)), "buffers[0].byteLength = 36 but its data URI has 33 bytes");
+  expect_short(refusal("data:;base64", "AAAA" + digits), "buffers[0].byteLength = 36 but its data URI has 39 bytes");
+  expect_short(refusal("data:;base64", "AAAA?" + digits.substr(5)), "buffers[0].uri: digit 5 of its base64 is none");
+  expect_short(refusal(" data:;base64", digits), "File not found");
+  EXPECT_EQ(read_mesh(SEAGLINT_SOURCE_DIR "/tests/cases/meshes/data_uri_with_charset.gltf").triangles.size(), 12u);
 }
 
 TEST_F(GltfFile, IndicesBeyondTheirVerticesAreRefused) {

@@ -217,7 +217,7 @@ TEST_F(MeshFile, BrokenObjIsRefusedWithItsLine) {
   expect_error(put("a.obj", "v 0 0\n"), ":1:");
   expect_error(put("a.obj", "v 1e39 0 0\n"), ":1:");
   expect_error(put("a.obj", "v 0 0 0\nf 1 x 1\n"), ":2:");
-  expect_error(put("a.obj", "v 0 0 0\nf 1 1\n"), ":2:");
+  expect_error(put("a.obj", "v 0 0 0\nf 1 1\n"), "contains no triangles");
   expect_error(put("a.obj", "v +-1 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), ":1: \"+-1\"");
   expect_error(put("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/xyz 2 3\n"), ":4: \"1/xyz\"");
   expect_error(put("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 +-3\n"), ":4: \"+-3\"");

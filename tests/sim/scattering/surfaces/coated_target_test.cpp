@@ -244,5 +244,28 @@ TEST(MaterialParts, AreAssignedByPartNames) {
   EXPECT_NO_THROW(check_frequencies(std::vector{library("grp_sheet")}, 16e9, 16.2e9));
 }
 
+// Parts come first; the name of the faces without a material is none.
+TEST(MaterialParts, AreAssignedByTheMaterialsOfTheFileWhereNoPartHasTheName) {
+  TriangleMesh file = make_plate(1, 1);
+  file.append(make_sphere(1, 1));
+  file.materials = {Material{}, Material{"glass"}};
+  for (std::size_t t = 0; t < file.triangles.size(); ++t) file.triangle_material[t] = t % 2;
+  MaterialSpec a = impedance(1, 0), b = impedance(2, 0);
+  a.name = "a";
+  b.name = "b";
+  const auto assigned = [&](const std::vector<PartMaterial>& choices) {
+    TriangleMesh mesh = file;
+    const auto materials = assign_materials(mesh, MaterialSpec{}, choices);
+    std::string names;
+    for (const std::size_t t : {0, 1, 2, 3}) names += materials[mesh.triangle_material[t]].name + ' ';
+    return names;
+  };
+  // The plate has triangles 0 and 1.
+  EXPECT_EQ(assigned({{"glass", a}}), "pec a pec a ");
+  EXPECT_EQ(assigned({{file.part_names[0], b}, {"gl*", a}}), "b a pec a ");
+  EXPECT_EQ(assigned({{"gl*", a}, {file.part_names[0], b}}), "b b pec a ");
+  EXPECT_THROW(assigned({{"pec", a}}), InputError);
+}
+
 }  // namespace
 }  // namespace seaglint
