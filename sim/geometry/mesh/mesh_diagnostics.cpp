@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "sim/geometry/mesh/coinciding_faces.h"
 #include "sim/geometry/mesh/disjoint_sets.h"
 #include "sim/geometry/mesh/index_groups.h"
 
@@ -146,6 +147,87 @@ void choose_backs(const TriangleMesh& mesh, const Topology& topology,
   }
 }
 
+struct Surface {
+  bool open = false;
+  double volume = 0, area = 0;  // m^3, 0 where it is rounding; m^2
+  std::size_t triangles = 0;
+};
+
+// Surfaces by the root of their set. Volumes about a point of the mesh: far from the origin the terms of the divergence
+// theorem cancel.
+std::vector<Surface> surfaces_of(const TriangleMesh& mesh, const std::vector<char>& drop, DisjointSets& sets,
+                                 const std::vector<char>& open) {
+  const std::size_t count = mesh.triangles.size();
+  std::vector<Surface> surfaces(count);
+  const Bounds box = bounds(mesh);
+  const Vec3 centre = (box.lower + box.upper) / 2;
+  for (std::uint32_t t = 0; t < count; ++t) {
+    if (drop[t]) continue;
+    Surface& surface = surfaces[sets.find(t)];
+    surface.open = open[sets.find(t)];
+    const Vec3 area = area_vector(mesh, t);
+    surface.volume += (mesh.vertices[mesh.triangles[t][0]] - centre).dot(area) / 3;
+    surface.area += area.norm();
+    ++surface.triangles;
+  }
+  // Below this the enclosed volume is rounding.
+  constexpr double kMinVolume = 1e-9;  // of size times area
+  const double size = (box.upper - box.lower).norm();
+  for (Surface& surface : surfaces) {
+    if (!(std::abs(surface.volume) > kMinVolume * size * surface.area)) surface.volume = 0;
+  }
+  return surfaces;
+}
+
+// Sets of triangles that are connected across edges of exactly two.
+DisjointSets connected(const Topology& topology, std::size_t triangles) {
+  DisjointSets sets(triangles);
+  for (const MeshEdge& edge : topology.edges) {
+    const auto uses = uses_of(topology, edge);
+    if (uses.size() == 2) sets.unite(uses[0].triangle, uses[1].triangle);
+  }
+  return sets;
+}
+
+// What a coincidence is by the surfaces of its triangles: no wave reaches faces in which two closed bodies are in
+// contact. The shell of a closed body that is drawn from inside as well has the same volume with the other sign and is
+// no contact.
+CoincidingFaces coinciding_faces(const TriangleMesh& mesh, const Topology& topology, const std::vector<char>& drop,
+                                 bool quads) {
+  DisjointSets sets = connected(topology, mesh.triangles.size());
+  const std::vector<char> open = unclosed(topology, mesh.triangles.size(), sets);
+  const std::vector<Surface> surfaces = surfaces_of(mesh, drop, sets, open);
+  const auto volume_at = [&](std::uint32_t t) {
+    const Surface& surface = surfaces[sets.find(t)];
+    return surface.open ? 0.0 : surface.volume;
+  };
+  const auto kind = [&](std::uint32_t a, std::uint32_t b) {
+    const double one = volume_at(a), other = volume_at(b);
+    if (sets.find(a) == sets.find(b) || one * other < 0 || (one == 0 && other == 0)) return Coincidence::kSheet;
+    return one == 0 ? Coincidence::kSheetOnBody : other == 0 ? Coincidence::kBodyUnderSheet : Coincidence::kBodies;
+  };
+  return find_coinciding_faces(mesh, {drop, kind, quads});
+}
+
+// Marks backs of sheets that are cut otherwise than their fronts, and returns the topology without them. Quads that are
+// drawn from both sides come first: without their backs, bodies are closed and their contact with others is seen.
+Topology without_covered_backs(const TriangleMesh& mesh, Topology topology, Diagnosis& d) {
+  CoincidingFaces found;
+  for (const bool quads : {true, false}) {
+    found = coinciding_faces(mesh, topology, d.drop, quads);
+    for (const std::uint32_t t : found.backs) d.drop[t] = 1;
+    d.health.covered += found.backs.size();
+    d.health.covered_m2 += found.backs_m2;
+    if (!found.backs.empty()) topology = remaining(std::move(topology), d.drop);
+  }
+  d.health.partly = found.partly;
+  d.health.partly_m2 = found.partly_m2;
+  d.health.unlike = found.unlike;
+  d.health.unlike_m2 = found.unlike_m2;
+  d.health.is_crowded = found.is_crowded;
+  return topology;
+}
+
 Diagnosis find_defects(const TriangleMesh& mesh) {
   const std::size_t count = mesh.triangles.size();
   Diagnosis d;
@@ -161,12 +243,12 @@ Diagnosis find_defects(const TriangleMesh& mesh) {
   const auto backs = find_copies(mesh, d);
   choose_backs(mesh, topology, backs, d);
   topology = remaining(std::move(topology), d.drop);
+  topology = without_covered_backs(mesh, std::move(topology), d);
 
   // Only edges of two triangles define which triangles continue each other.
-  DisjointSets sets(count);
+  DisjointSets sets = connected(topology, count);
   for (const MeshEdge& edge : topology.edges) {
     const auto uses = uses_of(topology, edge);
-    if (uses.size() == 2) sets.unite(uses[0].triangle, uses[1].triangle);
     if (uses.size() == 1) ++d.health.open_edges;
     if (is_mixed(uses)) ++d.health.inconsistent_edges;
     if (uses.size() > 2) ++d.health.non_manifold_edges;
@@ -190,29 +272,10 @@ Diagnosis find_defects(const TriangleMesh& mesh) {
     if (uses.size() == 1 || is_mixed(uses)) has_free_edge[joined.find(uses[0].triangle)] = 1;
   }
 
-  struct Surface {
-    bool open = false;
-    double volume = 0, area = 0;
-    std::size_t triangles = 0;
-  };
-  std::vector<Surface> surfaces(count);  // stored at the root
-  // Volumes about a point of the mesh: far from the origin the terms of the divergence theorem cancel.
+  const std::vector<Surface> surfaces = surfaces_of(mesh, d.drop, joined, open);
   const Bounds box = bounds(mesh);
   d.health.size = box.upper - box.lower;
-  const Vec3 centre = (box.lower + box.upper) / 2;
-  for (std::uint32_t t = 0; t < count; ++t) {
-    if (d.drop[t]) continue;
-    Surface& surface = surfaces[joined.find(t)];
-    surface.open = open[joined.find(t)];
-    const Vec3 area = area_vector(mesh, t);
-    surface.volume += (mesh.vertices[mesh.triangles[t][0]] - centre).dot(area) / 3;
-    surface.area += area.norm();
-    ++surface.triangles;
-  }
-  // Below this the enclosed volume is rounding.
-  constexpr double kMinVolume = 1e-9;  // of size times area
-  const double size = d.health.size.norm();
-  const auto inverted = [&](const Surface& s) { return !s.open && s.volume < -kMinVolume * size * s.area; };
+  const auto inverted = [](const Surface& s) { return !s.open && s.volume < 0; };
   for (std::uint32_t root = 0; root < count; ++root) {
     const Surface& surface = surfaces[root];
     if (surface.triangles == 0) continue;
@@ -286,6 +349,26 @@ std::vector<std::string> diagnostic_messages(const MeshDiagnostics& h) {
   if (h.two_sided > 0)
     found.push_back(counted(h.two_sided, "triangle duplicates another", "triangles duplicate others") +
                     " with opposite orientation: removed; a single-material sheet scatters from both sides");
+  if (h.covered > 0) {
+    found.push_back(
+        fmt::format("{} others with opposite orientation, cut otherwise ({:.4g} m^2): removed; coinciding "
+                    "faces are one sheet, which scatters from both sides",
+                    counted(h.covered, "triangle coincides with", "triangles coincide with"), h.covered_m2));
+  }
+  if (h.is_crowded)
+    found.push_back("too many triangles lie in one place to find those that coincide with opposite orientation");
+  if (h.partly > 0) {
+    found.push_back(
+        fmt::format("{} others with opposite orientation in part ({:.4g} m^2): not one sheet; rays may hit "
+                    "the side that faces away and end there",
+                    counted(h.partly, "triangle overlaps", "triangles overlap"), h.partly_m2));
+  }
+  if (h.unlike > 0) {
+    found.push_back(
+        fmt::format("{} others of another material with opposite orientation ({:.4g} m^2): rays may hit the "
+                    "side that faces away and end there",
+                    counted(h.unlike, "triangle coincides with", "triangles coincide with"), h.unlike_m2));
+  }
   if (h.dropped_backs > 0) {
     found.push_back(
         fmt::format("{} the back of another in another material, the first of them of part '{}' behind part '{}': "

@@ -20,6 +20,11 @@ struct MeshDiagnostics {
   std::size_t degenerate = 0;          // zero area
   std::size_t repeated = 0;            // further copies of a triangle with the same orientation
   std::size_t two_sided = 0;           // further copies with opposite orientation: backs of sheets without thickness
+  std::size_t covered = 0;             // backs of sheets that are cut otherwise than the fronts
+  double covered_m2 = 0;               // their area
+  std::size_t partly = 0, unlike = 0;  // of CoincidingFaces
+  double partly_m2 = 0, unlike_m2 = 0;
+  bool is_crowded = false;
   std::size_t kept_backs = 0;          // backs of another material that are kept
   std::size_t dropped_backs = 0;       // backs of another material that are removed, because their surface is open
   std::string lost_part, lost_behind;  // part of the first removed back, and of its front
@@ -44,11 +49,11 @@ MeshDiagnostics diagnose(const TriangleMesh& mesh);
 // One sentence per defect, with its treatment by the solver; empty for a closed mesh without defects.
 std::vector<std::string> diagnostic_messages(const MeshDiagnostics& health);
 
-// The mesh without degenerate triangles and copies, with closed surfaces oriented outwards, their normals too;
-// triangles keep their order. A ray meets only one of coinciding triangles, and the solver skips facets that face away,
-// so that of an inside-out surface it would illuminate the inside. The back of a sheet is kept where its material
-// differs and its surface is closed, so materials are assigned before the repair. A closed cavity inside a closed body
-// is also oriented outwards; it is never visible.
+// The mesh without degenerate triangles, copies and covered backs of sheets (coinciding_faces.h), with closed surfaces
+// oriented outwards, their normals too; triangles keep their order. A ray meets only one of coinciding triangles, and
+// the solver skips facets that face away, so that of an inside-out surface it would illuminate the inside. The back of
+// a sheet is kept where its material differs and its surface is closed, so materials are assigned before the repair. A
+// closed cavity inside a closed body is also oriented outwards; it is never visible.
 TriangleMesh repair(const TriangleMesh& mesh);
 
 struct RepairedMesh {

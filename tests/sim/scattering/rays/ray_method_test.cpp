@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "sim/geometry/files/mesh_io.h"
+#include "sim/geometry/mesh/mesh_builder.h"
+#include "sim/geometry/mesh/mesh_changes.h"
+#include "sim/geometry/mesh/mesh_diagnostics.h"
 #include "sim/scattering/response/sweep_sum.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
@@ -68,6 +71,37 @@ TEST(Rays, CanonicalBodiesAreWithinATenthOfADecibelOfBeams) {
               << name << ' ' << azimuth << ' ' << elevation << ' ' << dbsm(rays[channel]) << ' '
               << dbsm(beams[channel]);
       }
+    }
+  }
+}
+
+// Faces drawn from both sides, the backs cut otherwise: by both methods the echo of the sheet, for any cut.
+TEST(Rays, ASheetDrawnFromBothSidesHasTheEchoOfTheSheetByBothMethods) {
+  const std::string meshes = SEAGLINT_SOURCE_DIR "/tests/cases/meshes/";
+  const double k = wavenumber(10e9);
+  const RadarBasis into = radar_basis(direction(45, 30)), beside = radar_basis(direction(130, 10));
+  const TriangleMesh sheet = read_mesh(meshes + "trihedral_sheet.obj");
+  TriangleMesh backs = sheet;
+  for (auto& triangle : backs.triangles) std::swap(triangle[1], triangle[2]);
+  std::vector<TriangleMesh> drawn_twice{read_mesh(meshes + "trihedral_two_sided.obj")};
+  Random random({3, Stream::kTest, 1});
+  for (int level = 0; level < 2; ++level) {
+    backs = renumbered(cut_in_four(backs), random);
+    drawn_twice.push_back(backs);
+    drawn_twice.back().append(sheet);
+    drawn_twice.push_back(sheet);
+    drawn_twice.back().append(backs);
+  }
+  for (const SolverMethod method : {SolverMethod::kRays, SolverMethod::kBeams}) {
+    const Matrix alone = echo_by(by(method, true), Scatterer(repair(sheet)), into, k),
+                 outside = echo_by(by(method, true), Scatterer(repair(sheet)), beside, k);
+    // The values that the case was reported with.
+    EXPECT_NEAR(dbsm(alone[kHhChannel]), 44.88, 0.1);
+    EXPECT_NEAR(dbsm(alone[kVvChannel]), 44.98, 0.1);
+    for (const TriangleMesh& mesh : drawn_twice) {
+      const Scatterer target(repair(welded(mesh)));
+      EXPECT_LT(relative_difference(echo_by(by(method, true), target, into, k), alone), 1e-6);
+      EXPECT_LT(relative_difference(echo_by(by(method, true), target, beside, k), outside), 1e-6);
     }
   }
 }
