@@ -140,11 +140,6 @@ class BoxTree {
 
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-struct Overlap {
-  std::uint32_t a, b;  // triangles
-  double area;         // m^2
-};
-
 class CoincidenceFinder {
  public:
   CoincidenceFinder(const TriangleMesh& mesh, const CoincidenceSettings& settings) : mesh_(mesh), settings_(settings) {
@@ -318,16 +313,16 @@ class CoincidenceFinder {
   void choose() {
     const std::size_t count = mesh_.triangles.size();
     DisjointSets sets(count);
-    for (const Overlap& o : overlaps_) sets.unite(o.a, o.b);
+    for (const FaceOverlap& o : overlaps_) sets.unite(o.a, o.b);
     std::vector<std::uint32_t> members;
-    for (const Overlap& o : overlaps_) members.insert(members.end(), {o.a, o.b});
+    for (const FaceOverlap& o : overlaps_) members.insert(members.end(), {o.a, o.b});
     std::ranges::sort(members);
     members.erase(std::unique(members.begin(), members.end()), members.end());
     std::ranges::stable_sort(members, {}, [&](std::uint32_t t) { return sets.find(t); });
 
     // Both directions of every overlap, by triangle.
     Pairs others;
-    for (const Overlap& o : overlaps_) others.insert(others.end(), {std::pair{o.a, o.b}, {o.b, o.a}});
+    for (const FaceOverlap& o : overlaps_) others.insert(others.end(), {std::pair{o.a, o.b}, {o.b, o.a}});
     std::ranges::sort(others);
     others.erase(std::unique(others.begin(), others.end()), others.end());
 
@@ -351,18 +346,19 @@ class CoincidenceFinder {
       found_.backs.push_back(t);
       found_.backs_m2 += area_[t].norm();
     }
-    const auto report = [&](const std::vector<Overlap>& overlaps, std::size_t& triangles, double& area) {
-      std::vector<std::uint32_t> left;
-      for (const Overlap& o : overlaps) {
-        if (removed[o.a] || removed[o.b]) continue;
-        left.insert(left.end(), {o.a, o.b});
-        area += o.area;
-      }
-      std::ranges::sort(left);
-      triangles = static_cast<std::size_t>(std::unique(left.begin(), left.end()) - left.begin());
-    };
-    report(overlaps_, found_.partly, found_.partly_m2);
-    report(unlike_, found_.unlike, found_.unlike_m2);
+    std::vector<std::uint32_t> partly;
+    for (const FaceOverlap& o : overlaps_) {
+      if (removed[o.a] || removed[o.b]) continue;
+      partly.insert(partly.end(), {o.a, o.b});
+      found_.partly_m2 += o.area;
+    }
+    std::ranges::sort(partly);
+    found_.partly = static_cast<std::size_t>(std::unique(partly.begin(), partly.end()) - partly.begin());
+    for (const FaceOverlap& o : unlike_) members.insert(members.end(), {o.a, o.b});
+    std::ranges::sort(members);
+    members.erase(std::unique(members.begin(), members.end()), members.end());
+    found_.all = std::move(members);
+    found_.unlike = std::move(unlike_);
   }
 
   // The second triangles of the pairs of a first one; the pairs ascend.
@@ -397,8 +393,8 @@ class CoincidenceFinder {
   double tolerance_ = 0;               // m
   std::vector<Vec3> area_;             // area vectors of all triangles, m^2
   std::vector<std::uint32_t> used_;    // triangles
-  std::vector<Overlap> overlaps_;      // of one material
-  std::vector<Overlap> unlike_;        // of different materials
+  std::vector<FaceOverlap> overlaps_;  // of one material
+  std::vector<FaceOverlap> unlike_;    // of different materials
   Pairs on_bodies_;                    // triangle of an open surface, of a closed body
   std::vector<char> covered_as_quad_;  // by triangle
   CoincidingFaces found_;

@@ -13,14 +13,19 @@
 
 namespace seaglint {
 
+struct FaceOverlap {
+  std::uint32_t a, b;  // triangles of opposite orientation
+  double area;         // m^2
+};
+
 struct CoincidingFaces {
   std::vector<std::uint32_t> backs;  // triangles that others of opposite orientation cover: one sheet without them
   double backs_m2 = 0;               // their area
-  // Triangles that are left and overlap others of opposite orientation: of one material, covered in part only; of
-  // different materials.
-  std::size_t partly = 0, unlike = 0;
-  double partly_m2 = 0, unlike_m2 = 0;  // area of the overlaps
-  bool is_crowded = false;              // too many triangles in one place: nothing was found
+  std::size_t partly = 0;            // triangles that are left and overlap others of their material in part
+  double partly_m2 = 0;              // area of the overlaps
+  std::vector<FaceOverlap> unlike;   // those of different materials
+  std::vector<std::uint32_t> all;    // every triangle that overlaps another, ascending
+  bool is_crowded = false;           // too many triangles in one place: nothing was found
 };
 
 // What two overlapping triangles of one material are.

@@ -39,8 +39,9 @@ std::span<const HalfEdge> uses_of(const Topology& topology, const MeshEdge& edge
 
 struct Diagnosis {
   MeshDiagnostics health;
-  std::vector<char> drop;  // degenerate or a copy
-  std::vector<char> turn;  // of an inverted surface
+  std::vector<char> drop;           // degenerate or a copy
+  std::vector<char> turn;           // of an inverted surface
+  std::vector<FaceOverlap> unlike;  // CoincidingFaces::unlike
 };
 
 // Marks copies of triangles. Returns pairs (front, back) of coinciding triangles of opposite orientation and different
@@ -222,8 +223,7 @@ Topology without_covered_backs(const TriangleMesh& mesh, Topology topology, Diag
   }
   d.health.partly = found.partly;
   d.health.partly_m2 = found.partly_m2;
-  d.health.unlike = found.unlike;
-  d.health.unlike_m2 = found.unlike_m2;
+  d.unlike = std::move(found.unlike);
   d.health.is_crowded = found.is_crowded;
   return topology;
 }
@@ -266,6 +266,13 @@ Diagnosis find_defects(const TriangleMesh& mesh) {
     }
   }
   const std::vector<char> open = unclosed(topology, count, joined);
+  // Of two coinciding faces in open surfaces, which scatter from both sides, either may hide the other.
+  std::vector<char> is_hidden(count, 0);
+  for (const FaceOverlap& o : d.unlike) {
+    if (d.drop[o.a] || d.drop[o.b] || !open[joined.find(o.a)] || !open[joined.find(o.b)]) continue;
+    d.health.unlike_m2 += o.area;
+    for (const std::uint32_t t : {o.a, o.b}) d.health.unlike += std::exchange(is_hidden[t], char{1}) ? 0 : 1;
+  }
   std::vector<char> has_free_edge(count, 0);
   for (const MeshEdge& edge : topology.edges) {
     const auto uses = uses_of(topology, edge);
@@ -359,14 +366,14 @@ std::vector<std::string> diagnostic_messages(const MeshDiagnostics& h) {
     found.push_back("too many triangles lie in one place to find those that coincide with opposite orientation");
   if (h.partly > 0) {
     found.push_back(
-        fmt::format("{} others with opposite orientation in part ({:.4g} m^2): not one sheet; rays may hit "
-                    "the side that faces away and end there",
+        fmt::format("{} others with opposite orientation in part ({:.4g} m^2): not one sheet, the edges of "
+                    "both diffract",
                     counted(h.partly, "triangle overlaps", "triangles overlap"), h.partly_m2));
   }
   if (h.unlike > 0) {
     found.push_back(
-        fmt::format("{} others of another material with opposite orientation ({:.4g} m^2): rays may hit the "
-                    "side that faces away and end there",
+        fmt::format("{} others of another material with opposite orientation, in open surfaces "
+                    "({:.4g} m^2): either may scatter on both sides",
                     counted(h.unlike, "triangle coincides with", "triangles coincide with"), h.unlike_m2));
   }
   if (h.dropped_backs > 0) {

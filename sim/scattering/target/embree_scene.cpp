@@ -12,11 +12,16 @@
 #include <stdexcept>
 #include <string>
 
+#include "sim/geometry/mesh/coinciding_faces.h"
+
 namespace seaglint {
 
 struct RayScene::Impl {
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
+  // By facet: the unit normal of one-sided facets that coincide with others of opposite orientation, else 0. Empty
+  // where there are none.
+  std::vector<Vec3> coinciding_normal;
 
   ~Impl() {
     if (scene) rtcReleaseScene(scene);
@@ -60,6 +65,38 @@ struct BuiltNode : Built {
   std::array<Built*, kMaxChildren> child{};
   std::array<RTCBounds, kMaxChildren> bounds{};
 };
+
+// Normals as RayScene::Impl::coinciding_normal.
+std::vector<Vec3> coinciding_normals(std::span<const Facet> facets) {
+  TriangleMesh mesh;
+  for (const Facet& facet : facets) {
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.insert(mesh.vertices.end(), facet.corner.begin(), facet.corner.end());
+    mesh.triangles.push_back({first, first + 1, first + 2});
+    mesh.triangle_material.push_back(facet.material);
+  }
+  const auto kind = [](std::uint32_t, std::uint32_t) { return Coincidence::kSheet; };
+  std::vector<Vec3> normals;
+  for (const std::uint32_t f : find_coinciding_faces(mesh, {{}, kind}).all) {
+    if (facets[f].two_sided) continue;
+    normals.resize(facets.size(), Vec3::Zero());
+    normals[f] = facets[f].normal;
+  }
+  return normals;
+}
+
+// Embree's filter of hits: rejects those of coinciding facets that face away from the ray.
+void reject_backs(const RTCFilterFunctionNArguments* arguments) {
+  const auto& normals = *static_cast<const std::vector<Vec3>*>(arguments->geometryUserPtr);
+  for (unsigned lane = 0; lane < arguments->N; ++lane) {
+    if (arguments->valid[lane] == 0) continue;
+    const Vec3& normal = normals[RTCHitN_primID(arguments->hit, arguments->N, lane)];
+    const Vec3 direction(RTCRayN_dir_x(arguments->ray, arguments->N, lane),
+                         RTCRayN_dir_y(arguments->ray, arguments->N, lane),
+                         RTCRayN_dir_z(arguments->ray, arguments->N, lane));
+    if (normal.dot(direction) > 0) arguments->valid[lane] = 0;
+  }
+}
 
 float rounded_down(double x) {
   const auto f = static_cast<float>(x);
@@ -190,6 +227,11 @@ RayScene::RayScene(std::span<const Facet> facets) : impl_(std::make_unique<Impl>
       for (int axis = 0; axis < 3; ++axis) *vertices++ = static_cast<float>(facets[f].corner[i][axis]);
       *triangles++ = static_cast<unsigned>(3 * f + i);
     }
+  }
+  impl_->coinciding_normal = coinciding_normals(facets);
+  if (!impl_->coinciding_normal.empty()) {
+    rtcSetGeometryUserData(geometry, &impl_->coinciding_normal);
+    rtcSetGeometryIntersectFilterFunction(geometry, reject_backs);
   }
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(impl_->scene, geometry);

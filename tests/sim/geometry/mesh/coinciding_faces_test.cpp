@@ -196,14 +196,21 @@ TEST(CoincidingFaces, OfAHeapOfTrianglesAreNotSearched) {
   EXPECT_THAT(diagnostic_messages(diagnose(heap)), Contains(HasSubstr("too many triangles lie in one place")));
 }
 
-TEST(CoincidingFaces, OfTwoMaterialsStayAndAreNamed) {
+TEST(CoincidingFaces, OfTwoMaterialsStayAndAreNamedWhereTheirSurfacesAreOpen) {
   TriangleMesh mesh = read_mesh(kMeshes + "trihedral_two_sided.obj");
   mesh.materials.push_back({"canvas"});
   for (std::size_t t = 6; t < 12; ++t) mesh.triangle_material[t] = 1;
   EXPECT_EQ(repair(mesh).triangles.size(), 12u);
+  EXPECT_THAT(diagnostic_messages(diagnose(mesh)), testing::Not(Contains(HasSubstr("another material"))));
+  // A back of its own vertices is an open surface.
+  TriangleMesh back = cut_in_four(turned_over(make_plate(1, 1)));
+  back.materials = {{"canvas"}};
+  const TriangleMesh plate = both(make_plate(1, 1), back);
+  EXPECT_EQ(repair(plate).triangles.size(), 10u);
   EXPECT_THAT(
-      diagnostic_messages(diagnose(mesh)),
-      Contains(HasSubstr("12 triangles coincide with others of another material with opposite orientation (3 m^2)")));
+      diagnostic_messages(diagnose(plate)),
+      Contains(HasSubstr("10 triangles coincide with others of another material with opposite orientation, in open "
+                         "surfaces (1 m^2)")));
 }
 
 }  // namespace

@@ -106,6 +106,33 @@ TEST(Rays, ASheetDrawnFromBothSidesHasTheEchoOfTheSheetByBothMethods) {
   }
 }
 
+// The two sides are of different materials and stay; a ray hits the side that faces it, whichever is first in the file.
+TEST(Rays, ASheetOfTwoMaterialsScattersByTheSideThatIsSeen) {
+  const double k = wavenumber(10e9);
+  const RadarBasis into = radar_basis(direction(45, 30));
+  MaterialSpec dull;
+  dull.name = "dull";
+  dull.kind = SurfaceKind::kImpedance;
+  dull.resistance = 0.5;
+  for (const bool recut : {false, true}) {
+    TriangleMesh mesh = read_mesh(SEAGLINT_SOURCE_DIR "/tests/cases/meshes/trihedral_two_sided.obj");
+    if (!recut) {
+      for (std::size_t t = 0; t < 6; ++t) {
+        const auto [a, b, c] = mesh.triangles[t];
+        mesh.triangles[6 + t] = {c, b, a};
+      }
+    }
+    mesh.materials.push_back({"dull"});
+    for (const bool front_is_dull : {false, true}) {
+      for (std::size_t t = 0; t < 12; ++t) mesh.triangle_material[t] = (t < 6) == front_is_dull ? 1 : 0;
+      const Scatterer target(repair(mesh), {MaterialSpec{}, dull});
+      const Matrix rays = echo_by(kByRays, target, into, k), beams = echo_by(kByBeams, target, into, k);
+      EXPECT_LT(relative_difference(rays, beams), 0.0115) << recut << front_is_dull;  // 0.1 dB
+      EXPECT_EQ(dbsm(rays[kVvChannel]) > 44, !front_is_dull);
+    }
+  }
+}
+
 // Slivers below the smallest patch, which the borders of tiles cut off, leave 1e-5.
 TEST(Rays, ObstaclesOfTheExitPathAreCutOutAsTheVisibleSurfaceOfBeamsDoes) {
   const Scatterer target(stepped_corner());
