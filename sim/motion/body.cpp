@@ -89,6 +89,42 @@ void check_step(const Body& body) {
   }
 }
 
+// Extent in z of nine tenths of the surface: a twentieth of the area is below, a twentieth above. A third of each
+// triangle counts at each corner.
+double main_height(const TriangleMesh& mesh) {
+  constexpr double kBeyond = 0.05;
+  std::vector<std::pair<double, double>> area_at;  // z of a corner, area
+  double all = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const double third = area_vector(mesh, t).norm() / 3;
+    for (const std::uint32_t v : mesh.triangles[t]) area_at.emplace_back(mesh.vertices[v].z(), third);
+    all += 3 * third;
+  }
+  std::ranges::sort(area_at);
+  double sum = 0, low = 0, high = 0;
+  for (const auto& [z, area] : area_at) {
+    if (sum <= kBeyond * all) low = z;
+    if (sum < (1 - kBeyond) * all) high = z;
+    sum += area;
+  }
+  return high - low;
+}
+
+// ship_particulars(), whose errors get the sizes of hull and mesh.
+ShipParticulars particulars_of(const MotionSpec& spec, const HullSections& hull, const BodyShape& shape) {
+  try {
+    return ship_particulars(spec, hull);
+  } catch (const InputError& error) {
+    const Vec3 size = shape.box.upper - shape.box.lower;
+    const std::string of_mesh =
+        shape.is_raft ? ""
+                      : fmt::format("; the mesh is {:.4g} m long (x), {:.4g} m broad (y) and {:.4g} m high (z)",
+                                    size.x(), size.y(), size.z());
+    throw InputError(fmt::format("{}; the hull is {:.4g} m long and {:.4g} m broad, with a draught of {:.4g} m{}",
+                                 error.what(), hull.length, hull.beam(), hull.draught(), of_mesh));
+  }
+}
+
 const char* heading_of(const MotionSpec& spec, bool wamit) {
   if (!wamit) return "VERES: its heading + 180";
   return spec.wamit_heading == HeadingConvention::kFrom ? "wamit_heading: its heading, from where they come, + 180"
@@ -135,7 +171,32 @@ std::string motion_file_reading(const Body& body) {
   return "";
 }
 
-BodyShape shape_of(const TriangleMesh& mesh) { return {bounds(mesh), sections_of_mesh(mesh, kStrips)}; }
+BodyShape shape_of(const TriangleMesh& mesh) {
+  return {.box = bounds(mesh), .hull = sections_of_mesh(mesh, kStrips), .main_height_m = main_height(mesh)};
+}
+
+std::string orientation_finding(const BodyShape& shape) {
+  const Vec3 size = shape.box.upper - shape.box.lower;
+  if (shape.is_raft || !(size.maxCoeff() > 0)) return "";
+  // Off-centre by 2 % of the extent counts as symmetric, by 20 % as not.
+  constexpr double kSymmetric = 0.02, kSkew = 0.2;
+  const Vec3 skew = (shape.box.upper + shape.box.lower).cwiseAbs();
+  const bool lies_on_side = skew.z() <= kSymmetric * size.z() && skew.y() >= kSkew * size.y();
+  const double length = size.x(), breadth = size.y(), height = shape.main_height_m;
+  std::string fault, keys;
+  if (breadth > length || height > length) {
+    fault = breadth >= height ? "broader than long" : "higher than long";
+    keys = breadth >= height ? "orientation.forward: +y (or -y)" : "orientation: {forward: +z, up: +y}";
+  } else if (height > breadth || lies_on_side) {
+    fault = height > breadth ? "higher than broad" : "symmetric about the plane z = 0 and not about y = 0";
+    keys = "orientation.up: +y (or -y)";
+  }
+  if (fault.empty()) return "";
+  return fmt::format(
+      "the hull is {:.4g} m long (x), {:.4g} m broad (y) and {:.4g} m high (z): {}; if its bow is not along "
+      "x or its masts are not along z, {} turns it",
+      length, breadth, size.z(), fault, keys);
+}
 
 HullSections ship_sections(const MotionSpec& spec, const BodyShape& shape, const std::filesystem::path& folder,
                            const HullCoefficients& form) {
@@ -153,10 +214,10 @@ HullSections ship_sections(const MotionSpec& spec, const BodyShape& shape, const
           "motion.length_m, motion.beam_m: the reflectors of a rigid raft give no waterline; write both down, or "
           "motion.sections");
     }
-    throw InputError(
-        fmt::format("motion.length_m, motion.beam_m: the mesh measures {:.4g} x {:.4g} m, which gives no "
-                    "waterline; write them down",
-                    size.x(), size.y()));
+    throw InputError(fmt::format(
+        "motion.length_m, motion.beam_m: the mesh is {:.4g} m long (x), {:.4g} m broad (y) and {:.4g} m high "
+        "(z), which gives no waterline; write them down",
+        size.x(), size.y(), size.z()));
   }
   return sections_of_form(length, beam, given_or(spec.draught_m, beam / kBeamToDraught), form, kStrips);
 }
@@ -176,9 +237,9 @@ Body make_body(const MotionSpec& spec, const BodyShape& shape, const std::filesy
     throw InputError("motion.position: not allowed here: valid only with model: series");
   if (!spec.translations && spec.position != MeanRule::kAuto)
     throw InputError("motion.position: not allowed here: valid only with translations: true");
-  Body body{spec, {}, Vec3::Zero()};
+  Body body{spec, {}, shape, Vec3::Zero()};
   if (spec.model == MotionModel::kShip) {
-    const ShipParticulars ship = ship_particulars(spec, ship_sections(spec, shape, folder));
+    const ShipParticulars ship = particulars_of(spec, ship_sections(spec, shape, folder), shape);
     body.rotation_centre = ship.rotation_centre;
     body.model = ship;
   } else if (spec.model == MotionModel::kFloat) {

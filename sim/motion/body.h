@@ -24,13 +24,20 @@ struct BodyShape {
   // A rigid raft of reflectors, whose mesh says nothing about its hull: box and hull are empty, zero fields that they
   // would give are errors. Its frame has its origin on the water.
   bool is_raft = false;
+  double main_height_m = 0;  // extent in z of nine tenths of the surface: of a ship without its masts
 };
 BodyShape shape_of(const TriangleMesh& mesh);
+
+// Why a hull does not have its bow along x and its masts along z, as a sentence with its length, breadth and height and
+// the keys that turn it: it is broader than long, its surface is higher than broad (main_height_m), or it is symmetric
+// about the plane z = 0 and not about y = 0. Empty for a hull that is none of these, and for a raft.
+std::string orientation_finding(const BodyShape& shape);
 
 struct Body {
   MotionSpec spec;
   std::variant<std::monostate, ShipParticulars, FloatParticulars, AttitudeSeries, RaoTable>
-      model;                            // monostate: a fixed body
+      model;  // monostate: a fixed body
+  BodyShape shape;
   Vec3 rotation_centre = Vec3::Zero();  // body frame: spec.rotation_centre_m, else a ship's centre of gravity or a
                                         // float's centre of flotation
 };

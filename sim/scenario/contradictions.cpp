@@ -331,6 +331,9 @@ void check_layout(const TargetSpec& target, const ScenarioDocument& document) {
 
 void check_target(const TargetSpec& target, const ScenarioDocument& document) {
   const std::string path = "targets." + target.name;
+  if (target.forward.back() == target.up.back())
+    document.fail_at(path + ".orientation", fmt::format("forward {} and up {} must be perpendicular to each other",
+                                                        target.forward, target.up));
   check_layout(target, document);
   check_speed(target, document);
   check_solver(target, document);
@@ -339,8 +342,8 @@ void check_target(const TargetSpec& target, const ScenarioDocument& document) {
   if (!target.mesh.empty()) document.fail_at(path, "must have a mesh or points, not both");
   // Points have velocities of their own: a motion section is an error.
   const YamlNode* node = document.root.find("targets")->find(target.name);
-  for (const char* key :
-       {"unit", "scale", "material", "part_materials", "sheet_thickness_mm", "layout", "motion", "solver"}) {
+  for (const char* key : {"unit", "scale", "orientation", "offset_m", "material", "part_materials",
+                          "sheet_thickness_mm", "layout", "motion", "solver"}) {
     if (node->find(key) != nullptr)
       document.fail_at(fmt::format("{}.{}", path, key), "not allowed here: valid only with a mesh");
   }

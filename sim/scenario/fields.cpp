@@ -310,6 +310,15 @@ void visit(TargetSpec& spec, FieldVisitor& v) {
   const bool is_mesh = spec.points.empty();
   if (v.optional("unit", is_mesh)) visit_word(v, "unit", spec.unit, {"m", "cm", "mm", "km", "in", "ft"});
   if (v.optional("scale", is_mesh)) v.number("scale", spec.scale, within(1e-3, 1e3));
+  const MeshPlacement standard;
+  if (v.optional("orientation", spec.forward != standard.forward || spec.up != standard.up)) {
+    v.section("orientation", [&](FieldVisitor& orientation) {
+      visit_word(orientation, "forward", spec.forward, kMeshAxes);
+      visit_word(orientation, "up", spec.up, kMeshAxes);
+    });
+  }
+  if (v.optional("offset_m", spec.offset_m != standard.offset_m))
+    v.triple("offset_m", spec.offset_m, within(-1e4, 1e4));
   if (v.optional("material", is_mesh)) v.text("material", spec.material);
   visit_list(v, "part_materials", spec.part_materials, 1000);
   if (v.optional("sheet_thickness_mm", is_mesh))

@@ -115,6 +115,13 @@ constexpr Meaning kMeanings[] = {
     {"targets.NAME.scale",
      "Factor by which the mesh is enlarged about its origin, default 1; lengths that keys of motion give stay as they "
      "are."},
+    {"targets.NAME.orientation.forward",
+     "Axis of the mesh file that points forward, +x (default), -x, +y, -y, +z or -z; becomes +x, before unit and "
+     "scale."},
+    {"targets.NAME.orientation.up", "Axis of the mesh file that points up, default +z; perpendicular to forward."},
+    {"targets.NAME.offset_m",
+     "Translation of the turned and enlarged mesh, m: the waterline belongs at z = 0, the reference point at the "
+     "origin."},
     {"targets.NAME.material", "Material: pec, a name of assets/materials, or a material file."},
     {"targets.NAME.part_materials.N.part",
      "Name of a part, or of a material of the mesh's file where no part has it; a trailing * selects all with that "

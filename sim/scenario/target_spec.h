@@ -119,13 +119,23 @@ struct PartMaterialSpec {
   std::string material;  // as TargetSpec::material
 };
 
-struct TargetSpec {
+// How a mesh file becomes the mesh of a body in metres: p = scale R unit q + offset, q a point of the file
+// (sim/geometry/placement/mesh_placement.h).
+struct MeshPlacement {
+  std::string unit = "m";  // of the mesh file: m, cm, mm, km, in, ft
+  // Which axis of the file is forward and which is up: +x, -x, +y, -y, +z or -z, perpendicular to each other. Of glTF,
+  // an axis of its body frame (sim/geometry/files/README.md).
+  std::string forward = "+x", up = "+z";
+  double scale = 1;  // factor by which the mesh is enlarged about its origin, 1e-3 <= x <= 1e3
+  std::array<double, 3> offset_m = {0, 0, 0};  // translation, body frame, |x| <= 1e4
+};
+inline constexpr const char* kMeshAxes[] = {"+x", "-x", "+y", "-y", "+z", "-z"};
+
+struct TargetSpec : MeshPlacement {
   std::string name;
   TargetRole role = TargetRole::kClass;  // a part has no samples of its own: it is a companion of other targets
   int label = 0;                         // of a class: index into dataset.classes
   std::string mesh;              // path relative to the scenario's folder or the working directory; empty for points
-  std::string unit = "m";        // of the mesh file: m, cm, mm, km, in, ft
-  double scale = 1;              // factor by which the mesh is enlarged about its origin, 1e-3 <= x <= 1e3
   std::string material = "pec";  // pec, a name of assets/materials, or a file
   std::vector<PartMaterialSpec> part_materials;  // later entries take precedence
   double sheet_thickness_mm = 0;                 // of open surfaces, 0 <= x <= 1000

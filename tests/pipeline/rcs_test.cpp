@@ -53,6 +53,53 @@ TEST_F(RcsCommand, DecibelsAreThoseOfTheAmplitudes) {
   }
 }
 
+// The same plate drawn in millimetres, ahead along -y and up along +x, half a metre from its place: as `rcs` places it
+// and as `mesh convert` writes it.
+TEST_F(RcsCommand, APlateOfAnotherUnitOrientationAndOriginHasTheSameMatrices) {
+  const std::string drawn = folder_.path() / "drawn.obj", converted = folder_.path() / "converted.obj";
+  TriangleMesh mesh = read_mesh(plate());
+  for (Vec3& p : mesh.vertices) {
+    const Vec3 q = 1e3 * (p - Vec3(0, 0.5, -0.25));
+    p = Vec3(q.z(), -q.x(), -q.y());
+  }
+  write_mesh(drawn, mesh);
+  const std::vector<std::string> placement{"--unit", "mm", "--forward",  "-y",
+                                           "--up",   "+x", "--offset-m", "0,0.5,-0.25"};
+  const auto solved = [&](const std::string& target, const std::vector<std::string>& more) {
+    std::vector<std::string> words{
+        "rcs", "--target", target, "--frequency-ghz", "9:10:0.5", "--azimuth-deg", "-20:20:5", "--elevation-deg",
+        "5",   "-o",       table()};
+    words.insert(words.end(), more.begin(), more.end());
+    const ProgramResult result = run_program(words);
+    EXPECT_EQ(result.code, 0) << result.err;
+    return read_table(table()).rows;
+  };
+  const auto expected = solved(plate(), {}), turned = solved(drawn, placement);
+  EXPECT_THAT(read_file(table()), HasSubstr("drawn.obj unit mm forward -y up +x offset_m 0,0.5,-0.25: "));
+  std::vector<std::string> convert{"mesh", "convert", drawn, "-o", converted};
+  convert.insert(convert.end(), placement.begin(), placement.end());
+  const ProgramResult written = run_program(convert);
+  ASSERT_EQ(written.code, 0) << written.err;
+  EXPECT_THAT(written.out, HasSubstr("size       "));
+  for (const auto& rows : {turned, solved(converted, {})}) {
+    ASSERT_EQ(rows.size(), expected.size());
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+      for (std::size_t i = 3; i < 11; ++i)
+        EXPECT_NEAR(rows[row][i], expected[row][i], 2e-7 * 4) << row;  // digits of 0.5 m in float32 times 2 k
+    }
+  }
+}
+
+TEST_F(RcsCommand, RefusesAxesThatAreNoFrame) {
+  const ProgramResult parallel = rcs({"--frequency-ghz", "10", "--azimuth-deg", "0", "--forward", "+z", "--up", "-z"});
+  EXPECT_EQ(parallel.code, 2);
+  EXPECT_THAT(parallel.err, HasSubstr("forward +z and up -z: must be perpendicular to each other"));
+  EXPECT_EQ(rcs({"--frequency-ghz", "10", "--azimuth-deg", "0", "--forward", "x"}).code, 2);
+  EXPECT_EQ(rcs({"--frequency-ghz", "10", "--azimuth-deg", "0", "--offset-m", "1,2"}).code, 2);
+  EXPECT_EQ(rcs({"--frequency-ghz", "10", "--azimuth-deg", "0", "--offset-m", "1,2,nan"}).code, 2);
+  EXPECT_EQ(run_program({"mesh", "convert", plate(), "-o", plate()}).code, 2);
+}
+
 // Physical optics of a flat plate of area A at normal incidence: S = -j A / lambda in e^{+jwt}, so sigma = 4 pi A^2 /
 // lambda^2.
 TEST_F(RcsCommand, APlateAtNormalIncidenceHasItsClosedForm) {

@@ -8,7 +8,9 @@
 #include "sim/core/text/named_file.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/mesh/triangle_mesh.h"
+#include "sim/geometry/placement/mesh_placement.h"
 #include "tools/bindings/bindings.h"
+#include "tools/rcs/rcs_request.h"
 
 namespace py = pybind11;
 
@@ -57,8 +59,8 @@ std::shared_ptr<TriangleMesh> mesh_of_arrays(
 void bind_mesh(py::module_& module) {
   py::class_<TriangleMesh, std::shared_ptr<TriangleMesh>>(module, "Mesh")
       .def_static("read",
-                  [](const std::string& file, const std::string& unit) {
-                    return std::make_shared<TriangleMesh>(read_mesh(find_input(file), unit));
+                  [](const std::string& file, const RcsRequest& placement) {
+                    return std::make_shared<TriangleMesh>(read_placed_mesh(find_input(file), placement));
                   })
       .def_static("of_arrays", &mesh_of_arrays)
       .def("write", [](const TriangleMesh& mesh, const std::string& file) { write_mesh(file, mesh); })

@@ -140,6 +140,7 @@ py::dict motion(const Scenario& scenario, const SeaChoice& choice, double durati
     const auto note = [&](const TargetSpec& target, const Body& body) {
       if (std::string reading = motion_file_note(target, body); !reading.empty())
         made.notes.push_back(std::move(reading));
+      if (std::string finding = hull_warning(target, body); !finding.empty()) made.notes.push_back(std::move(finding));
     };
     made.scene = simulate_bodies(scenario, choice, duration_s, threads, stop, note);
     for (std::string& sentence : uncovered_waves(made.scene)) made.notes.push_back(std::move(sentence));

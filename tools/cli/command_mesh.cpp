@@ -12,6 +12,7 @@
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/mesh/mesh_diagnostics.h"
 #include "sim/geometry/mesh/topology.h"
+#include "sim/geometry/placement/mesh_placement.h"
 #include "sim/geometry/shapes/generators.h"
 #include "sim/geometry/ship/make_ship.h"
 #include "tools/cli/arguments.h"
@@ -177,7 +178,7 @@ void add_simple_kinds(CommandOptions& make, CommandContext& context) {
 
 struct InfoArguments {
   std::string file;
-  std::string unit = "m";
+  MeshPlacement placement;
   double wedge_deg = 20;
   std::string picture;
   PictureView view;
@@ -187,7 +188,7 @@ void print_info(const InfoArguments& arguments) {
   require_outputs({arguments.picture}, {arguments.file});
   if (!arguments.picture.empty() && std::filesystem::path(arguments.picture).extension() != ".png")
     throw InputError(fmt::format("{}: the name of a mesh's picture ends in .png", arguments.picture));
-  const TriangleMesh mesh = read_mesh(find_input(arguments.file), arguments.unit);
+  const TriangleMesh mesh = read_placed_mesh(find_input(arguments.file), arguments.placement);
   const Topology topology = topology_of(mesh);
   if (!arguments.picture.empty()) write_file(arguments.picture, png_bytes(picture_of(mesh, arguments.view)));
   print_out("{}\n{}{}{}{}{}", arguments.file, size_line(mesh), counts_line(mesh), part_lines(mesh, topology),
@@ -202,7 +203,7 @@ void add_info(CommandOptions& mesh, CommandContext& context) {
   info.add_option("FILE", arguments->file,
                   "Mesh file: .glb .gltf .obj .stl .ply, or shells in .nas .bdf .dat .fem .unv .msh")
       .required();
-  info.add_option("--unit", arguments->unit, "Unit of the file's lengths: m cm mm km in ft").show_default();
+  add_placement_options(info, arguments->placement);
   info.add_option("--min-wedge-angle-deg", arguments->wedge_deg, "Smallest angle between the normals at a wedge")
       .number_within(0.0, 180.0)
       .show_default();
@@ -222,6 +223,34 @@ void add_info(CommandOptions& mesh, CommandContext& context) {
   add_threads_option(info, context);
   info.footer("Example:\n  seaglint mesh info assets/combatant_144m.glb --picture ship.png --azimuth-deg 50");
   info.callback([arguments, &context] { context.work = [arguments] { print_info(*arguments); }; });
+}
+
+// Adds `mesh convert`, which writes a mesh file as it is placed.
+void add_convert(CommandOptions& mesh, CommandContext& context) {
+  struct ConvertArguments {
+    std::string input, output;
+    MeshPlacement placement;
+  };
+  CommandOptions convert = mesh.add_command(
+      "convert", "Write a mesh in metres and the body frame: turned, then enlarged, then moved; in another format");
+  auto arguments = std::make_shared<ConvertArguments>();
+  convert
+      .add_option("FILE", arguments->input,
+                  "Mesh file: .glb .gltf .obj .stl .ply, or shells in .nas .bdf .dat .unv .msh")
+      .required();
+  convert.add_option("-o,--output", arguments->output, "Mesh file to write: .glb .gltf .obj .stl or .ply").required();
+  add_placement_options(convert, arguments->placement);
+  add_threads_option(convert, context);
+  convert.footer("Example:\n  seaglint mesh convert hull.stl --unit mm --forward +y --offset-m 0,0,-4.2 -o hull.glb");
+  convert.callback([arguments, &context] {
+    context.work = [arguments] {
+      require_outputs({arguments->output}, {arguments->input});
+      const TriangleMesh read = read_placed_mesh(find_input(arguments->input), arguments->placement);
+      write_mesh(arguments->output, read);
+      print_out("{}\n{}{}", arguments->output, size_line(read), counts_line(read));
+      for (const std::string& finding : read.findings) print_out("finding    {}\n", on_one_line(finding));
+    };
+  });
 }
 
 void add_sensitivity(CommandOptions& mesh, CommandContext& context) {
@@ -252,7 +281,7 @@ void add_sensitivity(CommandOptions& mesh, CommandContext& context) {
 }  // namespace
 
 void add_mesh(CommandOptions& program, CommandContext& context) {
-  CommandOptions mesh = program.add_command("mesh", "Create a mesh, or report its contents");
+  CommandOptions mesh = program.add_command("mesh", "Create or convert a mesh, or report its contents");
   mesh.require_command();
   mesh.footer(
       "Example:\n  seaglint mesh make ship -o ship.glb\n  seaglint mesh info ship.glb\n"
@@ -264,6 +293,7 @@ void add_mesh(CommandOptions& program, CommandContext& context) {
   add_reflector_kinds(make, context);
   add_simple_kinds(make, context);
   add_info(mesh, context);
+  add_convert(mesh, context);
   add_sensitivity(mesh, context);
 }
 

@@ -69,7 +69,7 @@ void write_motion(const MotionArguments& arguments, const CommandContext& contex
   warn(sea_warnings(scenario, sea_states(scenario.sea)));
   const std::size_t count = uniform_time_count(arguments.duration_s, arguments.step_s);
   const MovingBodies scene =
-      simulate_bodies(scenario, {}, arguments.duration_s, context.threads, context.stop, report_motion_file);
+      simulate_bodies(scenario, {}, arguments.duration_s, context.threads, context.stop, report_motion);
   const std::vector<NamedTrajectory>& bodies = scene.bodies;
   const SeaState& state = scene.sea.state;
   std::string text;

@@ -148,6 +148,13 @@ CommandOption CommandOptions::add_option(const std::string& names, std::vector<d
   return CommandOption(command_->add_option(names, values, what));
 }
 
+CommandOption CommandOptions::add_option(const std::string& names, std::array<double, 3>& values,
+                                         const std::string& what) {
+  CLI::Option* option = command_->add_option(names, values, what);
+  option->delimiter(',')->type_name("X,Y,Z");
+  return CommandOption(option);
+}
+
 CommandOption CommandOptions::add_option(const std::string& names, std::vector<std::string>& values,
                                          const std::string& what) {
   return CommandOption(command_->add_option(names, values, what));

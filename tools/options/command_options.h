@@ -4,6 +4,7 @@
 // The commands of a program with their options and positional arguments: declaration, help text, parsing, error texts.
 // Only command_options.cpp includes CLI11, whose templates cost several seconds per source.
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -61,6 +62,7 @@ class CommandOptions {
   CommandOption add_option(const std::string& names, double& value, const std::string& what);
   CommandOption add_option(const std::string& names, std::optional<double>& value, const std::string& what);
   CommandOption add_option(const std::string& names, std::vector<double>& values, const std::string& what);
+  CommandOption add_option(const std::string& names, std::array<double, 3>& values, const std::string& what);  // X,Y,Z
   CommandOption add_option(const std::string& names, std::vector<std::string>& values, const std::string& what);
   CommandOption add_flag(const std::string& names, bool& value, const std::string& what);
 

@@ -119,6 +119,22 @@ void add_export_options(CommandOptions& command, ViewExport& exports) {
 
 }  // namespace
 
+void add_placement_options(CommandOptions& command, MeshPlacement& placement) {
+  command.add_option("--unit", placement.unit, "Unit of the mesh file: m, cm, mm, km, in, ft").show_default();
+  const auto axis = [&](const char* name, std::string& value, const char* what) {
+    command.add_option(name, value, what).one_of({std::begin(kMeshAxes), std::end(kMeshAxes)}).show_default();
+  };
+  axis("--forward", placement.forward, "Axis of the mesh file that points forward; becomes +x");
+  axis("--up", placement.up, "Axis of the mesh file that points up; becomes +z");
+  command.add_option("--scale", placement.scale, "Factor by which the mesh is enlarged about the origin of its file")
+      .number_within(1e-3, 1e3)
+      .show_default();
+  command
+      .add_option("--offset-m", placement.offset_m,
+                  "Translation of the turned and enlarged mesh: the waterline belongs at z = 0")
+      .number_within(-1e4, 1e4);
+}
+
 void RcsArguments::add_mesh_to(CommandOptions& command) {
   add_target_to(command).required();
   add_views_to(command);
@@ -132,7 +148,7 @@ CommandOption RcsArguments::add_target_to(CommandOptions& command) {
                       "Mesh file: .glb .gltf .obj .stl .ply, or shells in .nas .bdf .dat .fem .unv .msh (repeatable: the "
                       "files are the parts of one target)")
           .repeatable("FILE");
-  command.add_option("--unit", request.unit, "Unit of the mesh: m, cm, mm, km, in, ft").show_default();
+  add_placement_options(command, request);
   return option;
 }
 

@@ -13,6 +13,9 @@
 
 namespace seaglint {
 
+// --unit, --forward, --up, --scale and --offset-m, wherever a mesh file is read.
+void add_placement_options(CommandOptions& command, MeshPlacement& placement);
+
 struct RcsArguments {
   RcsRequest request;                // members that options set directly; make_request() fills the others
   std::vector<std::string> targets;  // mesh files of one scatterer

@@ -11,6 +11,7 @@
 
 #include "sim/core/process/error.h"
 #include "sim/geometry/files/mesh_io.h"
+#include "sim/geometry/placement/mesh_placement.h"
 #include "sim/motion/ship/rao_table.h"
 #include "sim/motion/target_motion.h"
 #include "sim/scenario/sample_plan.h"
@@ -43,7 +44,7 @@ std::map<double, SizedBody> bodies_of(const Scenario& scenario, const TargetSpec
   for (const double scale : body_scales(target.layout, target.scale)) {
     if (sizes.contains(scale)) continue;
     if (stop) throw Interrupted();
-    TriangleMesh large = enlarged(mesh, scale);
+    TriangleMesh large = placed(mesh, with_scale(target, scale));
     Body motion =
         sizes.empty() || moves_by_size(target) ? load_body(scenario, target, large) : sizes.begin()->second.motion;
     sizes.emplace(scale, SizedBody{std::move(large), std::move(motion)});

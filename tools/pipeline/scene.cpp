@@ -12,7 +12,7 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
-#include "sim/geometry/files/mesh_io.h"
+#include "sim/geometry/placement/mesh_placement.h"
 #include "sim/motion/simulate.h"
 #include "sim/motion/target_motion.h"
 #include "sim/scattering/target/target_check.h"
@@ -144,9 +144,18 @@ double reach_of_all_m(const Scenario& scenario, const std::vector<Target>& targe
   return reach;
 }
 
-// Largest reach of any target with the values drawn in any sea, by meshes as they are in their files.
+// Extent of a turned mesh, neither enlarged nor moved.
+struct TurnedMesh {
+  TurnedMesh() = default;
+  explicit TurnedMesh(const TriangleMesh& mesh) : radius_m(seaglint::radius_m(mesh)), box(bounds(mesh)) {}
+  double radius_m = 0;
+  Bounds box;
+};
+
+// Largest reach of any target with the values drawn in any sea, by meshes as they are in their files. Throws InputError
+// where a drawn body is under water.
 double largest_reach_m(const Scenario& scenario, const SamplePlan& plan) {
-  std::map<std::string, double> radii_m;  // by unit and mesh
+  std::map<std::string, TurnedMesh> meshes;  // by placement and mesh
   double reach = 0;
   for (std::size_t state = 0; state < plan.sea_states().size(); ++state) {
     for (int realisation = 0; realisation < scenario.dataset.realisations_per_case; ++realisation) {
@@ -155,9 +164,13 @@ double largest_reach_m(const Scenario& scenario, const SamplePlan& plan) {
         Target target;
         target.spec = spec;
         if (spec.mesh.empty()) return target;
-        const std::string mesh = spec.unit + " " + spec.mesh;
-        if (!radii_m.contains(mesh)) radii_m[mesh] = radius_m(read_mesh(find_mesh(drawn, spec), spec.unit));
-        for (const double scale : body_scales(spec.layout, spec.scale)) target.radii_m.push_back(scale * radii_m[mesh]);
+        const MeshPlacement turned = turned_mesh(spec);
+        const std::string mesh = placement_text(turned) + " " + spec.mesh;
+        if (!meshes.contains(mesh)) meshes[mesh] = TurnedMesh(read_placed_mesh(find_mesh(drawn, spec), turned));
+        check_above_water(drawn, spec, meshes[mesh].box);
+        const double offset_m = Vec3(spec.offset_m.data()).norm();
+        for (const double scale : body_scales(spec.layout, spec.scale))
+          target.radii_m.push_back(scale * (meshes[mesh].radius_m + offset_m / spec.scale));
         return target;
       });
       reach = std::max(reach, reach_of_all_m(drawn, targets));

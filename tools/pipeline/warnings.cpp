@@ -13,6 +13,7 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/printable.h"
 #include "sim/core/process/standard_error.h"
+#include "sim/motion/target_motion.h"
 #include "sim/scenario/files/scatter_diagram.h"
 #include "sim/sea/realisation.h"
 #include "tools/pipeline/pipeline.h"
@@ -50,6 +51,45 @@ void add_mesh_warnings(std::vector<std::string>& lines, const Target& target) {
   }
 }
 
+// What of the target's bodies is below the water: that of the deepest one.
+void add_waterline_warning(std::vector<std::string>& lines, const Target& target) {
+  std::size_t cut = 0;
+  SubmergedPart deepest;
+  for (const auto& model : target.models) {
+    const SubmergedPart& below = model->prepared->below;
+    if (below.depth_m > 0) ++cut;
+    if (below.depth_m > deepest.depth_m) deepest = below;
+  }
+  if (cut == 0) return;
+  const std::string which =
+      target.models.size() == 1 ? "" : fmt::format("of {} of {} bodies, ", cut, target.models.size());
+  lines.push_back(fmt::format("targets.{}.mesh: {}{}{}; offset_m moves it", target.spec.name, which,
+                              cut > 1 ? "at most " : "", cut_sentence(deepest)));
+}
+
+// A ship above the water; a float that is drawn to its waterline, or has a gap below it larger than its height. Bodies
+// with heights of their own and those of rafts may be anywhere.
+void add_hovering_warning(std::vector<std::string>& lines, const Target& target) {
+  const MotionModel motion = target.spec.motion.model;
+  const bool is_ship = motion == MotionModel::kShip || motion == MotionModel::kRao;
+  if (target.models.empty() || is_raft(target.spec.layout) || (!is_ship && motion != MotionModel::kFloat)) return;
+  if (target.spec.layout && target.spec.layout->heights_m) return;
+  const auto gap_of = [&](const auto& model) {
+    return bounds(model->prepared->mesh).lower.z() + rest_height_m(target.spec);
+  };
+  const auto& highest = *std::ranges::max_element(target.models, {}, gap_of);
+  const Bounds box = bounds(highest->prepared->mesh);
+  constexpr double kRounding = 1e-3;  // of its size: a mesh that ends at the waterline
+  const double gap = gap_of(highest), rounding = kRounding * (box.upper - box.lower).maxCoeff();
+  const bool is_drawn_to_waterline = is_ship || box.lower.z() > -rounding;
+  if (gap <= (is_drawn_to_waterline ? rounding : box.upper.z() - box.lower.z())) return;
+  lines.push_back(fmt::format(
+      "targets.{}.mesh: its lowest point is {:.3g} m above the water, where nothing carries it: is its waterline at "
+      "z = {:.6g} m? {}",
+      target.spec.name, gap, -rest_height_m(target.spec),
+      is_ship ? "offset_m lowers it" : "motion.origin_above_waterline_m or offset_m lowers it"));
+}
+
 }  // namespace
 
 std::vector<std::string> mesh_warnings(const Pipeline& pipeline) {
@@ -57,6 +97,8 @@ std::vector<std::string> mesh_warnings(const Pipeline& pipeline) {
   // no companions
   for (const Target& target : std::span(pipeline.targets()).first(pipeline.scenario().targets.size())) {
     add_mesh_warnings(lines, target);
+    add_waterline_warning(lines, target);
+    add_hovering_warning(lines, target);
   }
   return lines;
 }
@@ -66,6 +108,10 @@ std::vector<std::string> motion_warnings(const Pipeline& pipeline) {
   for (const Target& target : std::span(pipeline.targets()).first(pipeline.scenario().targets.size())) {
     const auto* series =
         target.models.empty() ? nullptr : std::get_if<AttitudeSeries>(&target.models.front()->motion->model);
+    if (!target.models.empty()) {
+      const std::string finding = hull_warning(target.spec, *target.models.front()->motion);
+      if (!finding.empty()) lines.push_back(finding);
+    }
     if (series == nullptr || series->grid != TimeGrid::kIrregular) continue;
     lines.push_back(fmt::format("targets.{}.motion.file: the times of {} are not uniform: resampled by a spline",
                                 target.spec.name, series->source));
@@ -78,9 +124,16 @@ std::string motion_file_note(const TargetSpec& target, const Body& body) {
   return reading.empty() ? reading : fmt::format("targets.{}.motion.file: {}", target.name, reading);
 }
 
-void report_motion_file(const TargetSpec& target, const Body& body) {
-  const std::string note = motion_file_note(target, body);
+std::string hull_warning(const TargetSpec& target, const Body& body) {
+  if (target.motion.model != MotionModel::kShip && target.motion.model != MotionModel::kRao) return "";
+  const std::string finding = orientation_finding(body.shape);
+  return finding.empty() ? finding : fmt::format("targets.{}.mesh: {}", target.name, finding);
+}
+
+void report_motion(const TargetSpec& target, const Body& body) {
+  const std::string note = motion_file_note(target, body), finding = hull_warning(target, body);
   if (!note.empty()) print_error(on_one_line(note) + "\n");
+  if (!finding.empty()) warn(std::vector{finding});
 }
 
 void report_spectrum_table(const Scenario& scenario) {
@@ -94,8 +147,11 @@ void report_spectrum_table(const Scenario& scenario) {
 }
 
 void report_motion_files(const Pipeline& pipeline) {
-  for (const Target& target : std::span(pipeline.targets()).first(pipeline.scenario().targets.size()))
-    if (!target.models.empty()) report_motion_file(target.spec, *target.models.front()->motion);
+  for (const Target& target : std::span(pipeline.targets()).first(pipeline.scenario().targets.size())) {
+    if (target.models.empty()) continue;
+    const std::string note = motion_file_note(target.spec, *target.models.front()->motion);
+    if (!note.empty()) print_error(on_one_line(note) + "\n");
+  }
 }
 
 std::vector<std::string> sea_warnings(const Scenario& scenario, std::span<const SeaState> states) {

@@ -19,16 +19,19 @@ class Pipeline;
 // One line per defect or doubtful property of the meshes of the scenario's targets.
 std::vector<std::string> mesh_warnings(const Pipeline& pipeline);
 
-// One line per motion file whose times are not uniform.
+// One line per motion file whose times are not uniform, and per ship whose hull is not along x.
 std::vector<std::string> motion_warnings(const Pipeline& pipeline);
 
 // Columns, units and conventions by which the target's motion file was read, as a sentence; empty without such a file.
 std::string motion_file_note(const TargetSpec& target, const Body& body);
 
-// Prints motion_file_note() as a line unless it is empty.
-void report_motion_file(const TargetSpec& target, const Body& body);
+// orientation_finding() of the target's mesh, of models ship and rao; else empty.
+std::string hull_warning(const TargetSpec& target, const Body& body);
 
-// The same for every target.
+// Prints motion_file_note() as a line, and hull_warning() as a warning, unless they are empty.
+void report_motion(const TargetSpec& target, const Body& body);
+
+// Prints motion_file_note() of every target.
 void report_motion_files(const Pipeline& pipeline);
 
 // Prints how the file of sea.table was understood, with its height and peak period; nothing without such a file.

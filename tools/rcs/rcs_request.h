@@ -50,10 +50,9 @@ struct ViewExport {
   bool wanted() const { return !centres.empty() || !hot_spots.empty(); }
 };
 
-struct RcsRequest {
+struct RcsRequest : MeshPlacement {
   std::filesystem::path target;              // mesh file
-  std::string unit = "m";                    // of the mesh: m, cm, mm, km, in, ft
-  std::shared_ptr<const TriangleMesh> mesh;  // in metres, in place of the file; may be null
+  std::shared_ptr<const TriangleMesh> mesh;  // in metres, in place of the file and its unit; may be null
   std::vector<MaterialChoice> materials;     // empty: perfect conductor throughout
   std::vector<double> frequency_hz, azimuth_deg, elevation_deg{0};
   std::optional<FixedTransmitter> transmitter;  // bistatic: the sweep is over the receiver's directions

@@ -8,6 +8,7 @@
 #include "sim/core/numbers/dbsm.h"
 #include "sim/core/process/printable.h"
 #include "sim/field_tables/transmitter_keys.h"
+#include "sim/geometry/placement/mesh_placement.h"
 #include "sim/scattering/beams/illumination_settings.h"
 #include "tools/rcs/echo_selection.h"
 #include "tools/rcs/rcs_convergence.h"
@@ -67,16 +68,16 @@ std::string method_text(const RcsRequest& request, const Scatterer& scatterer) {
 std::string rcs_heading(const RcsRequest& request, const Scatterer& scatterer, const std::string& made_by,
                         std::span<const std::string> warnings) {
   return fmt::format(
-      "# seaglint {} {}\n# target {} unit {}: {} facets, radius {:.6g} m\n"
+      "# seaglint {} {}\n# target {} {}: {} facets, radius {:.6g} m\n"
       "# material {}, contributions: {}\n{}"
       "# physical optics at every visible bounce, max_bounces {}, edges {}, crease_deg {}, sheet_thickness_mm "
       "{:.6g}, wavefront_range_m {:.9g} (0 = plane wave), min_patch_m {:.6g}{}\n{}{}\n"
       "# amplitudes in metres, e^{{+jwt}}, phase origin at the body's origin, S_pq: q transmitted, p received; basis "
       "of "
       "CONVENTIONS.md\n{}",
-      kVersion, made_by, on_one_line(request.target.string()), on_one_line(request.unit), scatterer.facets().size(),
-      scatterer.radius(), materials_text(request.materials), text_of(request.selection), sea_line(request.sea),
-      request.max_bounces, request.edges ? "on" : "off",
+      kVersion, made_by, on_one_line(request.target.string()), on_one_line(placement_text(request)),
+      scatterer.facets().size(), scatterer.radius(), materials_text(request.materials), text_of(request.selection),
+      sea_line(request.sea), request.max_bounces, request.edges ? "on" : "off",
       request.crease_deg ? fmt::format("{:.6g}", *request.crease_deg) : "auto", request.sheet_thickness_mm,
       request.range_m, request.min_patch_m > 0 ? request.min_patch_m : default_min_patch(scatterer),
       method_text(request, scatterer), cavity_line(request.cavities), transmitter_line(request.transmitter),

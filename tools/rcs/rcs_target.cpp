@@ -68,7 +68,7 @@ PreparedTarget prepare_mesh(const RcsRequest& request) {
   requested_sweep(request);  // throws InputError for a contradictory request
   const auto [lowest, highest] = std::minmax_element(request.frequency_hz.begin(), request.frequency_hz.end());
   SolverMesh mesh = load_solver_mesh({.mesh = request.target,
-                                      .unit = request.unit,
+                                      .placement = request,
                                       .loaded = request.mesh,
                                       .materials = request.materials,
                                       .material_folder = "",
@@ -87,8 +87,12 @@ PreparedTarget prepare_mesh(const RcsRequest& request) {
   if (request.sea.reflection) {
     require_above_water(request.sea, mesh.mesh);
     settings.waterline_m = -request.sea.height_m;
+    settings.sea_reflects = true;
   }
-  return prepare_target(std::move(mesh), settings);
+  PreparedTarget target = prepare_target(std::move(mesh), settings);
+  const std::string cut = cut_sentence(target.below);
+  if (!cut.empty()) target.warnings.push_back(cut);
+  return target;
 }
 
 RcsTarget select_echoes(const RcsRequest& request, PreparedTarget prepared) {

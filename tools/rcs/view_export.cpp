@@ -12,6 +12,7 @@
 #include "sim/core/process/file.h"
 #include "sim/core/text/escape.h"
 #include "sim/geometry/files/mesh_io.h"
+#include "sim/geometry/placement/mesh_placement.h"
 #include "sim/scattering/response/scattering_centres_3d.h"
 #include "tools/rcs/echo_selection.h"
 #include "tools/rcs/facet_levels.h"
@@ -101,11 +102,11 @@ std::string write_hot_spots(const ViewExport& arguments, const TriangleMesh& mes
 // The head of a table of scattering centres.
 std::string heading(const RcsRequest& request, const Scatterer& scatterer) {
   return fmt::format(
-      "# seaglint {} rcs: scattering centres\n# target {} unit {}, {:.9g} Hz, azimuth {:.9g} deg, elevation {:.9g} "
+      "# seaglint {} rcs: scattering centres\n# target {} {}, {:.9g} Hz, azimuth {:.9g} deg, elevation {:.9g} "
       "deg, max_bounces {}, edges {}{}, contributions: {}\n"
       "# body frame, e^{{+jwt}}, phase origin at the body's origin, S_pq: q transmitted, p received; basis of "
       "CONVENTIONS.md\n",
-      kVersion, request.target.string(), request.unit, request.frequency_hz[0], request.azimuth_deg[0],
+      kVersion, request.target.string(), placement_text(request), request.frequency_hz[0], request.azimuth_deg[0],
       request.elevation_deg[0], request.max_bounces, request.edges ? "on" : "off", method_text(request, scatterer),
       text_of(request.selection));
 }

@@ -9,7 +9,8 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
-#include "sim/geometry/files/mesh_io.h"
+#include "sim/geometry/mesh/waterline.h"
+#include "sim/geometry/placement/mesh_placement.h"
 #include "sim/motion/target_motion.h"
 #include "sim/scenario/writer.h"
 
@@ -27,7 +28,7 @@ namespace {
 TargetSource source_of(const Scenario& scenario, const TargetSpec& spec, double scale) {
   const std::string path = "targets." + spec.name;
   TargetSource source{.mesh = find_mesh(scenario, spec),
-                      .unit = spec.unit,
+                      .placement = with_scale(spec, scale),
                       .loaded = nullptr,
                       .materials = {},
                       .material_folder = scenario.folder,
@@ -42,45 +43,31 @@ TargetSource source_of(const Scenario& scenario, const TargetSpec& spec, double 
         {part.part, part.material, place_of(scenario, fmt::format("{}.part_materials.{}.material", path, i))});
   }
   source.materials.push_back({std::nullopt, spec.material, place_of(scenario, path + ".material")});
-  if (scale != 1)
-    source.loaded = std::make_shared<const TriangleMesh>(enlarged(read_mesh(source.mesh, source.unit), scale));
   return source;
 }
 
-// lowest_height_m: of the mesh's origin above the water, of all bodies that have this scatterer.
-ScattererSettings scatterer_settings(const Scenario& scenario, const TargetSpec& spec, double lowest_height_m) {
-  ScattererSettings settings{
-      .waterline_m = std::nullopt,
-      .crease_rad = spec.solver.crease_deg ? std::optional(radians(*spec.solver.crease_deg)) : std::nullopt,
-      .sheet_thickness_m = 1e-3 * spec.sheet_thickness_mm,
-      .edges = spec.solver.edges,
-      .lowest_hz = 1e9 * lowest_ghz(scenario.radar),
-      .highest_hz = 1e9 * highest_ghz(scenario.radar)};
-  // The radar's image illuminates the hull from below. Bodies at several heights are above the water.
-  if (scenario.sea_reflection.enabled) settings.waterline_m = -lowest_height_m;
-  return settings;
+// height_m: of the mesh's origin above the water; absent where the body does not reach the water.
+ScattererSettings scatterer_settings(const Scenario& scenario, const TargetSpec& spec, std::optional<double> height_m) {
+  return {.waterline_m = height_m ? std::optional(-*height_m) : std::nullopt,
+          .sea_reflects = scenario.sea_reflection.enabled,
+          .crease_rad = spec.solver.crease_deg ? std::optional(radians(*spec.solver.crease_deg)) : std::nullopt,
+          .sheet_thickness_m = 1e-3 * spec.sheet_thickness_mm,
+          .edges = spec.solver.edges,
+          .lowest_hz = 1e9 * lowest_ghz(scenario.radar),
+          .highest_hz = 1e9 * highest_ghz(scenario.radar)};
 }
 
-// Throws InputError for a target that is entirely under water, if the sea reflects.
-void check_above_water(const Scenario& scenario, const TargetSpec& spec, const TriangleMesh& mesh, double height_m) {
-  if (!scenario.sea_reflection.enabled) return;
-  const double top_m = bounds(mesh).upper.z(), bottom_m = bounds(mesh).lower.z();
-  if (spec.layout && spec.layout->heights_m && bottom_m + height_m < 0) {
-    throw InputError(fmt::format(
-        "{}: its lowest body reaches {:.6g} m below the water: with sea_reflection bodies at several heights must be "
-        "above it",
-        place_of(scenario, fmt::format("targets.{}.layout.heights", spec.name)), -(bottom_m + height_m)));
-  }
-  if (top_m + height_m > 0) return;
-  if (spec.motion.model == MotionModel::kFloat || is_moving_raft(spec)) {
-    throw InputError(fmt::format(
-        "{}: value {}: must be greater than {:.6g} with sea_reflection, else the whole target is under water",
-        place_of(scenario, fmt::format("targets.{}.motion.origin_above_waterline_m", spec.name)), height_m, -top_m));
-  }
-  throw InputError(
-      fmt::format("{}: its highest point is at z = {:.6g} m: must be above 0, the water, with sea_reflection, else the "
-                  "whole target is under water",
-                  place_of(scenario, fmt::format("targets.{}.mesh", spec.name)), top_m));
+// Of a body of one size, above its mesh origin, m, with the margin of what counts as in the water surface.
+struct HeightsOfBody {
+  double bottom_m = 0, top_m = 0, margin_m = 0;
+};
+
+// `box` of the turned mesh, neither enlarged nor moved.
+HeightsOfBody heights_of(const TargetSpec& spec, const Bounds& box, double scale) {
+  const MeshPlacement placement = with_scale(spec, scale);
+  const Vec3 offset(placement.offset_m.data());
+  const Bounds body{scale * box.lower + offset, scale * box.upper + offset};
+  return {body.lower.z(), body.upper.z(), waterline_margin(body)};
 }
 
 // Throws InputError for more sizes of one mesh than memory is expected to hold: up to 2 GB per million triangles.
@@ -94,12 +81,15 @@ void check_sizes(const Scenario& scenario, const TargetSpec& spec, std::size_t s
 }
 
 // The fields of a target that determine its mesh.
-TargetSpec enlarged_mesh(const TargetSpec& spec, double scale) {
+TargetSpec mesh_fields(const MeshPlacement& placement, const std::string& mesh) {
   TargetSpec alone;
-  alone.mesh = spec.mesh;
-  alone.unit = spec.unit;
-  alone.scale = scale;
+  static_cast<MeshPlacement&>(alone) = placement;
+  alone.mesh = mesh;
   return alone;
+}
+
+TargetSpec enlarged_mesh(const TargetSpec& spec, double scale) {
+  return mesh_fields(with_scale(spec, scale), spec.mesh);
 }
 
 std::string text_of(const TargetSpec& alone) {
@@ -116,16 +106,16 @@ std::string motion_fields(const TargetSpec& spec, double scale) {
   return text_of(alone);
 }
 
-// Likewise their scatterer; whether bodies are at several heights changes what may be under water.
-std::string scatterer_fields(const Scenario& scenario, const TargetSpec& spec, double scale, double lowest_height_m) {
+// Likewise their scatterer.
+std::string scatterer_fields(const Scenario& scenario, const TargetSpec& spec, double scale,
+                             std::optional<double> height_m) {
   TargetSpec alone = enlarged_mesh(spec, scale);
   alone.material = spec.material;
   alone.part_materials = spec.part_materials;
   alone.sheet_thickness_mm = spec.sheet_thickness_mm;
   alone.solver = spec.solver;
-  const std::string sea = scenario.sea_reflection.enabled ? fmt::format("{} m above the sea, {}", lowest_height_m,
-                                                                        spec.layout && spec.layout->heights_m)
-                                                          : "";
+  const std::string sea =
+      height_m ? fmt::format("{} m above {}", *height_m, scenario.sea_reflection.enabled ? "a mirror" : "the sea") : "";
   return fmt::format("{} to {} GHz {} {}", lowest_ghz(scenario.radar), highest_ghz(scenario.radar), sea,
                      text_of(alone));
 }
@@ -139,6 +129,48 @@ Body load_body(const Scenario& scenario, const TargetSpec& spec, const TriangleM
                      scenario.folder);
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", place_of(scenario, "targets." + spec.name), error.what()));
+  }
+}
+
+MeshPlacement turned_mesh(const TargetSpec& spec) {
+  MeshPlacement turned;
+  turned.unit = spec.unit;
+  turned.forward = spec.forward;
+  turned.up = spec.up;
+  return turned;
+}
+
+void check_above_water(const Scenario& scenario, const TargetSpec& spec, const Bounds& box) {
+  const std::string target = fmt::format("targets.{}", spec.name);
+  const std::vector<double> scales = body_scales(spec.layout, spec.scale), heights_m = body_heights_m(spec.layout);
+  for (std::size_t i = 0; i < scales.size(); ++i) {
+    const double height_m = rest_height_m(spec) + heights_m[i];
+    const HeightsOfBody body = heights_of(spec, box, scales[i]);
+    const double top_m = body.top_m + height_m, bottom_m = body.bottom_m + height_m;
+    const bool has_heights = spec.layout && spec.layout->heights_m;
+    if (scenario.sea_reflection.enabled && has_heights && bottom_m < 0) {
+      throw InputError(
+          fmt::format("{}: its lowest body reaches {:.6g} m below the water: with sea_reflection bodies at several "
+                      "heights must be above it",
+                      place_of(scenario, target + ".layout.heights"), -bottom_m));
+    }
+    // A plate in the water surface is not below it.
+    if (top_m > body.margin_m || (!scenario.sea_reflection.enabled && bottom_m >= -body.margin_m)) continue;
+    if (has_heights) {
+      throw InputError(
+          fmt::format("{}: body {} reaches up to {:.6g} m above the water: must be above 0, else the whole "
+                      "body is under water",
+                      place_of(scenario, target + ".layout.heights"), i + 1, top_m));
+    }
+    if (spec.motion.model == MotionModel::kFloat || is_moving_raft(spec)) {
+      throw InputError(fmt::format("{}: value {}: must be greater than {:.6g}, else the whole target is under water",
+                                   place_of(scenario, target + ".motion.origin_above_waterline_m"), height_m,
+                                   -body.top_m));
+    }
+    throw InputError(
+        fmt::format("{}: its highest point is at z = {:.6g} m: must be above 0, the water, else the whole target is "
+                    "under water; offset_m lifts it",
+                    place_of(scenario, target + ".mesh"), body.top_m));
   }
 }
 
@@ -165,7 +197,8 @@ std::shared_ptr<const Value> LoadedBodies::Kept<Value>::get(const std::string& f
   return value;
 }
 
-BodyModel LoadedBodies::model(const Scenario& scenario, const TargetSpec& spec, double scale, double lowest_height_m) {
+BodyModel LoadedBodies::model(const Scenario& scenario, const TargetSpec& spec, double scale,
+                              std::optional<double> height_m) {
   std::optional<SolverMesh> read;
   const auto mesh = [&]() -> SolverMesh& {
     if (!read) read = load_solver_mesh(source_of(scenario, spec, scale));
@@ -174,9 +207,8 @@ BodyModel LoadedBodies::model(const Scenario& scenario, const TargetSpec& spec, 
   BodyModel model;
   model.scale = scale;
   model.motion = motions_.get(motion_fields(spec, scale), [&] { return load_body(scenario, spec, mesh().mesh); });
-  model.prepared = prepared_.get(scatterer_fields(scenario, spec, scale, lowest_height_m), [&] {
-    check_above_water(scenario, spec, mesh().mesh, lowest_height_m);
-    return TracedTarget{prepare_target(std::move(mesh()), scatterer_settings(scenario, spec, lowest_height_m)),
+  model.prepared = prepared_.get(scatterer_fields(scenario, spec, scale, height_m), [&] {
+    return TracedTarget{prepare_target(std::move(mesh()), scatterer_settings(scenario, spec, height_m)),
                         std::make_shared<SharedTraces>(memory_)};
   });
   model.radius_m = radius_m(model.prepared->mesh);
@@ -184,21 +216,29 @@ BodyModel LoadedBodies::model(const Scenario& scenario, const TargetSpec& spec, 
 }
 
 std::vector<std::shared_ptr<const BodyModel>> LoadedBodies::models(const Scenario& scenario, const TargetSpec& spec) {
+  const std::lock_guard lock(mutex_);
+  const std::shared_ptr<const Bounds> box = boxes_.get(text_of(mesh_fields(turned_mesh(spec), spec.mesh)), [&] {
+    return bounds(read_placed_mesh(find_mesh(scenario, spec), turned_mesh(spec)));
+  });
+  check_above_water(scenario, spec, *box);
   const std::vector<double> scales = body_scales(spec.layout, spec.scale), heights_m = body_heights_m(spec.layout);
-  std::map<double, double> lowest_height_m;  // of the bodies of each size
+  // Bodies of one size share a model, unless they are at different heights in the water.
+  std::vector<std::pair<double, std::optional<double>>> bodies;  // scale, and height of those in the water
   for (std::size_t i = 0; i < scales.size(); ++i) {
     const double height_m = rest_height_m(spec) + heights_m[i];
-    const auto [size, is_first] = lowest_height_m.emplace(scales[i], height_m);
-    if (!is_first) size->second = std::min(size->second, height_m);
+    const HeightsOfBody body = heights_of(spec, *box, scales[i]);
+    const bool touches = scenario.sea_reflection.enabled ? body.bottom_m + height_m <= body.margin_m
+                                                         : body.bottom_m + height_m < -body.margin_m;
+    bodies.emplace_back(scales[i], touches ? std::optional(height_m) : std::nullopt);
   }
-  const std::lock_guard lock(mutex_);
-  std::map<double, std::shared_ptr<const BodyModel>> by_size;
-  for (const auto& [scale, height_m] : lowest_height_m) {
-    by_size[scale] = std::make_shared<const BodyModel>(model(scenario, spec, scale, height_m));
-    check_sizes(scenario, spec, lowest_height_m.size(), by_size[scale]->prepared->mesh);
+  std::map<std::pair<double, std::optional<double>>, std::shared_ptr<const BodyModel>> made;
+  for (const auto& body : bodies) made[body] = nullptr;
+  for (auto& [body, of_body] : made) {
+    of_body = std::make_shared<const BodyModel>(model(scenario, spec, body.first, body.second));
+    check_sizes(scenario, spec, made.size(), of_body->prepared->mesh);
   }
   std::vector<std::shared_ptr<const BodyModel>> models;
-  for (const double scale : scales) models.push_back(by_size.at(scale));
+  for (const auto& body : bodies) models.push_back(made.at(body));
   return models;
 }
 

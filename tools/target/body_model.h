@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,14 +24,21 @@ struct TracedTarget : PreparedTarget {
 };
 
 struct BodyModel {
-  double scale = 1;     // factor by which the mesh of the file is enlarged, after its unit
-  double radius_m = 0;  // largest distance of a vertex from the mesh's origin
-  std::shared_ptr<const TracedTarget> prepared;
+  double scale = 1;                              // factor by which the mesh of the file is enlarged, after its unit
+  double radius_m = 0;                           // largest distance of a vertex from the mesh's origin
+  std::shared_ptr<const TracedTarget> prepared;  // cut at the waterline
   std::shared_ptr<const Body> motion;  // of a rigid raft that of the raft, whatever the size of its reflectors
 };
 
 // Largest distance of a vertex from the mesh's origin, m.
 double radius_m(const TriangleMesh& mesh);
+
+// The mesh of a target in metres with its axes turned, neither enlarged nor moved.
+MeshPlacement turned_mesh(const TargetSpec& spec);
+
+// `box` of the turned mesh. Throws InputError for a body that is entirely under water and, if the sea reflects, for
+// bodies at several heights of which one reaches into the water.
+void check_above_water(const Scenario& scenario, const TargetSpec& spec, const Bounds& box);
 
 // Motion model of a body from its enlarged mesh, of a rigid raft from the keys alone, and the files that the target's
 // `motion` names. Throws InputError naming the target.
@@ -42,10 +50,11 @@ bool moves_by_size(const TargetSpec& spec);
 // Loads bodies, those with equal fields once. Any thread may use it.
 class LoadedBodies {
  public:
-  // The models of a target's bodies, in their order; bodies of one size share one. Throws InputError for a mesh that is
-  // missing, invalid or, if the sea reflects, under water, for a material that is missing, invalid or not defined at
-  // the radar's frequencies, for a motion file that is missing or invalid, and for bodies of several sizes with more
-  // than 2 million triangles in all.
+  // The models of a target's bodies, in their order; bodies of one size share one, unless they are in the water at
+  // different heights. Scatterers are cut at the mean water surface of the body at rest; motion models have the whole
+  // mesh. Throws InputError for a mesh that is missing or invalid, as check_above_water() does, for a material that is
+  // missing, invalid or not defined at the radar's frequencies, for a motion file that is missing or invalid, and for
+  // bodies of several sizes with more than 2 million triangles in all.
   std::vector<std::shared_ptr<const BodyModel>> models(const Scenario& scenario, const TargetSpec& spec);
 
  private:
@@ -66,11 +75,12 @@ class LoadedBodies {
     std::size_t calls_ = 0;
   };
 
-  // lowest_height_m: of the mesh's origin above the water, of all bodies of this size.
-  BodyModel model(const Scenario& scenario, const TargetSpec& spec, double scale, double lowest_height_m);
+  // height_m: of the mesh's origin above the water; absent where the body does not reach the water.
+  BodyModel model(const Scenario& scenario, const TargetSpec& spec, double scale, std::optional<double> height_m);
 
   std::mutex mutex_;
   std::shared_ptr<TraceMemory> memory_ = std::make_shared<TraceMemory>();
+  Kept<Bounds> boxes_;
   Kept<TracedTarget> prepared_;
   Kept<Body> motions_;
 };

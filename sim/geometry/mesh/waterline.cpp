@@ -14,6 +14,11 @@ constexpr double kInSurface = 1e-6;
 
 }  // namespace
 
+double waterline_margin(const Bounds& box) {
+  return kInSurface *
+         std::max({std::abs(box.lower.z()), std::abs(box.upper.z()), 0.5 * (box.upper - box.lower).maxCoeff()});
+}
+
 WaterlineCut cut_at_waterline(const TriangleMesh& mesh, double height) {
   WaterlineCut cut;
   cut.mesh = mesh;
@@ -21,9 +26,7 @@ WaterlineCut cut_at_waterline(const TriangleMesh& mesh, double height) {
   cut.mesh.triangle_part.clear();
   cut.mesh.triangle_material.clear();
   cut.mesh.corner_normals.clear();
-  const Bounds box = bounds(mesh);
-  const double margin = kInSurface * std::max({std::abs(box.lower.z()), std::abs(box.upper.z()),
-                                               0.5 * (box.upper - box.lower).maxCoeff()});
+  const double margin = waterline_margin(bounds(mesh));
   const auto above = [&](std::uint32_t v) { return cut.mesh.vertices[v].z() > height + margin; };
   // Interpolated from the lower vertex, so that both triangles of an edge get the same point; the vertex itself where
   // it is in the plane.

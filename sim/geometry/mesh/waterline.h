@@ -9,6 +9,9 @@
 
 namespace seaglint {
 
+// Distance from the water surface below which a vertex of a mesh with these bounds counts as in it, m.
+double waterline_margin(const Bounds& box);
+
 struct WaterlineCut {
   TriangleMesh mesh;            // the same surface; no triangle crosses the waterline
   std::vector<bool> submerged;  // one per triangle: below or in the water surface

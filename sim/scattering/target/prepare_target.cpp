@@ -8,8 +8,8 @@
 
 #include "sim/core/process/error.h"
 #include "sim/core/process/input_errors.h"
-#include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/mesh/mesh_diagnostics.h"
+#include "sim/geometry/placement/mesh_placement.h"
 #include "sim/scattering/target/part_materials.h"
 #include "sim/scattering/target/target_check.h"
 #include "sim/scenario/material_file.h"
@@ -54,7 +54,10 @@ std::vector<MaterialSpec> choose_materials(const TargetSource& source, TriangleM
 }  // namespace
 
 SolverMesh load_solver_mesh(const TargetSource& source) {
-  SolverMesh target{source.loaded ? *source.loaded : read_mesh(source.mesh, source.unit), {}, {}};
+  SolverMesh target{
+      source.loaded ? placed(*source.loaded, source.placement) : read_placed_mesh(source.mesh, source.placement),
+      {},
+      {}};
   target.materials = choose_materials(source, target.mesh);
   at_place(source.mesh_place, [&] {
     RepairedMesh repaired = diagnose_and_repair(target.mesh);
@@ -67,8 +70,16 @@ SolverMesh load_solver_mesh(const TargetSource& source) {
 }
 
 PreparedTarget prepare_target(SolverMesh mesh, const ScattererSettings& settings) {
-  PreparedTarget target{std::move(mesh.mesh), std::move(mesh.materials), std::move(mesh.warnings), nullptr};
-  if (settings.waterline_m) cut_at_sea_level(target.mesh, target.materials, *settings.waterline_m);
+  PreparedTarget target{std::move(mesh.mesh), std::move(mesh.materials), {}, std::move(mesh.warnings), nullptr};
+  if (settings.waterline_m) {
+    AboveWater above = above_water(target.mesh, *settings.waterline_m);
+    target.below = above.below;
+    if (settings.sea_reflects) {
+      cut_at_sea_level(target.mesh, target.materials, *settings.waterline_m);
+    } else {
+      target.mesh = std::move(above.mesh);
+    }
+  }
   target.scatterer =
       std::make_shared<const Scatterer>(target.mesh, target.materials, settings.crease_rad, settings.sheet_thickness_m,
                                         merging_tolerance(settings.highest_hz));

@@ -11,8 +11,10 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/geometry/mesh/triangle_mesh.h"
+#include "sim/geometry/placement/above_water.h"
 #include "sim/scattering/target/scatterer.h"
 #include "sim/scenario/material_spec.h"
+#include "sim/scenario/target_spec.h"
 
 namespace seaglint {
 
@@ -27,8 +29,8 @@ struct MaterialChoice {
 // Mesh file, or a mesh, with the materials of its surfaces.
 struct TargetSource {
   std::filesystem::path mesh;
-  std::string unit = "m";
-  std::shared_ptr<const TriangleMesh> loaded;  // in metres, in place of the file; may be null
+  MeshPlacement placement;
+  std::shared_ptr<const TriangleMesh> loaded;  // in metres, in place of the file and its unit; may be null
   std::vector<MaterialChoice> materials;       // empty: perfect conductor
   std::filesystem::path material_folder;       // folder searched first for material files
   double lowest_hz = 1e9, highest_hz = 1e9;
@@ -50,16 +52,20 @@ SolverMesh load_solver_mesh(const TargetSource& source);
 
 struct ScattererSettings {
   std::optional<double> waterline_m;  // z of the mean sea surface in the mesh frame, m; absent: no sea
-  std::optional<double> crease_rad;   // crease angle of Scatterer; absent: as the mesh's normals or its shape say
-  double sheet_thickness_m = 0;       // thickness of open surfaces
-  bool edges = true;                  // edge diffraction is used
+  // Whether the sea reflects (four paths). The submerged part then remains: it occludes, but neither reflects nor
+  // radiates, and the waterline does not diffract. Otherwise it is removed (above_water()).
+  bool sea_reflects = false;
+  std::optional<double> crease_rad;  // crease angle of Scatterer; absent: as the mesh's normals or its shape say
+  double sheet_thickness_m = 0;      // thickness of open surfaces
+  bool edges = true;                 // edge diffraction is used
   double lowest_hz = 1e9, highest_hz = 1e9;  // the highest determines which facets are merged (merging_tolerance())
 };
 
 // Target ready for illumination.
 struct PreparedTarget {
-  TriangleMesh mesh;  // triangles below the waterline are submerged
+  TriangleMesh mesh;  // without the triangles below the waterline or, where the sea reflects, with these submerged
   std::vector<MaterialSpec> materials;
+  SubmergedPart below;                // what is below the waterline
   std::vector<std::string> warnings;  // warnings about mesh and edges
   std::shared_ptr<const Scatterer> scatterer;
 };

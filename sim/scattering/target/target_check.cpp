@@ -130,7 +130,7 @@ std::vector<std::string> check_target(const TriangleMesh& mesh, double lowest_hz
   if (distance > kTooFarOrigin) {
     throw InputError(
         fmt::format("the target of {:.4g} m is centred {:.4g} m from the origin, its centre of rotation and phase "
-                    "centre: translate the mesh",
+                    "centre: translate the mesh (offset_m, --offset-m)",
                     longest, centre.norm()));
   }
   if (distance > kFarOrigin)

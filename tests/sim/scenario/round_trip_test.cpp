@@ -134,6 +134,8 @@ Scenario full_scenario() {
   ship.name = "ship-1";
   ship.label = 1;
   ship.mesh = "ship.glb";
+  ship.forward = "+y";
+  ship.offset_m = {1, 2, 3};
   ship.motion.rotation_centre_m = {1, 2, 3};
   ship.companions = {{"array", 0, 0}};
   ship.part_materials = {{"mast", "pec"}, {"hull*", "steel"}};

@@ -47,8 +47,9 @@ class BodyModels : public testing::Test {
 };
 
 TEST_F(BodyModels, HaveTheFactorOfTheTargetTimesThatOfTheBody) {
-  const Scenario scenario =
-      scenario_of("scale: 3, layout: {line: {count: 20}, scales: {lowest: 0.5, highest: 2}}, motion: {model: float}");
+  const Scenario scenario = scenario_of(
+      "scale: 3, layout: {line: {count: 20}, scales: {lowest: 0.5, highest: 2}, heights: "
+      "{lowest_m: 10, highest_m: 10}}, motion: {model: float}");
   const std::vector<double> factors = body_scales(scenario.targets[0].layout, 1);
   std::set<const PreparedTarget*> prepared;
   const auto bodies = models(scenario);
@@ -86,12 +87,15 @@ TEST_F(BodyModels, OfOneSizeAreOne) {
 
 // Two targets of one mesh, and seas whose draws leave the mesh as it is.
 TEST_F(BodyModels, ShareWhatTheirFieldsDetermine) {
-  const Scenario scenario = scenario_of("motion: {model: float}",
+  const Scenario scenario = scenario_of("motion: {model: float, origin_above_waterline_m: 2}",
                                         "  u: {label: 0, mesh: sphere.stl, layout: {line: {count: 2}, bodies: rigid, "
                                         "scales: {highest: 2}}, motion: {model: float, diameter_m: 1}}\n"
                                         "  v: {label: 0, mesh: sphere.stl, solver: {edges: false}}");
   const auto t = models(scenario), u = models(scenario, 1), v = models(scenario, 2);
-  EXPECT_EQ(models(scenario_of("layout: {line: {count: 9}}, motion: {model: fixed}")).front()->prepared,
+  EXPECT_EQ(models(scenario_of("layout: {line: {count: 9}, heights: {lowest_m: 1, highest_m: 1}}, motion: {model: "
+                               "fixed}"))
+                .front()
+                ->prepared,
             t.front()->prepared);
   EXPECT_NE(v.front()->prepared, t.front()->prepared);
   EXPECT_NE(v.front()->motion, t.front()->motion);
@@ -118,13 +122,13 @@ TEST_F(BodyModels, ReachTheWaterAsTheirSizeSays) {
                                     sea)),
               HasSubstr("its lowest body reaches 1.5 m below the water"));
   EXPECT_THAT(complaint(scenario_of("scale: 0.25, motion: {model: float, origin_above_waterline_m: -0.5}", sea)),
-              HasSubstr("must be greater than -0.25 with sea_reflection, else the whole target is under water"));
+              HasSubstr("must be greater than -0.25, else the whole target is under water"));
 }
 
 TEST_F(BodyModels, OfManySizesHaveFewTriangles) {
   write_mesh(folder_.path() / "fine.stl", make_sphere(1, 4));
   EXPECT_THAT(complaint(parse_scenario("seaglint: 1\ntargets:\n  t: {label: 1, mesh: fine.stl, layout: {line: {count: "
-                                       "1000}, scales: {highest: 2}}}\n",
+                                       "1000}, scales: {highest: 2}, heights: {lowest_m: 10, highest_m: 10}}}\n",
                                        (folder_.path() / "file.yaml").string())),
               HasSubstr("file.yaml:3:71: targets.t.layout.scales: 1000 bodies of different sizes with 5120 triangles "
                         "each: must have at most 2000000 triangles in all"));

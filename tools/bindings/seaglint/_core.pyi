@@ -29,13 +29,17 @@ class Mesh:
     parts: NDArray[Any]
     part_names: list[str]
     @staticmethod
-    def read(file: str, unit: str) -> Mesh: ...
+    def read(file: str, placement: RcsRequest) -> Mesh: ...
     @staticmethod
     def of_arrays(vertices: ArrayLike, triangles: ArrayLike) -> Mesh: ...
     def write(self, file: str) -> None: ...
 
 class RcsRequest:
     unit: str
+    forward: str
+    up: str
+    scale: float
+    offset_m: list[float]
     frequency_hz: list[float]
     azimuth_deg: list[float]
     elevation_deg: list[float]

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
+from ._common import axis, number
 from ._core import InputError
 
 
@@ -15,11 +16,15 @@ class Mesh:
     """A triangle mesh in metres, body frame: x forward, y to port, z up.
 
     Mesh(file, unit="m") reads .glb .gltf .obj .stl .ply .nas .unv .msh; Mesh.from_arrays(vertices, triangles) takes
-    arrays [vertex][3] and [triangle][3], counter-clockwise seen from outside.
+    arrays [vertex][3] and [triangle][3], counter-clockwise seen from outside. forward and up: axes of the file that
+    point ahead and upwards, "+x" to "-z"; scale: factor about its origin; then the mesh is moved by offset_m.
     """
 
-    def __init__(self, file: str | os.PathLike, unit: str = "m"):
-        self._core = file if isinstance(file, _core.Mesh) else _core.Mesh.read(os.fspath(file), unit)
+    def __init__(self, file: str | os.PathLike, unit: str = "m", *, forward: str = "+x", up: str = "+z", scale: float = 1.0, offset_m: ArrayLike = (0.0, 0.0, 0.0)):
+        if isinstance(file, _core.Mesh):
+            self._core = file
+        else:
+            self._core = _core.Mesh.read(os.fspath(file), place(_core.RcsRequest(), unit, forward, up, scale, offset_m))
 
     @classmethod
     def from_arrays(cls, vertices: ArrayLike, triangles: ArrayLike) -> Mesh:
@@ -44,6 +49,16 @@ class Mesh:
 
     def __repr__(self):
         return f"<seaglint.Mesh: {len(self.triangles)} triangles, {len(self.part_names)} parts>"
+
+
+def place(request, unit, forward, up, scale, offset_m):
+    """The request with a mesh file's unit and axes, its factor and its translation."""
+    request.unit, request.forward, request.up = unit, forward, up
+    request.scale, offset = number("scale", scale, 1e-3, 1e3), axis("offset_m", offset_m)
+    if len(offset) != 3:
+        raise InputError(f"offset_m: must be three numbers, not {len(offset)}")
+    request.offset_m = offset
+    return request
 
 
 def _readonly(array):

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from ._common import InputError, axis, count, number, threads_of, warn
-from ._mesh import Mesh
+from ._mesh import Mesh, place
 
 
 def _word(name, value):
@@ -20,10 +20,10 @@ def _word(name, value):
     return value
 
 
-def _request(unit, materials, crease_deg, edges, max_bounces, min_patch_m, sheet_thickness_mm, method, ray_spacing_m):
+def _request(placement, materials, crease_deg, edges, max_bounces, min_patch_m, sheet_thickness_mm, method, ray_spacing_m):
     """What the mesh is made of and how it is solved."""
-    request = _core.RcsRequest()
-    request.unit, request.edges = unit, bool(edges)
+    request = place(_core.RcsRequest(), *placement)
+    request.edges = bool(edges)
     request.crease_deg = None if crease_deg is None else number("crease_deg", crease_deg, 0, 60)
     request.max_bounces = count("max_bounces", max_bounces)
     if not 1 <= max_bounces <= _core.max_bounces:
@@ -42,6 +42,7 @@ def _target(target):
 
 
 def rcs(target: Mesh | str | os.PathLike, frequencies_hz: ArrayLike, azimuth_deg: ArrayLike = 0.0, elevation_deg: ArrayLike = 0.0, *, unit: str = "m",
+        forward: str = "+x", up: str = "+z", scale: float = 1.0, offset_m: ArrayLike = (0.0, 0.0, 0.0),
         materials: str | Mapping[str, str] | None = None, crease_deg: float | None = None, edges: bool = True, max_bounces: int = 40, min_patch_m: float = 0.0,
         sheet_thickness_mm: float = 0.0, range_m: float = 0.0, transmitter_deg: tuple[float, float] | None = None, cavities: Sequence[str] = (), only: Sequence[str] = (),
         without: Sequence[str] = (), method: str = "beams", ray_spacing_m: float = 0.0, threads: int = 0) -> NDArray[np.complex128]:
@@ -50,7 +51,7 @@ def rcs(target: Mesh | str | os.PathLike, frequencies_hz: ArrayLike, azimuth_deg
     Polarisations in the order h, v; sigma = 4 pi |S|^2. e^{+jwt}, phase origin at the mesh's origin, basis of
     CONVENTIONS.md.
 
-    target: Mesh or file (then `unit` is that of the file). frequencies_hz, azimuth_deg, elevation_deg: numbers or
+    target: Mesh or file (then `unit` is that of the file), turned, enlarged and moved as by Mesh(). frequencies_hz, azimuth_deg, elevation_deg: numbers or
     sequences; azimuth 0 = radar ahead of the bow, counter-clockwise from above.
     materials: "aluminium", a file, or {part: material}, "" for all other parts. crease_deg: None as the mesh says,
     0 = all facets flat. transmitter_deg: (azimuth, elevation) of a fixed transmitter; the angles are then those of the
@@ -58,7 +59,7 @@ def rcs(target: Mesh | str | os.PathLike, frequencies_hz: ArrayLike, azimuth_deg
     "beams", "rays" (ray_spacing_m apart; 0: from the size of the target) or "auto", that of the two which costs less.
     The other settings are the options of `seaglint rcs`.
     """
-    request = _request(unit, materials, crease_deg, edges, max_bounces, min_patch_m, sheet_thickness_mm, method, ray_spacing_m)
+    request = _request((unit, forward, up, scale, offset_m), materials, crease_deg, edges, max_bounces, min_patch_m, sheet_thickness_mm, method, ray_spacing_m)
     request.frequency_hz, request.azimuth_deg, request.elevation_deg = axis("frequencies_hz", frequencies_hz), axis("azimuth_deg", azimuth_deg), axis("elevation_deg", elevation_deg)
     request.range_m = number("range_m", range_m, 0, 1e9)
     if transmitter_deg is not None:
@@ -83,6 +84,7 @@ def _numbers(name, value):
 
 
 def compare(export: str | os.PathLike | Sequence[str | os.PathLike], against: str | os.PathLike | None = None, *, target: Mesh | str | os.PathLike | None = None, unit: str = "m",
+            forward: str = "+x", up: str = "+z", scale: float = 1.0, offset_m: ArrayLike = (0.0, 0.0, 0.0),
             materials: str | Mapping[str, str] | None = None, crease_deg: float | None = None, edges: bool = True, max_bounces: int = 40, min_patch_m: float = 0.0,
             sheet_thickness_mm: float = 0.0, polarisation: str | list[str] | None = None, incidence: str | tuple[float, float] | list | None = None,
             frequency_hz: float | list[float] | None = None, elevation_deg: float | list[float] | None = None, phi: tuple[float, float] | list | None = None, origin_m: tuple[float, float, float] | list | None = None,
@@ -119,7 +121,7 @@ def compare(export: str | os.PathLike | Sequence[str | os.PathLike], against: st
     if target is None:
         extent = None if interpolate_m is None else number("interpolate_m", interpolate_m, 1e-3, 1e4)
         return json.loads(_core.compare_tables(exports, os.fspath(against), bool(as_is), extent, threads_of(threads)))
-    request = _request(unit, materials, crease_deg, edges, max_bounces, min_patch_m, sheet_thickness_mm, method, ray_spacing_m)
+    request = _request((unit, forward, up, scale, offset_m), materials, crease_deg, edges, max_bounces, min_patch_m, sheet_thickness_mm, method, ray_spacing_m)
     figures, texts = _core.compare_target(exports, request, _target(target), bool(as_is), threads_of(threads))
     warn(texts)
     return json.loads(figures)

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is above the water is the mesh that a draughtsman ends at the waterline.
+#include "sim/geometry/placement/above_water.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "sim/core/numbers/constants.h"
+#include "sim/geometry/mesh/mesh_diagnostics.h"
+#include "sim/geometry/mesh/topology.h"
+#include "sim/geometry/shapes/generators.h"
+
+namespace seaglint {
+namespace {
+
+// Closed box; inwards: its triangles face its inside.
+TriangleMesh box(const Vec3& lower, const Vec3& upper, bool inwards = false) {
+  TriangleMesh mesh;
+  for (int i = 0; i < 8; ++i)
+    mesh.vertices.emplace_back(i & 1 ? upper.x() : lower.x(), i & 2 ? upper.y() : lower.y(),
+                               i & 4 ? upper.z() : lower.z());
+  mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                    {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  if (inwards)
+    for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+  mesh.part_names = {"hull"};
+  mesh.materials = {Material{}};
+  mesh.triangle_part.assign(12, 0);
+  mesh.triangle_material.assign(12, 0);
+  return mesh;
+}
+
+// Tube of square cross-section about z, 2 m wide with a shaft of 1 m, from z = -1 to 1.
+TriangleMesh tube() {
+  TriangleMesh mesh;
+  const std::array<Vec2, 4> round{Vec2(1, 1), Vec2(-1, 1), Vec2(-1, -1), Vec2(1, -1)};
+  for (const double z : {-1.0, 1.0}) {
+    for (const double half : {1.0, 0.5})
+      for (const Vec2& p : round) mesh.vertices.emplace_back(half * p.x(), half * p.y(), z);
+  }
+  const auto quad = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+    mesh.triangles.push_back({a, b, c});
+    mesh.triangles.push_back({a, c, d});
+  };
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    const std::uint32_t k = (i + 1) % 4;
+    quad(i, k, 8 + k, 8 + i);            // outer side
+    quad(4 + k, 4 + i, 12 + i, 12 + k);  // shaft
+    quad(k, i, 4 + i, 4 + k);            // below
+    quad(8 + i, 8 + k, 12 + k, 12 + i);  // above
+  }
+  mesh.part_names = {"tube"};
+  mesh.materials = {Material{}};
+  mesh.triangle_part.assign(mesh.triangles.size(), 0);
+  mesh.triangle_material.assign(mesh.triangles.size(), 0);
+  return mesh;
+}
+
+void expect_closed(const TriangleMesh& mesh) {
+  const Topology topology = topology_of(mesh);
+  EXPECT_EQ(topology.count(EdgeKind::kManifold), topology.edges.size());
+  EXPECT_TRUE(topology.degenerate.empty());
+}
+
+TEST(AboveWater, OfABoxIsTheBoxThatEndsAtTheWaterline) {
+  for (const double height : {-0.25, 0.0, 0.5}) {
+    const AboveWater above = above_water(box({-5, -2, -1}, {5, 2, 1}), height);
+    expect_closed(above.mesh);
+    EXPECT_NEAR(enclosed_volume(above.mesh), 40 * (1 - height), 1e-12);
+    EXPECT_NEAR(surface_area(above.mesh), 80 + 28 * (1 - height), 1e-12);
+    EXPECT_EQ(bounds(above.mesh).lower.z(), height);
+    EXPECT_NEAR(above.below.area_m2, 40 + 28 * (1 + height), 1e-12);
+    EXPECT_NEAR(above.below.depth_m, 1 + height, 1e-15);
+    EXPECT_EQ(above.below.open_m, 0);
+  }
+}
+
+// Divergence theorem about a point of the water surface, to which a lid adds nothing: V = sum x.A / 3 of the rest.
+TEST(AboveWater, OfCurvedBodiesIsClosedWithTheVolumeOfWhatStays) {
+  const TriangleMesh bodies[] = {make_sphere(1, 3), make_cylinder(0.6, 2, 33), make_icosahedral_reflector(1)};
+  for (const TriangleMesh& body : bodies) {
+    for (const double height : {-0.41, -0.123, 0.0, 0.2}) {
+      const AboveWater above = above_water(body, height);
+      expect_closed(above.mesh);
+      EXPECT_EQ(above.below.open_m, 0);
+      double volume = 0, flat = 0;
+      for (std::size_t t = 0; t < above.mesh.triangles.size(); ++t) {
+        const Vec3 area = area_vector(above.mesh, t);
+        volume += (above.mesh.vertices[above.mesh.triangles[t][0]] - Vec3(0, 0, height)).dot(area) / 3;
+        flat += area.z();
+        for (const std::uint32_t v : above.mesh.triangles[t]) EXPECT_GE(above.mesh.vertices[v].z(), height - 1e-9);
+      }
+      EXPECT_NEAR(enclosed_volume(above.mesh), volume, 1e-12);
+      EXPECT_NEAR(flat, 0, 1e-12);  // a closed surface
+    }
+  }
+}
+
+TEST(AboveWater, OfAMoonpoolOrADoubleHullHasALidWithAHole) {
+  const AboveWater above = above_water(tube(), 0.25);
+  expect_closed(above.mesh);
+  EXPECT_NEAR(enclosed_volume(above.mesh), 3 * 0.75, 1e-12);
+  EXPECT_NEAR(surface_area(above.mesh), 2 * 3 + (8 + 4) * 0.75, 1e-12);
+}
+
+TEST(AboveWater, OfACatamaranHasTwoLids) {
+  TriangleMesh hulls = box({-5, -3, -1}, {5, -2, 1});
+  hulls.append(box({-5, 2, -1}, {5, 3, 1}));
+  const AboveWater above = above_water(hulls, 0);
+  expect_closed(above.mesh);
+  EXPECT_NEAR(enclosed_volume(above.mesh), 20, 1e-12);
+}
+
+// A vertical plate through the water keeps its upper part, with a free edge.
+TEST(AboveWater, OfASheetIsASheet) {
+  const AboveWater above = above_water(make_plate(2, 1), 0.1);  // z from -0.5 to 0.5
+  EXPECT_NEAR(surface_area(above.mesh), 2 * 0.4, 1e-12);
+  EXPECT_NEAR(above.below.area_m2, 2 * 0.6, 1e-12);
+  EXPECT_EQ(above.below.open_m, 0);
+}
+
+TEST(AboveWater, LeavesAMeshThatEndsAtTheWaterlineAsItIsToTheBit) {
+  const TriangleMesh hull = box({-5, -2, 0}, {5, 2, 1});
+  for (const double rounding : {-3e-7, 0.0, 3e-7}) {
+    const AboveWater above = above_water(hull, rounding);
+    EXPECT_EQ(above.mesh.vertices, hull.vertices);
+    EXPECT_EQ(above.mesh.triangles, hull.triangles);
+    EXPECT_EQ(above.below.depth_m, 0);
+    EXPECT_EQ(cut_sentence(above.below), "");
+  }
+}
+
+// A hull drawn to its waterline with a dome below it, and a box with its top in the surface.
+TEST(AboveWater, KeepsABottomInTheSurfaceAndRemovesADeckInIt) {
+  TriangleMesh hull = box({-5, -2, 0}, {5, 2, 1});
+  hull.append(box({-1, -1, -2}, {1, 1, 0}));
+  const AboveWater above = above_water(hull, 0);
+  EXPECT_NEAR(surface_area(above.mesh) - surface_area(box({-5, -2, 0}, {5, 2, 1})), 0, 4 + 1e-12);
+  for (std::size_t t = 0; t < above.mesh.triangles.size(); ++t) {
+    const Vec3 area = area_vector(above.mesh, t);
+    const bool in_surface = above.mesh.vertices[above.mesh.triangles[t][0]].z() == 0 && area.head<2>().isZero(0);
+    EXPECT_TRUE(!in_surface || area.z() < 0);
+  }
+}
+
+TEST(AboveWater, GivesALidThePartAndMaterialOfTheHull) {
+  TriangleMesh ship = box({-5, -2, -1}, {5, 2, 1});
+  ship.part_names.push_back("mast");
+  ship.materials.push_back({"ram"});
+  TriangleMesh mast = box({0, 0, 1}, {0.2, 0.2, 9});
+  ship.append(mast);
+  for (std::size_t t = 0; t < 12; ++t) ship.triangle_material[t] = 1;
+  const AboveWater above = above_water(ship, 0);
+  double lid_m2 = 0;
+  for (std::size_t t = 0; t < above.mesh.triangles.size(); ++t) {
+    if (area_vector(above.mesh, t).z() >= 0 || above.mesh.vertices[above.mesh.triangles[t][0]].z() != 0) continue;
+    lid_m2 -= area_vector(above.mesh, t).z();
+    EXPECT_EQ(above.mesh.triangle_material[t], 1);
+    EXPECT_EQ(above.mesh.part_names[above.mesh.triangle_part[t]], "hull");
+  }
+  EXPECT_NEAR(lid_m2, 40, 1e-12);
+}
+
+TEST(AboveWater, SaysHowMuchIsCut) {
+  EXPECT_EQ(cut_sentence(above_water(box({-5, -2, -1}, {5, 2, 1}), 0).below),
+            "68 m^2 of its surface, down to 1 m below the water, is cut off at the waterline, z = 0 m of the mesh");
+}
+
+}  // namespace
+}  // namespace seaglint

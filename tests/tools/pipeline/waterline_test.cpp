@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is below the water does not scatter: a body that the program cuts has the echo of one that is drawn to its
+// waterline, and a mesh with other axes and another origin that of the mesh in the body frame.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <utility>
+#include <variant>
+
+#include "sim/core/process/error.h"
+#include "sim/geometry/files/mesh_io.h"
+#include "sim/geometry/placement/mesh_placement.h"
+#include "sim/geometry/shapes/generators.h"
+#include "tests/temporary_folder.h"
+#include "tests/tools/pipeline/target_responses.h"
+#include "tools/pipeline/warnings.h"
+
+namespace seaglint {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+// Heights below 1e-9 m are left out of facets, times 2 k = 670 1/m at 16 GHz: 7e-7 of the echo.
+constexpr double kRounding_db = -120;
+// Where the sea reflects, the submerged part enlarges the bounding sphere and with it the smallest patch, 0.7e-4 of its
+// radius: a square of 0.4 mm in 40 m^2, at -80 dB of the area, of which the echo has the difference of two sizes.
+constexpr double kPatches_db = -90;
+
+class Waterline : public testing::Test {
+ protected:
+  // A hull of 10 x 4 m with sloping sides, and a house, from z = -1 to 3 m; and as it is drawn to z = `waterline`.
+  void write_hulls(double waterline) {
+    write(folder_.path() / "whole.obj", -1);
+    write(folder_.path() / "cut.obj", waterline);
+  }
+
+  Scenario scene_of(const std::string& targets, const std::string& more = "", double azimuth_deg = 75) const {
+    return parse_scenario(fmt::format("seaglint: 1\n"
+                                      "radar: {{pulses: 16, hop_count: 8}}\n"
+                                      "view: {{azimuth_deg: {}, elevation_deg: 3}}\n"
+                                      "sea: {{significant_wave_height_m: 1, components: 64}}\n"
+                                      "targets:\n{}\n{}\n"
+                                      "dataset: {{maps_per_case: 4, realisations_per_case: 2}}\n",
+                                      azimuth_deg, targets, more),
+                          (folder_.path() / "water.yaml").string());
+  }
+  static std::string target(const std::string& name, const std::string& mesh, const std::string& more) {
+    return fmt::format("  {}: {{label: {}, mesh: {}, {}}}\n", name, name == "a" ? 0 : 1, mesh, more);
+  }
+  // Difference of the responses of the whole hull with `more` and of the cut one, dB.
+  double difference_db(const std::string& more, const std::string& of_scenario = "") const {
+    const Pipeline pipeline(scene_of(target("a", "whole.obj", more) + target("b", "cut.obj", more), of_scenario));
+    return relative_difference_db(response_of(pipeline, 0), response_of(pipeline, 1));
+  }
+
+  static void write(const std::filesystem::path& file, double bottom) {
+    TriangleMesh hull;
+    const auto half_breadth = [](double z) { return 2 + 0.25 * z; };
+    const auto add = [&](double low, double high, double half_length, const auto& half) {
+      const auto first = static_cast<std::uint32_t>(hull.vertices.size());
+      for (const double z : {low, high}) {
+        for (const auto& [x, y] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})
+          hull.vertices.emplace_back(x * half_length, y * half(z), z);
+      }
+      constexpr std::array<std::array<std::uint32_t, 3>, 12> kBox{{{0, 3, 2},
+                                                                   {0, 2, 1},
+                                                                   {4, 5, 6},
+                                                                   {4, 6, 7},
+                                                                   {0, 1, 5},
+                                                                   {0, 5, 4},
+                                                                   {1, 2, 6},
+                                                                   {1, 6, 5},
+                                                                   {2, 3, 7},
+                                                                   {2, 7, 6},
+                                                                   {3, 0, 4},
+                                                                   {3, 4, 7}}};
+      for (const auto& [a, b, c] : kBox) hull.triangles.push_back({first + a, first + b, first + c});
+    };
+    add(bottom, 1, 5, half_breadth);
+    add(1, 3, 2, [](double) { return 1.0; });
+    hull.part_names = {"hull"};
+    hull.materials = {Material{}};
+    hull.triangle_part.assign(hull.triangles.size(), 0);
+    hull.triangle_material.assign(hull.triangles.size(), 0);
+    write_mesh(file, hull);
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Waterline, OfAWholeHullHasTheEchoOfTheHullDrawnToItByBothMethods) {
+  write_hulls(0);
+  for (const std::string method : {"beams", "rays"}) {
+    const double error_db = difference_db("motion: {model: fixed}, solver: {method: " + method +
+                                          (method == "rays" ? ", ray_spacing_m: 0.004}" : "}"));
+    fmt::print("by {}: {:.0f} dB\n", method, error_db);
+    EXPECT_LT(error_db, kRounding_db) << method;
+  }
+}
+
+// Where the sea reflects, the submerged part remains as an occluder without an echo.
+TEST_F(Waterline, HoldsWhereTheSeaReflectsToo) {
+  write_hulls(0);
+  for (const char* paths : {"all", "direct_only", "multipath_only"}) {
+    const double error_db =
+        difference_db("motion: {model: fixed}", fmt::format("sea_reflection: {{enabled: true, paths: {}}}", paths));
+    EXPECT_LT(error_db, kPatches_db) << paths;
+  }
+}
+
+TEST_F(Waterline, GrowsWithTheMeshAndFollowsTheHeightOfEveryBody) {
+  write_hulls(0);
+  EXPECT_LT(difference_db("scale: 1.7, motion: {model: fixed}"), kRounding_db);
+  write_hulls(-0.75);  // 0.75 m above the water
+  EXPECT_LT(difference_db("motion: {model: float, diameter_m: 3}"), kRounding_db);
+  EXPECT_LT(difference_db("layout: {line: {count: 2, spacing_m: 30}, bodies: rigid}, motion: {model: ship, length_m: "
+                          "60, beam_m: 9}"),
+            kRounding_db);
+  EXPECT_LT(difference_db("offset_m: [1, 0, 0.75], motion: {model: fixed}"), kRounding_db);
+  EXPECT_LT(difference_db("layout: {line: {count: 2, spacing_m: 30}, heights: {lowest_m: 0.75, highest_m: 0.75}}, "
+                          "motion: {model: fixed}"),
+            kRounding_db);
+}
+
+// Bodies of one layout in the water at different heights: the sum of two targets with one body each.
+TEST_F(Waterline, IsThatOfEachBodyOfALayout) {
+  write_hulls(0);
+  const Pipeline pipeline(scene_of(
+      target("a", "whole.obj", "layout: {line: {count: 6, spacing_m: 20}, heights: {lowest_m: -0.9, highest_m: 2}}")));
+  std::set<const PreparedTarget*> prepared;
+  std::vector<double> lowest_m;
+  const Target& layout = pipeline.targets()[0];
+  for (std::size_t i = 0; i < layout.models.size(); ++i) {
+    prepared.insert(layout.models[i]->prepared.get());
+    const double rest_m = layout.rest_positions[i].z();
+    EXPECT_NEAR(bounds(layout.models[i]->prepared->mesh).lower.z() + rest_m, std::max(0.0, rest_m - 1), 1e-12);
+    lowest_m.push_back(rest_m);
+  }
+  EXPECT_LT(*std::ranges::min_element(lowest_m), 0.5);
+  EXPECT_GT(*std::ranges::max_element(lowest_m), 1);
+  EXPECT_GT(prepared.size(), 1u);
+  EXPECT_LE(prepared.size(), 6u);
+}
+
+TEST_F(Waterline, CutsCompanionsAndParts) {
+  write_hulls(0);
+  const auto scene = [&](const char* mesh) {
+    return scene_of(
+        "  host: {label: 1, points: [{position_m: [0, 0, 5]}], companions: [{target: guest, x_m: 12, y_m: 7}]}\n"
+        "  guest: {role: part, mesh: " +
+        std::string(mesh) + "}\n");
+  };
+  const Pipeline whole(scene("whole.obj")), cut(scene("cut.obj"));
+  EXPECT_LT(relative_difference_db(response_of(whole, 0), response_of(cut, 0)), kRounding_db);
+  EXPECT_THAT(mesh_warnings(whole), ElementsAre(HasSubstr("targets.guest.mesh: ")));
+  EXPECT_THAT(mesh_warnings(cut), IsEmpty());
+}
+
+TEST_F(Waterline, FollowsADrawnScale) {
+  write_hulls(0);
+  const Pipeline pipeline(scene_of(target("a", "whole.obj", "scale: uniform(0.5 2)") +
+                                   target("b", "cut.obj", "scale: same(targets.a.scale)")));
+  for (int realisation = 0; realisation < 2; ++realisation) {
+    SampleAddress at;
+    at.realisation = realisation;
+    const auto first = pipeline.response(at, pipeline.pulse_train(0)).response.values;
+    at.target = 1;
+    EXPECT_LT(relative_difference_db(first, pipeline.response(at, pipeline.pulse_train(0)).response.values),
+              kRounding_db);
+  }
+}
+
+// The strip theory has the sections of the whole hull, not those of the cut one.
+TEST_F(Waterline, LeavesTheMotionOfTheWholeHull) {
+  write_hulls(0);
+  const Pipeline pipeline(scene_of(target("a", "whole.obj", "motion: {model: ship}")));
+  const auto& ship = std::get<ShipParticulars>(pipeline.targets()[0].models[0]->motion->model);
+  EXPECT_NEAR(ship.draught, 1, 1e-9);
+  EXPECT_NEAR(ship.length, 10, 1e-9);
+  EXPECT_NEAR(bounds(pipeline.targets()[0].models[0]->prepared->mesh).lower.z(), 0, 0);
+}
+
+TEST_F(Waterline, IsReportedWithAreaAndDepthOfTheTarget) {
+  write_hulls(0);
+  EXPECT_THAT(mesh_warnings(Pipeline(scene_of(target("a", "whole.obj", "motion: {model: fixed}")))),
+              ElementsAre(HasSubstr("targets.a.mesh: ")));
+  // bottom 10 x 3.5, two sides 10 x sqrt(1 + 1/16), two ends of breadth 3.5 to 4
+  EXPECT_THAT(mesh_warnings(Pipeline(scene_of(target("a", "whole.obj", "motion: {model: fixed}"))))[0],
+              HasSubstr("63.1 m^2 of its surface, down to 1 m below the water, is cut off"));
+  EXPECT_THAT(mesh_warnings(Pipeline(scene_of(target("a", "cut.obj", "motion: {model: fixed}")))), IsEmpty());
+}
+
+TEST_F(Waterline, NamesBodiesThatHover) {
+  write_hulls(0);
+  const auto warnings = [&](const std::string& more) {
+    return mesh_warnings(Pipeline(scene_of(target("a", "cut.obj", more))));
+  };
+  const std::string ship = "motion: {model: ship, length_m: 10, beam_m: 4}";
+  EXPECT_THAT(warnings(ship), IsEmpty());
+  EXPECT_THAT(warnings(ship + ", offset_m: [0, 0, 2]"),
+              ElementsAre(HasSubstr("targets.a.mesh: its lowest point is 2 m above the water")));
+  EXPECT_THAT(warnings("motion: {model: float}"), ElementsAre(HasSubstr("0.75 m above the water")));
+  EXPECT_THAT(warnings("motion: {model: float, origin_above_waterline_m: 0}"), IsEmpty());
+  EXPECT_THAT(warnings("motion: {model: fixed}, offset_m: [0, 0, 2]"), IsEmpty());
+  EXPECT_THAT(warnings("layout: {line: {count: 1}, heights: {lowest_m: 5, highest_m: 5}}, motion: {model: float}"),
+              IsEmpty());
+  // The reflectors of the shipped scenarios are above floats that are not part of the mesh.
+  write_mesh(folder_.path() / "reflector.glb", make_icosahedral_reflector());
+  EXPECT_THAT(mesh_warnings(Pipeline(scene_of(target("a", "reflector.glb", "motion: {model: float}")))), IsEmpty());
+}
+
+TEST_F(Waterline, RefusesBodiesThatAreUnderIt) {
+  write_hulls(0);
+  const auto complaint = [&](const std::string& more) {
+    try {
+      Pipeline pipeline(scene_of(target("a", "whole.obj", more)));
+      range_window_m(pipeline.scenario(), pipeline.plan(), pipeline.targets());
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("none");
+  };
+  EXPECT_THAT(complaint("offset_m: [0, 0, -5]"),
+              HasSubstr("targets.a.mesh: its highest point is at z = -2 m: must be above 0, the water, else the whole "
+                        "target is under water; offset_m lifts it"));
+  EXPECT_THAT(complaint("motion: {model: float, origin_above_waterline_m: -4}"),
+              HasSubstr("origin_above_waterline_m: value -4: must be greater than -3, else"));
+  EXPECT_THAT(complaint("layout: {line: {count: 1}, heights: {lowest_m: -4, highest_m: -4}}"),
+              HasSubstr("targets.a.layout.heights: body 1 reaches up to -1 m above the water"));
+  // drawn: refused before the first map
+  EXPECT_THAT(complaint("motion: {model: float, diameter_m: 3, origin_above_waterline_m: choice(-4 0)}"),
+              HasSubstr("value -4: must be greater than -3"));
+  EXPECT_EQ(complaint("motion: {model: fixed}"), "none");
+}
+
+// The law of orientation and offset_m.
+TEST_F(Waterline, OfATurnedMeshOfAnotherOriginIsThatOfTheMeshInTheBodyFrame) {
+  write_hulls(0);
+  const TriangleMesh whole = read_mesh(folder_.path() / "whole.obj");
+  for (const auto& [forward, up] : {std::pair{"+y", "+z"}, {"-x", "+z"}, {"+z", "+y"}, {"-y", "-x"}, {"+x", "-z"}}) {
+    MeshPlacement placement;
+    placement.forward = forward;
+    placement.up = up;
+    // p = R q + offset: the file has q = R^T (p - offset).
+    const Mat3 to_file = rotation_of(placement).transpose();
+    const Vec3 offset(0.5, -0.25, 1.125);
+    TriangleMesh file = transformed(whole, to_file, -(to_file * offset));
+    write_mesh(folder_.path() / "turned.obj", file);
+    const Pipeline pipeline(
+        scene_of(target("a", "whole.obj", "motion: {model: ship}") +
+                 target("b", "turned.obj",
+                        fmt::format("orientation: {{forward: {}, up: {}}}, offset_m: [0.5, -0.25, 1.125], motion: "
+                                    "{{model: ship}}",
+                                    forward, up))));
+    EXPECT_LT(relative_difference_db(response_of(pipeline, 1), response_of(pipeline, 0)), kRounding_db)
+        << forward << up;
+  }
+}
+
+TEST_F(Waterline, OfAShipWithOtherAxesIsAFindingThatNamesTheKey) {
+  const std::string hulls = SEAGLINT_SOURCE_DIR "/tests/cases/hulls/";
+  const auto findings = [&](const std::string& mesh, const std::string& more) {
+    return motion_warnings(Pipeline(scene_of(target("a", mesh, more))));
+  };
+  const std::string ship = "motion: {model: ship}";
+  EXPECT_THAT(
+      findings(hulls + "06_bow_along_y.obj", ship),
+      ElementsAre(HasSubstr("targets.a.mesh: the hull is 12 m long (x), 30 m broad (y) and 6 m high (z): broader "
+                            "than long; if its bow is not along x or its masts are not along z, "
+                            "orientation.forward: +y (or -y) turns it")));
+  EXPECT_THAT(findings(hulls + "06_bow_along_x.obj", ship), IsEmpty());
+  EXPECT_THAT(findings(hulls + "06_bow_along_y.obj", ship + ", orientation: {forward: +y}"), IsEmpty());
+  EXPECT_THAT(findings(hulls + "06_bow_along_x.obj", ship + ", orientation: {up: +y}"),
+              ElementsAre(HasSubstr("6 m broad (y) and 12 m high (z): higher than broad")));
+  EXPECT_THAT(findings(hulls + "06_bow_along_y.obj", "motion: {model: fixed}"), IsEmpty());
+  // The combatant's masts reach further up than its beam is wide.
+  EXPECT_THAT(findings("assets/combatant_144m.glb", ship), IsEmpty());
+  // With its masts along y and the centreline in the plane z = 0.
+  const TriangleMesh combatant = read_mesh(SEAGLINT_SOURCE_DIR "/assets/combatant_144m.glb");
+  MeshPlacement on_side;
+  on_side.up = "-y";
+  write_mesh(folder_.path() / "side.glb", placed(combatant, on_side));
+  EXPECT_THAT(findings("side.glb", ship + ", orientation: {forward: +x}"),
+              ElementsAre(HasSubstr("orientation.up: +y")));
+}
+
+// Both hulls in the same waves: equal angles.
+TEST_F(Waterline, OfAShipWithItsBowAlongYMovesAsAlongX) {
+  const std::string hulls = SEAGLINT_SOURCE_DIR "/tests/cases/hulls/";
+  const Pipeline pipeline(
+      scene_of(target("a", hulls + "06_bow_along_y.obj", "orientation: {forward: +y}, motion: {model: ship}") +
+               target("b", hulls + "06_bow_along_x.obj", "motion: {model: ship}")));
+  const auto scene = pipeline.scene(0, 0);
+  for (const double t : {0.3, 1.7, 4.0}) {
+    EXPECT_LT((scene->bodies[0][0].sample(t).angles - scene->bodies[1][0].sample(t).angles).norm(), 1e-12);
+    EXPECT_GT(scene->bodies[0][0].sample(t).angles.norm(), 1e-4);
+  }
+}
+
+TEST_F(Waterline, OfAHullThatNoStripTheoryCarriesIsRefusedWithItsSizes) {
+  write_hulls(0);
+  try {
+    Pipeline pipeline(scene_of(target("a", "whole.obj", "motion: {model: ship, roll_period_s: 0.2}")));
+    ADD_FAILURE() << "not refused";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(),
+                HasSubstr("; the hull is 10 m long and 4 m broad, with a draught of 1 m; the mesh is 10 m "
+                          "long (x), 4.5 m broad (y) and 4 m high (z)"));
+  }
+}
+
+}  // namespace
+}  // namespace seaglint
