@@ -6,8 +6,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <sstream>
 
+#include "sim/core/text/number.h"
 #include "tools/options/option_numbers.h"
 #include "tools/options/unknown_word.h"
 
@@ -150,9 +153,21 @@ CommandOption CommandOptions::add_option(const std::string& names, std::vector<d
 
 CommandOption CommandOptions::add_option(const std::string& names, std::array<double, 3>& values,
                                          const std::string& what) {
-  CLI::Option* option = command_->add_option(names, values, what);
-  option->delimiter(',')->type_name("X,Y,Z");
-  return CommandOption(option);
+  const auto parse = [&values](const std::string& text) {
+    std::array<double, 3> read{};
+    std::size_t begin = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t end = i < 2 ? text.find(',', begin) : text.size();
+      const std::optional<double> number =
+          end == std::string::npos ? std::nullopt : parse_number(std::string_view(text).substr(begin, end - begin));
+      if (!number || !std::isfinite(*number))
+        throw CLI::ValidationError(fmt::format("value {}: must be three numbers X,Y,Z", text));
+      read[i] = *number;
+      begin = end + 1;
+    }
+    values = read;
+  };
+  return CommandOption(command_->add_option_function<std::string>(names, parse, what)->type_name("X,Y,Z"));
 }
 
 CommandOption CommandOptions::add_option(const std::string& names, std::vector<std::string>& values,

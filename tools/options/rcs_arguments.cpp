@@ -129,10 +129,8 @@ void add_placement_options(CommandOptions& command, MeshPlacement& placement) {
   command.add_option("--scale", placement.scale, "Factor by which the mesh is enlarged about the origin of its file")
       .number_within(1e-3, 1e3)
       .show_default();
-  command
-      .add_option("--offset-m", placement.offset_m,
-                  "Translation of the turned and enlarged mesh: the waterline belongs at z = 0")
-      .number_within(-1e4, 1e4);
+  command.add_option("--offset-m", placement.offset_m,
+                     "Translation of the turned and enlarged mesh: the waterline belongs at z = 0");
 }
 
 void RcsArguments::add_mesh_to(CommandOptions& command) {

@@ -40,6 +40,7 @@ struct SizedBody {
 // Those of a target by the factors of their sizes.
 std::map<double, SizedBody> bodies_of(const Scenario& scenario, const TargetSpec& target, const StopFlag& stop) {
   const TriangleMesh mesh = read_mesh(find_mesh(scenario, target), target.unit);
+  check_above_water(scenario, target, bounds(placed(mesh, turned_mesh(target))));
   std::map<double, SizedBody> sizes;
   for (const double scale : body_scales(target.layout, target.scale)) {
     if (sizes.contains(scale)) continue;

@@ -67,29 +67,6 @@ void add_waterline_warning(std::vector<std::string>& lines, const Target& target
                               cut > 1 ? "at most " : "", cut_sentence(deepest)));
 }
 
-// A ship above the water; a float that is drawn to its waterline, or has a gap below it larger than its height. Bodies
-// with heights of their own and those of rafts may be anywhere.
-void add_hovering_warning(std::vector<std::string>& lines, const Target& target) {
-  const MotionModel motion = target.spec.motion.model;
-  const bool is_ship = motion == MotionModel::kShip || motion == MotionModel::kRao;
-  if (target.models.empty() || is_raft(target.spec.layout) || (!is_ship && motion != MotionModel::kFloat)) return;
-  if (target.spec.layout && target.spec.layout->heights_m) return;
-  const auto gap_of = [&](const auto& model) {
-    return bounds(model->prepared->mesh).lower.z() + rest_height_m(target.spec);
-  };
-  const auto& highest = *std::ranges::max_element(target.models, {}, gap_of);
-  const Bounds box = bounds(highest->prepared->mesh);
-  constexpr double kRounding = 1e-3;  // of its size: a mesh that ends at the waterline
-  const double gap = gap_of(highest), rounding = kRounding * (box.upper - box.lower).maxCoeff();
-  const bool is_drawn_to_waterline = is_ship || box.lower.z() > -rounding;
-  if (gap <= (is_drawn_to_waterline ? rounding : box.upper.z() - box.lower.z())) return;
-  lines.push_back(fmt::format(
-      "targets.{}.mesh: its lowest point is {:.3g} m above the water, where nothing carries it: is its waterline at "
-      "z = {:.6g} m? {}",
-      target.spec.name, gap, -rest_height_m(target.spec),
-      is_ship ? "offset_m lowers it" : "motion.origin_above_waterline_m or offset_m lowers it"));
-}
-
 }  // namespace
 
 std::vector<std::string> mesh_warnings(const Pipeline& pipeline) {
@@ -98,7 +75,12 @@ std::vector<std::string> mesh_warnings(const Pipeline& pipeline) {
   for (const Target& target : std::span(pipeline.targets()).first(pipeline.scenario().targets.size())) {
     add_mesh_warnings(lines, target);
     add_waterline_warning(lines, target);
-    add_hovering_warning(lines, target);
+    std::string hovering;  // of the first such body
+    for (const auto& model : target.models) {
+      const std::string line = hovering_warning(target.spec, bounds(model->prepared->mesh));
+      if (hovering.empty()) hovering = line;
+    }
+    if (!hovering.empty()) lines.push_back(hovering);
   }
   return lines;
 }
@@ -130,10 +112,28 @@ std::string hull_warning(const TargetSpec& target, const Body& body) {
   return finding.empty() ? finding : fmt::format("targets.{}.mesh: {}", target.name, finding);
 }
 
+std::string hovering_warning(const TargetSpec& target, const Bounds& box) {
+  const bool is_ship = target.motion.model == MotionModel::kShip || target.motion.model == MotionModel::kRao;
+  if (!is_ship && target.motion.model != MotionModel::kFloat) return "";
+  if (is_raft(target.layout) || (target.layout && target.layout->heights_m)) return "";
+  constexpr double kRounding = 1e-3;  // of its size: a mesh that ends at the waterline
+  const double rounding = kRounding * (box.upper - box.lower).maxCoeff();
+  const double gap = box.lower.z() + rest_height_m(target);
+  const bool is_drawn_to_waterline = is_ship || box.lower.z() > -rounding;
+  if (gap <= (is_drawn_to_waterline ? rounding : box.upper.z() - box.lower.z())) return "";
+  return fmt::format(
+      "targets.{}.mesh: its lowest point is {:.3g} m above the water, where nothing carries it: is its waterline at z "
+      "= "
+      "{:.6g} m? {}",
+      target.name, gap, 0.0 - rest_height_m(target),
+      is_ship ? "offset_m lowers it" : "motion.origin_above_waterline_m or offset_m lowers it");
+}
+
 void report_motion(const TargetSpec& target, const Body& body) {
-  const std::string note = motion_file_note(target, body), finding = hull_warning(target, body);
+  const std::string note = motion_file_note(target, body);
   if (!note.empty()) print_error(on_one_line(note) + "\n");
-  if (!finding.empty()) warn(std::vector{finding});
+  for (const std::string& finding : {hull_warning(target, body), hovering_warning(target, body.shape.box)})
+    if (!finding.empty()) warn(std::vector{finding});
 }
 
 void report_spectrum_table(const Scenario& scenario) {

@@ -10,6 +10,7 @@
 namespace seaglint {
 
 struct Body;
+struct Bounds;
 struct Scenario;
 struct SeaState;
 struct TargetSpec;
@@ -28,7 +29,12 @@ std::string motion_file_note(const TargetSpec& target, const Body& body);
 // orientation_finding() of the target's mesh, of models ship and rao; else empty.
 std::string hull_warning(const TargetSpec& target, const Body& body);
 
-// Prints motion_file_note() as a line, and hull_warning() as a warning, unless they are empty.
+// Of a body that its mesh shows in the air, above the mean water surface at rest: a ship, or a float that is drawn to
+// its waterline or has a gap below it larger than its height. Empty for any other, for rafts and for bodies with
+// heights of their own, which may be anywhere. `box` of the mesh.
+std::string hovering_warning(const TargetSpec& target, const Bounds& box);
+
+// Prints motion_file_note() as a line, and hull_warning() and hovering_warning() as warnings, unless empty.
 void report_motion(const TargetSpec& target, const Body& body);
 
 // Prints motion_file_note() of every target.

@@ -207,7 +207,7 @@ std::string cut_sentence(const SubmergedPart& part) {
   std::string sentence = fmt::format(
       "{:.3g} m^2 of its surface, down to {:.3g} m below the water, is cut off at the waterline, z = {:.6g} m "
       "of the mesh",
-      part.area_m2, part.depth_m, part.waterline_m);
+      part.area_m2, part.depth_m, part.waterline_m + 0.0);
   if (part.open_m > 0)
     sentence += fmt::format("; {:.3g} m of waterline cross themselves and are left open", part.open_m);
   return sentence;

@@ -48,6 +48,17 @@ TEST(MovingBodies, MoveAsTheSamplesOfTheirRealisationDo) {
   }
 }
 
+TEST(MovingBodies, UnderWaterAreRefusedAsTheirEchoesAre) {
+  Scenario scenario = floats();
+  scenario.targets[1].offset_m = {0, 0, -3};
+  try {
+    simulate(scenario, {0, 0});
+    ADD_FAILURE() << "not refused";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("else the whole target is under water"));
+  }
+}
+
 TEST(MovingBodies, AreNamedByTargetAndNumber) {
   std::vector<std::string> names;
   for (const NamedTrajectory& body : simulate(floats(), {}).bodies) names.push_back(body.body);
