@@ -95,8 +95,11 @@ TEST_F(RcsCommand, RefusesAxesThatAreNoFrame) {
   EXPECT_EQ(parallel.code, 2);
   EXPECT_THAT(parallel.err, HasSubstr("forward +z and up -z: must be perpendicular to each other"));
   EXPECT_EQ(rcs({"--frequency-ghz", "10", "--azimuth-deg", "0", "--forward", "x"}).code, 2);
-  EXPECT_EQ(rcs({"--frequency-ghz", "10", "--azimuth-deg", "0", "--offset-m", "1,2"}).code, 2);
-  EXPECT_EQ(rcs({"--frequency-ghz", "10", "--azimuth-deg", "0", "--offset-m", "1,2,nan"}).code, 2);
+  for (const std::string offset : {"1,2", "1,2,nan", "1,2,3,4", "a,b,c"}) {
+    const ProgramResult refused = rcs({"--frequency-ghz", "10", "--azimuth-deg", "0", "--offset-m", offset});
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_THAT(refused.err, HasSubstr("--offset-m: value " + offset + ": must be three numbers X,Y,Z"));
+  }
   EXPECT_EQ(run_program({"mesh", "convert", plate(), "-o", plate()}).code, 2);
 }
 

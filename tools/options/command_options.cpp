@@ -153,7 +153,7 @@ CommandOption CommandOptions::add_option(const std::string& names, std::vector<d
 
 CommandOption CommandOptions::add_option(const std::string& names, std::array<double, 3>& values,
                                          const std::string& what) {
-  const auto parse = [&values](const std::string& text) {
+  const auto parse = [&values, names](const std::string& text) {
     std::array<double, 3> read{};
     std::size_t begin = 0;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -161,7 +161,7 @@ CommandOption CommandOptions::add_option(const std::string& names, std::array<do
       const std::optional<double> number =
           end == std::string::npos ? std::nullopt : parse_number(std::string_view(text).substr(begin, end - begin));
       if (!number || !std::isfinite(*number))
-        throw CLI::ValidationError(fmt::format("value {}: must be three numbers X,Y,Z", text));
+        throw CLI::ValidationError(names, fmt::format("value {}: must be three numbers X,Y,Z", text));
       read[i] = *number;
       begin = end + 1;
     }
