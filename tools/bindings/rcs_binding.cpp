@@ -9,6 +9,7 @@
 #include "tools/bindings/bindings.h"
 #include "tools/bindings/interruptible.h"
 #include "tools/bindings/mesh_request.h"
+#include "tools/rcs/like_program.h"
 #include "tools/rcs/rcs_uncertainty.h"
 #include "tools/rcs/rcs_views.h"
 
@@ -88,6 +89,12 @@ void bind_rcs(py::module_& module) {
              request.selection = {only, without};
            });
   module.attr("max_bounces") = kMaxBounces;
+  module.attr("default_bounces") = kDefaultBounces;
+  module.def("solved_like",  // the request with the settings of another program, except those given
+             [](const RcsRequest& request, const std::string& name, bool crease, bool edges, bool max_bounces) {
+               return solved_like(request, like_program(name),
+                                  {.crease = crease, .edges = edges, .max_bounces = max_bounces});
+             });
   module.def("rcs", &rcs);
 }
 

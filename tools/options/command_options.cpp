@@ -73,6 +73,8 @@ CommandOption CommandOption::needs(const CommandOption& other) {
   return *this;
 }
 
+bool CommandOption::given() const { return option_->count() > 0; }
+
 CommandOption CommandOption::show_default() {
   option_->capture_default_str();
   return *this;

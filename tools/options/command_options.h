@@ -29,6 +29,7 @@ class CommandOption {
 
   CommandOption required();
   CommandOption needs(const CommandOption& other);  // is refused without the other one
+  bool given() const;                               // for callbacks: the command line has it
   CommandOption show_default();                     // the help text gives the variable's present value
   CommandOption group(const std::string& heading);  // of the help text
 

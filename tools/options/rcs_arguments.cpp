@@ -5,11 +5,13 @@
 
 #include <filesystem>
 #include <iterator>
+#include <utility>
 
 #include "sim/core/process/error.h"
 #include "sim/core/text/named_file.h"
 #include "sim/core/text/number.h"
 #include "tools/options/renamed_words.h"
+#include "tools/rcs/like_program.h"
 #include "tools/rcs/rcs_target.h"
 #include "tools/rcs/sweep_files.h"
 
@@ -167,28 +169,35 @@ void RcsArguments::add_views_to(CommandOptions& command) {
 
 void RcsArguments::add_detail_to(CommandOptions& command) {
   command
-      .add_option(
-          "--edges", edges,
-          "Edge diffraction (equivalent edge currents, single and multiple): on, or off for physical optics alone")
-      .one_of({"on", "off"})
-      .show_default();
-  command
-      .add_option(
-          "--crease-deg", crease_deg,
-          "Facets that form a smooth surface: auto = as the mesh's normals or its shape say, finer ones than its "
-          "curvature requires merged; a crease angle within 0 and 60 = adjacent ones whose normals differ by "
-          "less, as meshed; 0 = all facets flat")
-      .check(crease_error)
-      .show_default();
+      .add_option("--like", like,
+                  "Facets, edges and bounces as another program has them by default: hfss (SBR+), feko (RL-GO), cst "
+                  "(asymptotic solver); --crease-deg, --edges and --max-bounces take precedence")
+      .one_of(like_names());
+  edges_option_ =
+      command
+          .add_option(
+              "--edges", edges,
+              "Edge diffraction (equivalent edge currents, single and multiple): on, or off for physical optics alone")
+          .one_of({"on", "off"})
+          .show_default();
+  crease_option_ =
+      command
+          .add_option(
+              "--crease-deg", crease_deg,
+              "Facets that form a smooth surface: auto = as the mesh's normals or its shape say, finer ones than its "
+              "curvature requires merged; a crease angle within 0 and 60 = adjacent ones whose normals differ by "
+              "less, as meshed; 0 = all facets flat")
+          .check(crease_error)
+          .show_default();
   command
       .add_option("--sheet-thickness-mm", request.sheet_thickness_mm,
                   "Thickness of open surfaces (meshed at the illuminated face): first-order correction of their edge "
                   "diffraction, valid up to a tenth of a wavelength")
       .number_within(0.0, 1000.0)
       .show_default();
-  command.add_option("--max-bounces", request.max_bounces, "Maximum number of bounces")
-      .integer_within(1, kMaxBounces)
-      .show_default();
+  bounces_option_ = command.add_option("--max-bounces", request.max_bounces, "Maximum number of bounces")
+                        .integer_within(1, kMaxBounces)
+                        .show_default();
   command
       .add_option("--min-patch-m", request.min_patch_m,
                   "Side of the smallest illuminated patch kept; 0 = 0.7e-4 of the radius of each body, the coarsest")
@@ -267,7 +276,11 @@ RcsRequest RcsArguments::make_mesh_request() const {
   made.method = solver_method_of(method);
   if (crease_deg != "auto") made.crease_deg = parse_number(crease_deg);
   for (const std::string& text : materials) made.materials.push_back(material_choice(text));
-  return made;
+  if (like.empty()) return made;
+  const auto given = [](const std::optional<CommandOption>& option) { return option && option->given(); };
+  return solved_like(
+      std::move(made), like_program(like),
+      {.crease = given(crease_option_), .edges = given(edges_option_), .max_bounces = given(bounces_option_)});
 }
 
 std::string RcsArguments::target_name() const {

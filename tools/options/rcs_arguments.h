@@ -20,7 +20,7 @@ struct RcsArguments {
   RcsRequest request;                // members that options set directly; make_request() fills the others
   std::vector<std::string> targets;  // mesh files of one scatterer
   std::string frequency_ghz, azimuth_deg, elevation_deg = "0", edges = "on", crease_deg = "auto", method = "beams",
-                                          output;
+                                          like, output;
   std::optional<double> transmit_azimuth_deg, transmit_elevation_deg, converge_db;
   bool cross_check = false;
   std::vector<std::string> materials;  // NAME or PART=NAME
@@ -41,6 +41,8 @@ struct RcsArguments {
   std::string target_name() const;       // of the files, without folders; at least one
 
  private:
+  // Options of which `like` leaves those that are given; of the last command to which they were added.
+  std::optional<CommandOption> edges_option_, crease_option_, bounces_option_;
   void add_views_to(CommandOptions& command);
 };
 

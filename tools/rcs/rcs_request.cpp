@@ -60,7 +60,8 @@ RcsSweep requested_sweep(const RcsRequest& request) {
   check_method(request);
   check_sea(request);
   if (request.uncertainty && request.crease_deg && *request.crease_deg == 0)
-    throw InputError("--uncertainty compares smooth surfaces with flat facets; with --crease-deg 0 all are flat");
+    throw InputError(fmt::format("--uncertainty compares smooth surfaces with flat facets; with {} all are flat",
+                                 request.like.empty() ? "--crease-deg 0" : "--like " + request.like));
   if (!request.cavities.parts.empty() && (request.sea.reflection || request.range_m > 0 || request.exports.wanted()))
     throw InputError("--cavity does not support --sea-reflection, --wavefront-range-m and exports of one aspect");
   constexpr std::size_t kMaxRows = 4'000'000;  // 256 MB of matrices

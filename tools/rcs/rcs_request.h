@@ -66,6 +66,7 @@ struct RcsRequest : MeshPlacement {
   double ray_spacing_m = 0;          // of methods rays and auto; 0: default_ray_spacing()
   std::optional<double> crease_deg;  // absent: as the mesh's normals or its shape say
   double sheet_thickness_mm = 0;
+  std::string like;  // program whose settings were taken (like_program.h); empty: none
   EchoSelection selection;
   SeaUnderTarget sea;
   CavityRequest cavities;

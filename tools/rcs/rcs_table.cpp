@@ -71,7 +71,7 @@ std::string rcs_heading(const RcsRequest& request, const Scatterer& scatterer, c
       "# seaglint {} {}\n# target {} {}: {} facets, radius {:.6g} m\n"
       "# material {}, contributions: {}\n{}"
       "# physical optics at every visible bounce, max_bounces {}, edges {}, crease_deg {}, sheet_thickness_mm "
-      "{:.6g}, wavefront_range_m {:.9g} (0 = plane wave), min_patch_m {:.6g}{}\n{}{}\n"
+      "{:.6g}, wavefront_range_m {:.9g} (0 = plane wave), min_patch_m {:.6g}{}{}\n{}{}\n"
       "# amplitudes in metres, e^{{+jwt}}, phase origin at the body's origin, S_pq: q transmitted, p received; basis "
       "of "
       "CONVENTIONS.md\n{}",
@@ -80,8 +80,8 @@ std::string rcs_heading(const RcsRequest& request, const Scatterer& scatterer, c
       sea_line(request.sea), request.max_bounces, request.edges ? "on" : "off",
       request.crease_deg ? fmt::format("{:.6g}", *request.crease_deg) : "auto", request.sheet_thickness_mm,
       request.range_m, request.min_patch_m > 0 ? request.min_patch_m : default_min_patch(scatterer),
-      method_text(request, scatterer), cavity_line(request.cavities), transmitter_line(request.transmitter),
-      warning_lines(warnings));
+      method_text(request, scatterer), request.like.empty() ? "" : ", like " + request.like,
+      cavity_line(request.cavities), transmitter_line(request.transmitter), warning_lines(warnings));
 }
 
 std::string rcs_table(const RcsRequest& request, const Scatterer& scatterer, const RcsSweep& sweep,
