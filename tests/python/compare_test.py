@@ -40,6 +40,27 @@ def test_with_a_mesh_is_that_of_the_program(tmp_path):
     assert all(entry["rms_db"] < 1e-6 for entry in same["exports"] if entry["polarisation"] in ("hh", "vv"))  # printed digits
 
 
+def test_like_another_program(tmp_path):
+    export = table(tmp_path / "like.csv", "0:20:4", "--like", "hfss")
+    like = seaglint.compare(export, target=REFLECTOR, like="hfss")
+    assert all(entry["rms_db"] < 1e-6 for entry in like["exports"] if entry["polarisation"] in ("hh", "vv"))  # printed digits
+    assert like["exports"][0]["solver"] == {"like": "hfss", "crease_deg": 0, "edges": False, "max_bounces": 3, "method": "beams"}
+    given = seaglint.compare(export, target=REFLECTOR, like="hfss", edges=True, max_bounces=5)
+    assert given["exports"][0]["solver"] == {"like": "hfss", "crease_deg": 0, "edges": True, "max_bounces": 5, "method": "beams"}
+    assert np.array_equal(seaglint.rcs(REFLECTOR, 10e9, [0, 4], like="hfss"), seaglint.rcs(REFLECTOR, 10e9, [0, 4], crease_deg=0, edges=False, max_bounces=3))
+
+
+def test_a_sphere_has_a_known_value(tmp_path):
+    """The series is within 0.1 dB of the optical level pi a^2, -5.49 dBsm, at ka 63."""
+    sphere = tmp_path / "sphere.ply"
+    assert program("mesh", "make", "sphere", "--radius-m", "0.3", "--subdivisions", "5", "-o", sphere).returncode == 0
+    export = tmp_path / "levels.csv"
+    export.write_text("# transmitter=monostatic\nfrequency_hz,azimuth_deg,elevation_deg,vv_dbsm\n1e10,0,0,-6.54\n1e10,5,0,-6.54\n")
+    entry, = seaglint.compare(export, target=sphere)["exports"]
+    assert abs(entry["known"]["export_bias_db"] + 6.54 - 5.49) < 0.1
+    assert abs(entry["known"]["compared_bias_db"]) < 0.15 and entry["known"]["verdict"] == "seaglint is closer"
+
+
 def test_what_an_export_does_not_say(tmp_path):
     """The four columns frequency_hz theta_deg phi_deg dBsm say neither polarisation nor incidence."""
     sigma = 4 * np.pi * np.abs(seaglint.rcs(REFLECTOR, 10e9, [0, 5, 10])[0, 0, :, 1, 1]) ** 2
@@ -78,6 +99,7 @@ def test_tables_by_azimuth_and_folders(tmp_path):
     (lambda file: seaglint.compare(file, target=REFLECTOR, origin_m=(0, 0)), "must be 3 numbers"),
     (lambda file: seaglint.compare(file, target=REFLECTOR, floor_db=0), "floor_db: value 0: must be within 1 and 300"),
     (lambda file: seaglint.compare(file, target=REFLECTOR, unit="parsec"), "parsec"),
+    (lambda file: seaglint.compare(file, target=REFLECTOR, like="xpatch"), "like: value 'xpatch': must be one of hfss, feko, cst"),
 ])
 def test_wrong_input_is_one_sentence(tmp_path_factory, call, message):
     file = tmp_path_factory.getbasetemp() / "one.csv"

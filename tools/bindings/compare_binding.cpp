@@ -34,6 +34,7 @@ std::string compare_tables(const ReferenceArguments& exports, const std::string&
       if (stop) throw Interrupted();
       compared.push_back(compare_with_table(one, table, settings, threads));
     }
+    check_reciprocity(compared);
     return compared;
   });
   return comparison_json(comparisons, settings).dump();
@@ -54,6 +55,7 @@ py::tuple compare_target(const ReferenceArguments& exports, RcsRequest request, 
     std::vector<ExportComparison> compared;
     for (const FieldTable& table : tables)
       compared.push_back(compare_with_target(table, solved, prepared, settings, solutions));
+    check_reciprocity(compared);
     return compared;
   });
   return py::make_tuple(comparison_json(comparisons, settings).dump(), warnings);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -11,7 +12,9 @@
 #include <tuple>
 #include <utility>
 
+#include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/dbsm.h"
+#include "sim/core/numbers/quantile.h"
 #include "sim/core/process/error.h"
 #include "tools/compare/cut_angles.h"
 #include "tools/compare/main_contribution.h"
@@ -307,6 +310,89 @@ const RcsSweep& solution_of(RcsRequest request, const ViewGrid& grid, const RcsT
   return solutions.solved.emplace_back(TargetSolutions::Solved{request.transmitter, grid, std::move(sweep)}).sweep;
 }
 
+// A table that a target is solved at.
+struct TargetSolution {
+  const FieldTable& table;
+  const RcsRequest& request;
+  const RcsTarget& target;
+  TargetSolutions& solutions;
+};
+
+struct SolvedPairs {
+  std::vector<PairedCut> pairs;  // of the table's values
+  std::vector<RcsCut> solved;    // all elements at their places
+};
+
+SolvedPairs solved_pairs(const TargetSolution& solution) {
+  SolvedPairs result;
+  for (const auto& [key, cuts] : by_transmitter(solution.table)) {
+    RcsRequest solved = solution.request;
+    solved.transmitter = fixed_transmitter(*cuts.front());
+    for (const ViewGrid& grid : grids_of(cuts)) {
+      const RcsSweep& sweep = solution_of(solved, grid, solution.target, solution.table.name, solution.solutions);
+      append_cuts(sweep, result.solved);
+      for (const RcsCut* cut : cuts) pair(sweep, *cut, result.pairs);
+    }
+  }
+  return result;
+}
+
+bool is_perfect_conductor(const RcsRequest& request) {
+  return std::ranges::all_of(request.materials, [](const MaterialChoice& choice) { return choice.material == "pec"; });
+}
+
+// Exact and closed-form values of a target that is recognised, and trials where the agreement is poor.
+void judge(const TargetSolution& solution, const ComparisonSettings& settings, ExportComparison& comparison) {
+  const auto solve = [&](const FieldTable& table, const RcsRequest& request) {
+    const RcsTarget target = prepare_rcs_target(at_frequencies_of({table}, request));
+    TargetSolutions trials{solution.solutions.threads, solution.solutions.stop, [](const std::string&) {}};
+    return solved_pairs({table, request, target, trials}).pairs;
+  };
+  comparison.trials = trial_solutions({solution.table, solution.request, comparison.cuts, solve, solution.solutions.say});
+  // Of a mesh in another unit no other suggestion and no known value means anything.
+  const bool other_unit = std::ranges::any_of(comparison.trials, is_unit);
+  if (other_unit) comparison.warnings.clear();
+  for (std::string& sentence : trial_sentences(comparison.trials)) comparison.warnings.push_back(std::move(sentence));
+  if (other_unit) return;
+  if (!is_perfect_conductor(solution.request)) return;
+  comparison.known = known_values(comparison.cuts, canonical_bodies(solution.target.prepared.mesh), settings.floor_db);
+}
+
+// hv and vh of one export, in one file or two.
+void warn_of_non_reciprocity(const std::vector<ExportComparison*>& parts) {
+  constexpr double kDynamic_db = 60, kAllowed_db = 1;
+  constexpr std::size_t kLeastPairs = 5;
+  using Place = std::tuple<double, double, double>;
+  std::array<std::map<Place, double>, 2> cross;  // hv, vh
+  double highest = -1e300;
+  for (const ExportComparison* part : parts) {
+    for (const PairedCut& cut : part->cuts) {
+      highest = std::max(highest, std::ranges::max(cut.level_dbsm));
+      for (std::size_t i = 0; is_cross(cut.element) && i < cut.places.size(); ++i) {
+        const PairedCut::Place& p = cut.places[i];
+        const double twice_k = 4 * kPi * p.frequency_hz / kSpeedOfLight;
+        if (p.path_gradient.norm() < (1 - 1e-9) * twice_k) continue;  // bistatic
+        cross[cut.element == Polarisation::kHv ? 0 : 1][{p.frequency_hz, p.azimuth_deg, p.elevation_deg}] =
+            cut.level_dbsm[i];
+      }
+    }
+  }
+  std::vector<double> differences;
+  for (const auto& [place, hv] : cross[0]) {
+    const auto vh = cross[1].find(place);
+    if (vh != cross[1].end() && std::max(hv, vh->second) > highest - kDynamic_db)
+      differences.push_back(std::abs(hv - vh->second));
+  }
+  if (differences.size() < kLeastPairs) return;
+  const double median = quartiles(differences).median;
+  if (median <= kAllowed_db) return;
+  for (ExportComparison* part : parts)
+    part->warnings.push_back(fmt::format(
+        "hv and vh of the export differ by {:.1f} dB (median of {} places), which are equal by reciprocity: its "
+        "cross-polar levels are no better than that",
+        median, differences.size()));
+}
+
 }  // namespace
 
 RcsRequest at_frequencies_of(const std::vector<FieldTable>& tables, RcsRequest request) {
@@ -324,16 +410,13 @@ RcsRequest at_frequencies_of(const std::vector<FieldTable>& tables, RcsRequest r
 ExportComparison compare_with_target(const FieldTable& table, const RcsRequest& request, const RcsTarget& target,
                                      const ComparisonSettings& settings, TargetSolutions& solutions) {
   ExportComparison comparison{table.name, table.reader, "seaglint", table.notes, {}, {}, {}, {}, {}, {}, {}, {}};
-  for (const auto& [key, cuts] : by_transmitter(table)) {
-    RcsRequest solved = request;
-    solved.transmitter = fixed_transmitter(*cuts.front());
-    for (const ViewGrid& grid : grids_of(cuts)) {
-      const RcsSweep& sweep = solution_of(solved, grid, target, table.name, solutions);
-      append_cuts(sweep, comparison.solved);
-      for (const RcsCut* cut : cuts) pair(sweep, *cut, comparison.cuts);
-    }
-  }
+  comparison.solver = request;
+  const TargetSolution solution{table, request, target, solutions};
+  SolvedPairs pairs = solved_pairs(solution);
+  comparison.cuts = std::move(pairs.pairs);
+  comparison.solved = std::move(pairs.solved);
   comparison = finished(std::move(comparison), settings, solutions.threads);
+  judge(solution, settings, comparison);
   if (std::any_of(table.cuts.begin(), table.cuts.end(),
                   [](const RcsCut& cut) { return !cut.transmitter->is_monostatic; }))
     return comparison;
@@ -368,6 +451,21 @@ ExportComparison compare_with_table(const FieldTable& table, const FieldTable& o
         "{} and {} have no element, incident wave, direction and frequency in common{}", table.name, other.name,
         settings.interpolation_radius_m ? "" : "; nothing is interpolated without --interpolate METRES"));
   return finished(std::move(comparison), settings, threads);
+}
+
+void check_reciprocity(std::vector<ExportComparison>& comparisons) {
+  const auto has = [](const ExportComparison& comparison, Polarisation element) {
+    return std::ranges::any_of(comparison.cuts, [&](const PairedCut& cut) { return cut.element == element; });
+  };
+  std::map<std::string, std::vector<ExportComparison*>> halves;  // exports of one cross-polar element, by reader
+  for (ExportComparison& comparison : comparisons) {
+    const bool hv = has(comparison, Polarisation::kHv), vh = has(comparison, Polarisation::kVh);
+    if (hv && vh) warn_of_non_reciprocity({&comparison});
+    if (hv != vh) halves[comparison.reader].push_back(&comparison);
+  }
+  for (const auto& [reader, pair] : halves) {
+    if (pair.size() == 2) warn_of_non_reciprocity(pair);
+  }
 }
 
 }  // namespace seaglint

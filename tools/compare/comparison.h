@@ -14,7 +14,9 @@
 #include "sim/field_tables/field_table.h"
 #include "tools/compare/alignment.h"
 #include "tools/compare/interpolation.h"
+#include "tools/compare/known_values.h"
 #include "tools/compare/lobes.h"
+#include "tools/compare/trial_solutions.h"
 #include "tools/compare/view_groups.h"
 #include "tools/rcs/rcs_comparison.h"
 #include "tools/rcs/rcs_request.h"
@@ -54,6 +56,9 @@ struct ExportComparison {
   std::vector<RcsCut> solved;                         // of a target: all elements, at the places of the export
   std::vector<std::string> omitted;    // a sentence for each element that is not compared: zero or rounding in one
   std::vector<std::string> one_sided;  // the same of those that are an echo in the other: differences without a number
+  std::optional<RcsRequest> solver = {};              // settings of a solved target
+  std::optional<KnownValues> known = {};              // of a solved target that is recognised
+  std::vector<Trial> trials = {};                     // of a solved target whose agreement is poor
 };
 
 struct ComparisonSettings {
@@ -91,5 +96,10 @@ ExportComparison compare_with_target(const FieldTable& table, const RcsRequest& 
 // incident waves differ.
 ExportComparison compare_with_table(const FieldTable& table, const FieldTable& other,
                                     const ComparisonSettings& settings, int threads);
+
+// Adds a warning to exports whose monostatic hv and vh differ at equal places, in one file or in the only two of a
+// reader with one of them: reciprocity requires them equal, so that such elements are no reference. Levels more than 60
+// dB below the highest are left out; at least five pairs with a median difference above 1 dB.
+void check_reciprocity(std::vector<ExportComparison>& comparisons);
 
 }  // namespace seaglint

@@ -3,8 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "seaglint_version.h"
 #include "sim/core/numbers/constants.h"
+#include "tools/compare/comparison_text.h"
 #include "tools/page/html.h"
 
 namespace seaglint {
@@ -13,6 +16,8 @@ namespace {
 const char* name_of(const ElementStatistics& s) { return kQuantityNames[s.quantity()]; }
 
 std::string decibels(double value) { return fmt::format("{:.2f}", value); }
+
+std::string signed_decibels(double value) { return fmt::format("{:+.2f}", value); }
 
 std::string extrema_cell(const ExtremumPairs& pairs, CutAxis axis) {
   if (axis == CutAxis::kSeveral || pairs.count == 0) return "-";
@@ -33,6 +38,41 @@ std::string differences(const std::vector<ExportComparison>& comparisons) {
     }
   }
   return html_table(rows);
+}
+
+// Both against exact and closed-form values; empty without.
+std::string known_table(const std::vector<ExportComparison>& comparisons) {
+  std::vector<std::vector<std::string>> rows{{"export", "element", "places", "export bias (dB)", "export rms (dB)",
+                                              "compared bias (dB)", "compared rms (dB)", "closer"}};
+  std::vector<std::vector<std::string>> levels{
+      {"export", "element", "body", "known (dBsm)", "export (dBsm)", "compared (dBsm)", "closer"}};
+  std::string bodies;
+  for (const ExportComparison& c : comparisons) {
+    if (!c.known) continue;
+    bodies += fmt::format("<p>{}: {}, {}.</p>\n", escape_html(c.name), c.known->body, c.known->name);
+    for (const KnownStatistics& s : c.known->statistics)
+      rows.push_back({escape_html(c.name), name_of(s.element), fmt::format("{}", s.pairs),
+                      signed_decibels(s.reference_bias_db), decibels(s.reference_rms_db),
+                      signed_decibels(s.compared_bias_db), decibels(s.compared_rms_db),
+                      escape_html(closer_text(s.reference_rms_db, s.compared_rms_db, s.error_db, c.compared))});
+    for (const KnownLevel& l : c.known->levels)
+      levels.push_back({escape_html(c.name), name_of(l.element), l.body, decibels(l.known_dbsm),
+                        decibels(l.reference_dbsm), decibels(l.compared_dbsm),
+                        escape_html(closer_text(std::abs(l.reference_dbsm - l.known_dbsm),
+                                                std::abs(l.compared_dbsm - l.known_dbsm), 0, c.compared))});
+  }
+  if (bodies.empty()) return "";
+  std::string text = "<h2>Against the known value</h2>\n" + bodies;
+  if (rows.size() > 1)
+    text += "<p>Bias and root mean square of the export and of the compared values, each minus the known value.</p>\n" +
+            html_table(rows, false);
+  if (levels.size() > 1) text += "<p>Levels of each body in the range profiles.</p>\n" + html_table(levels, false);
+  return text;
+}
+
+std::string solver(const std::vector<ExportComparison>& comparisons) {
+  const std::string text = solver_text(comparisons);
+  return text.empty() ? text : fmt::format("<p>{}.</p>\n", escape_html(text));
 }
 
 std::string lobes_and_nulls(const std::vector<ExportComparison>& comparisons) {
@@ -122,7 +162,8 @@ std::string comparison_page(const std::vector<ExportComparison>& comparisons, co
       "</header>\n",
       escape_html(title), settings.floor_db,
       settings.interpolation_radius_m ? "The compared values are interpolated." : "Nothing is interpolated.");
-  body += "<h2>Differences</h2>\n" + differences(comparisons) + warnings(comparisons);
+  body += "<h2>Differences</h2>\n" + differences(comparisons) + solver(comparisons) + warnings(comparisons);
+  body += known_table(comparisons);
   if (!figures.curves.file.empty())
     body += html_figure(figures.curves.file, "Levels above, differences below; at most four cuts.", "curves of both",
                         figures.curves.plot);

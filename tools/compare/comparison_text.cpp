@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -13,6 +14,7 @@
 #include "sim/core/process/error.h"
 #include "sim/core/process/parallel.h"
 #include "sim/core/text/escape.h"
+#include "tools/rcs/like_program.h"
 
 namespace seaglint {
 namespace {
@@ -73,7 +75,8 @@ void append_decibels(std::string& text, double value) {
   (text += ',').append(digits, end);
 }
 
-std::string rows_of(const ExportComparison& comparison, const PairedCut& cut) {
+// known: a last column with the exact or closed-form levels, empty where there is none.
+std::string rows_of(const ExportComparison& comparison, const PairedCut& cut, bool known) {
   const std::string name = csv_cell(comparison.name) + ',';
   const std::string other = fmt::format(",{},{}", csv_cell(comparison.compared), kQuantityNames[cut.quantity()]);
   const PairedCut::Model& model = cut.models[0];
@@ -89,10 +92,15 @@ std::string rows_of(const ExportComparison& comparison, const PairedCut& cut) {
     if (phases) {
       const Complex a = cut.amplitude_m[i], b = model.amplitude_m[i];
       for (const double x : {a.real(), a.imag(), b.real(), b.imag()}) append_digits(text, x);
-      text += '\n';
     } else {
-      text += ",,,,\n";
+      text += ",,,,";
     }
+    if (known && cut.known && !std::isnan(cut.known->level_dbsm[i])) {
+      append_decibels(text, cut.known->level_dbsm[i]);
+    } else if (known) {
+      text += ',';
+    }
+    text += '\n';
   }
   return text;
 }
@@ -107,7 +115,69 @@ nlohmann::ordered_json interpolation_json(const ExportComparison& comparison) {
           {"largest_error", q.largest_error}};
 }
 
+nlohmann::ordered_json solver_json(const ExportComparison& comparison) {
+  if (!comparison.solver) return nullptr;
+  const RcsRequest& request = *comparison.solver;
+  nlohmann::ordered_json json;
+  json["like"] = request.like.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(request.like);
+  json["crease_deg"] =
+      request.crease_deg ? nlohmann::ordered_json(*request.crease_deg) : nlohmann::ordered_json(nullptr);
+  json["edges"] = request.edges;
+  json["max_bounces"] = request.max_bounces;
+  json["method"] = kSolverMethodNames[static_cast<int>(request.method)];
+  return json;
+}
+
+// Known values of one element.
+nlohmann::ordered_json known_json(const ExportComparison& comparison, Polarisation element) {
+  if (!comparison.known) return nullptr;
+  const KnownValues& known = *comparison.known;
+  nlohmann::ordered_json json{{"body", known.body}, {"value", known.name}};
+  for (const KnownStatistics& s : known.statistics) {
+    if (s.element != element) continue;
+    json["pairs"] = s.pairs;
+    json["export_bias_db"] = s.reference_bias_db;
+    json["export_rms_db"] = s.reference_rms_db;
+    json["compared_bias_db"] = s.compared_bias_db;
+    json["compared_rms_db"] = s.compared_rms_db;
+    json["own_error_db"] = s.error_db;
+    json["verdict"] = closer_text(s.reference_rms_db, s.compared_rms_db, s.error_db, comparison.compared);
+  }
+  json["levels"] = nlohmann::ordered_json::array();
+  for (const KnownLevel& l : known.levels) {
+    if (l.element != element) continue;
+    json["levels"].push_back({{"body", l.body},
+                              {"place", l.place},
+                              {"range_m", l.range_m},
+                              {"known_dbsm", l.known_dbsm},
+                              {"export_dbsm", l.reference_dbsm},
+                              {"compared_dbsm", l.compared_dbsm}});
+  }
+  if (!json.contains("pairs") && json["levels"].empty()) return nullptr;
+  return json;
+}
+
+nlohmann::ordered_json trials_json(const ExportComparison& comparison) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const Trial& trial : comparison.trials) {
+    json.push_back({{"option", trial.option},
+                    {"views", trial.views},
+                    {"median_before_db", trial.before_db},
+                    {"median_after_db", trial.after_db},
+                    {"helps", trial.helps}});
+  }
+  return json;
+}
+
 }  // namespace
+
+std::string solver_text(const std::vector<ExportComparison>& comparisons) {
+  const auto solved = std::ranges::find_if(comparisons, [](const auto& c) { return c.solver.has_value(); });
+  if (solved == comparisons.end()) return "";
+  std::string text = fmt::format("{} solved with {}", solved->compared, solver_text(*solved->solver));
+  if (!solved->solver->like.empty()) text += fmt::format(": {}", like_program(solved->solver->like).described);
+  return text;
+}
 
 std::string comparison_table(const std::vector<ExportComparison>& comparisons, const ComparisonSettings& settings) {
   std::size_t width = 6, other = 8, pol = 3;
@@ -129,7 +199,11 @@ std::string comparison_table(const std::vector<ExportComparison>& comparisons, c
                       s.p95_db, s.correlation ? fmt::format("{:.4f}", *s.correlation) : std::string("no phases"));
     }
   }
+  if (const std::string solver = solver_text(comparisons); !solver.empty()) text += fmt::format("{}\n", solver);
   for (const ExportComparison& c : comparisons) {
+    if (c.known) {
+      for (const std::string& line : known_lines(*c.known, c.compared)) text += fmt::format("{}: {}\n", c.name, line);
+    }
     if (c.interpolation) text += fmt::format("{}: {}\n", c.compared, text_of(*c.interpolation));
     if (c.alignment) text += fmt::format("{}: {}\n", c.name, text_of(*c.alignment, c.elements.size() > 1));
     for (const std::string& sentence : c.omitted) text += fmt::format("{}: {}\n", c.name, sentence);
@@ -172,6 +246,9 @@ nlohmann::ordered_json comparison_json(const std::vector<ExportComparison>& comp
                                   {"line", worst.place.line},
                                   {"main_contribution", worst.main}});
       }
+      entry["solver"] = solver_json(c);
+      entry["known"] = known_json(c, s.element);
+      entry["trials"] = trials_json(c);
       entry["warnings"] = c.warnings;
       entry["interpolation"] = interpolation_json(c);
       json["exports"].push_back(std::move(entry));
@@ -189,14 +266,15 @@ std::string comparison_csv(const std::vector<ExportComparison>& comparisons, int
   for (const ExportComparison& c : comparisons) {
     for (const PairedCut& cut : c.cuts) cuts.emplace_back(&c, &cut);
   }
+  const bool known = std::ranges::any_of(cuts, [](const auto& cut) { return cut.second->known.has_value(); });
   std::vector<std::string> rows(cuts.size());
-  parallel_for(cuts.size(), threads, [&](std::size_t i) { rows[i] = rows_of(*cuts[i].first, *cuts[i].second); });
+  parallel_for(cuts.size(), threads, [&](std::size_t i) { rows[i] = rows_of(*cuts[i].first, *cuts[i].second, known); });
   std::string csv = fmt::format(
       "# seaglint {} compare: compared - export, amplitudes in metres, e^{{+jwt}}, basis of CONVENTIONS.md\n"
       "export,line,compared,polarisation,frequency_hz,azimuth_deg,elevation_deg,export_dbsm,compared_dbsm,difference_"
       "db,"
-      "export_re,export_im,compared_re,compared_im\n",
-      kVersion);
+      "export_re,export_im,compared_re,compared_im{}\n",
+      kVersion, known ? ",known_dbsm" : "");
   std::size_t size = csv.size();
   for (const std::string& text : rows) size += text.size();
   csv.reserve(size);

@@ -27,15 +27,20 @@ RangeProfile range_profile(std::span<const PairedCut::Place> places, std::span<c
   const double whole = 2 * kPi / step, cell = whole / static_cast<double>(kPerCell * n);
   for (std::size_t m = 0; m <= kPerCell * n; ++m) {
     const double range = -0.5 * whole + static_cast<double>(m) * cell;
-    Complex sum = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-      const double window = 1 - std::cos(2 * kPi * (static_cast<double>(i) + 0.5) / static_cast<double>(n));
-      sum += window * amplitude_m[i] * std::polar(1.0, q[i] * range);
-    }
     profile.range_m.push_back(range);
-    profile.level_dbsm.push_back(dbsm(sum / static_cast<double>(n)));
+    profile.level_dbsm.push_back(level_at_range(places, amplitude_m, range));
   }
   return profile;
+}
+
+double level_at_range(std::span<const PairedCut::Place> places, std::span<const Complex> amplitude_m, double range_m) {
+  const double n = static_cast<double>(places.size());
+  Complex sum = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const double window = 1 - std::cos(2 * kPi * (static_cast<double>(i) + 0.5) / n);
+    sum += window * amplitude_m[i] * std::polar(1.0, places[i].path_gradient.norm() * range_m);
+  }
+  return dbsm(sum / n);
 }
 
 PlotPanels range_profile_plots(std::span<const PairedCut> cuts) {

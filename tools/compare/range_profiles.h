@@ -21,6 +21,9 @@ struct RangeProfile {
 // resolution cell. At least 8 uniform steps of frequency (within a hundredth of a step), else empty.
 RangeProfile range_profile(std::span<const PairedCut::Place> places, std::span<const Complex> amplitude_m);
 
+// The profile's level at one range (m), of any frequencies.
+double level_at_range(std::span<const PairedCut::Place> places, std::span<const Complex> amplitude_m, double range_m);
+
 // Those of export and compared values for the first four cuts over frequency that have phases; empty if none does.
 PlotPanels range_profile_plots(std::span<const PairedCut> cuts);
 

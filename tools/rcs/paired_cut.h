@@ -44,6 +44,8 @@ struct PairedCut {
   };
   std::vector<Model> models;
   std::optional<Model> flat;  // the last model with flat facets, where the sweep has it
+  // Exact or closed-form levels of a recognised body, NaN at places to which none applies; without amplitudes.
+  std::optional<Model> known = {};
 
   std::size_t quantity() const { return quantity_of(element, total); }
 };

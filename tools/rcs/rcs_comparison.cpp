@@ -175,6 +175,11 @@ PlotPanels comparison_plots(const std::vector<PairedCut>& cuts, double floor_db)
         }
         difference.series.push_back(std::move(series));
       }
+      if (!cut->known) continue;
+      Series series{cut->known->name + " - " + name, cut->x, {}, {}, SeriesStyle::kLinesPoints};
+      for (std::size_t i = 0; i < cut->x.size(); ++i)
+        series.y.push_back(cut->known->level_dbsm[i] - std::max(cut->level_dbsm[i], floor));
+      difference.series.push_back(std::move(series));
     }
     for (const PairedCut::Model& model : first.models)
       level.series.push_back({model.name, first.x, clipped(model.level_dbsm), {}, SeriesStyle::kLines});
@@ -185,6 +190,8 @@ PlotPanels comparison_plots(const std::vector<PairedCut>& cuts, double floor_db)
         band.interval.push_back({std::min(flat[i], smooth[i]), std::max(flat[i], smooth[i])});
       level.series.push_back(std::move(band));
     }
+    if (first.known)
+      level.series.push_back({first.known->name, first.x, first.known->level_dbsm, {}, SeriesStyle::kLinesPoints});
     for (std::size_t i = 0; i + 1 < column.size(); ++i) {
       const auto other = as_model(*column[i], *column[i + 1]);
       if (!other) continue;
