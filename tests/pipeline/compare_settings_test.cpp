@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <sstream>
@@ -160,6 +161,25 @@ TEST_F(CompareSettings, StatesTheExactValueOfASphere) {
       {"compare", path("other.csv"), "--target", path("sphere.obj"), "--tolerance-db", "0.5", "-o", path("compared")});
   EXPECT_EQ(failed.code, 1);
   EXPECT_THAT(failed.err, HasSubstr("from the known value (exact (Mie series)) the export differs by 1.05 dB rms"));
+}
+
+// The sign of an element means something where both agree in it: hv here has unrelated phases, vv the opposite sign.
+TEST_F(CompareSettings, NamesTheSignOfAnElementOnlyWhereBothAgree) {
+  std::string here =
+      "# transmitter=monostatic\nfrequency_hz,azimuth_deg,elevation_deg,hh_re,hh_im,hv_re,hv_im,vv_re,vv_im\n";
+  std::string other = here;
+  for (int n = 0; n <= 40; ++n) {
+    const double h = n * n, o = 7 * n * n + 3;
+    here += fmt::format("{},0,0,3,0,{},{},2,0\n", 9e9 + 1e7 * n, 1e-2 * std::cos(h), 1e-2 * std::sin(h));
+    other += fmt::format("{},0,0,3,0,{},{},-2,0\n", 9e9 + 1e7 * n, 1e-2 * (std::cos(o) - 0.3 * std::cos(h)),
+                         1e-2 * (std::sin(o) - 0.3 * std::sin(h)));
+  }
+  write_file(path("here.csv"), here);
+  write_file(path("other.csv"), other);
+  const std::string out =
+      run({"compare", path("other.csv"), "--against", path("here.csv"), "-o", path("compared")}).out;
+  EXPECT_THAT(out, HasSubstr("vv of the export has the opposite sign"));
+  EXPECT_THAT(out, Not(HasSubstr("hv of the export has the opposite sign")));
 }
 
 // hv and vh of two files that differ by 3 dB, as those of a solver with coarse rays; equal ones are not named.

@@ -199,6 +199,21 @@ void suggest_size(const PairedCut& cut, std::vector<std::string>& sentences) {
       size, best, as_is));
 }
 
+// |<conj(reference) compared>| / (|reference| |compared|) of one element; 0 without phases.
+double correlation_of(const std::vector<PairedCut>& cuts, Polarisation element) {
+  Complex product = 0;
+  double reference = 0, compared = 0;
+  for (const PairedCut& cut : cuts) {
+    if (cut.element != element || cut.models[0].amplitude_m.size() != cut.amplitude_m.size()) continue;
+    for (std::size_t i = 0; i < cut.amplitude_m.size(); ++i) {
+      product += std::conj(cut.amplitude_m[i]) * cut.models[0].amplitude_m[i];
+      reference += std::norm(cut.amplitude_m[i]);
+      compared += std::norm(cut.models[0].amplitude_m[i]);
+    }
+  }
+  return reference > 0 && compared > 0 ? std::abs(product) / std::sqrt(reference * compared) : 0;
+}
+
 void suggest_conventions(const Alignment& alignment, const std::vector<PairedCut>& cuts,
                          std::vector<std::string>& sentences) {
   constexpr double kMeaningful = 0.5;  // least correlation
@@ -209,7 +224,7 @@ void suggest_conventions(const Alignment& alignment, const std::vector<PairedCut
                     "it is {:.3f})",
                     alignment.correlation, alignment.other_correlation));
   for (std::size_t e = 0; e < alignment.sign.size(); ++e) {
-    if (alignment.sign[e] < 0)
+    if (alignment.sign[e] < 0 && correlation_of(cuts, static_cast<Polarisation>(e)) > kMeaningful)
       sentences.push_back(fmt::format("{} of the export has the opposite sign", kPolarisationNames[e]));
   }
   double shortest = 1e300;
