@@ -57,6 +57,27 @@ std::array<AngleStatistics, 3> angle_statistics(const Trajectory& trajectory, do
   return statistics;
 }
 
+std::array<double, 6> motion_rms(const Trajectory& trajectory, double duration_s) {
+  constexpr double kAtRest = 1e-9;
+  const std::vector<MotionSample> samples = uniform_samples(trajectory, duration_s);
+  const double count = static_cast<double>(samples.size());
+  std::array<double, 6> rms{};
+  for (int i = 0; i < 6; ++i) {
+    const auto value = [i](const MotionSample& s) { return i < 3 ? s.angles[i] : s.translation[i - 3]; };
+    const double first = value(samples.front());
+    double sum = 0, squares = 0, largest = 0;
+    for (const MotionSample& s : samples) {
+      const double change = value(s) - first;
+      sum += change;
+      squares += change * change;
+      largest = std::max(largest, std::abs(change));
+    }
+    const double mean = sum / count;
+    if (largest > kAtRest) rms[static_cast<std::size_t>(i)] = std::sqrt(std::max(0.0, squares / count - mean * mean));
+  }
+  return rms;
+}
+
 AngleSpectra angle_spectra(const Trajectory& trajectory, double duration_s) {
   constexpr double kWindow_s = 120, kHighest = 8;
   constexpr std::size_t kPadding = 2;

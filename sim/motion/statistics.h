@@ -25,6 +25,12 @@ struct AngleStatistics {
 // Of roll, pitch and yaw over [0, duration_s].
 std::array<AngleStatistics, 3> angle_statistics(const Trajectory& trajectory, double duration_s);
 
+inline constexpr std::array<const char*, 6> kDegreesOfFreedom{"roll", "pitch", "yaw", "surge", "sway", "heave"};
+
+// Root mean square about the mean of roll, pitch, yaw (rad), surge, sway, heave (m) over [0, duration_s]; exactly 0 in
+// a degree of freedom that stays within 1e-9 of its first value.
+std::array<double, 6> motion_rms(const Trajectory& trajectory, double duration_s);
+
 struct AngleSpectra {
   std::vector<double> omega;                   // rad/s, in steps of half the resolution of a window, up to 8
   std::array<std::vector<double>, 3> density;  // one-sided, of roll, pitch and yaw, rad^2 s/rad

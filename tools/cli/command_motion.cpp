@@ -13,12 +13,14 @@
 #include "sim/core/process/printable.h"
 #include "sim/core/process/standard_output.h"
 #include "sim/motion/ship/ship_particulars.h"
+#include "sim/motion/statistics.h"
 #include "sim/sea/realisation.h"
 #include "tools/cli/arguments.h"
 #include "tools/cli/command.h"
 #include "tools/figure/figure.h"
 #include "tools/figure/motion_figures.h"
 #include "tools/options/series_times.h"
+#include "tools/pipeline/motion_summary.h"
 #include "tools/pipeline/moving_bodies.h"
 #include "tools/pipeline/output_files.h"
 #include "tools/pipeline/warnings.h"
@@ -58,6 +60,20 @@ void write_pictures(const MotionArguments& arguments, const Scenario& scenario, 
   throw InputError("--rao: no target of the scenario has motion.model: ship");
 }
 
+// The degrees of freedom of every target's first body.
+std::vector<TargetMotion> motions_of(const Scenario& scenario, const std::vector<NamedTrajectory>& bodies,
+                                     double duration_s) {
+  std::vector<TargetMotion> motions;
+  for (const TargetSpec& target : scenario.targets) {
+    const auto first = std::ranges::find_if(bodies, [&](const NamedTrajectory& body) {
+      return body.body == target.name || body.body == target.name + "_1";
+    });
+    if (!target.mesh.empty() && first != bodies.end())
+      motions.push_back({&target, motion_rms(first->trajectory, duration_s)});
+  }
+  return motions;
+}
+
 void write_motion(const MotionArguments& arguments, const CommandContext& context) {
   for (const std::string& file : {arguments.figure, arguments.frames, arguments.rao}) require_figure(file);
   const std::vector<std::string> outputs{arguments.output, arguments.spectrum, arguments.figure, arguments.frames,
@@ -95,6 +111,7 @@ void write_motion(const MotionArguments& arguments, const CommandContext& contex
   if (!arguments.spectrum.empty()) write_file(arguments.spectrum, spectrum_csv(bodies, arguments.duration_s));
   write_file(arguments.output, text);
   print_out("{}", motion_statistics(bodies, arguments.duration_s));
+  if (arguments.duration_s >= kStatisticsStep_s) report_rest(motions_of(scenario, bodies, arguments.duration_s));
 }
 
 }  // namespace

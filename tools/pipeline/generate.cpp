@@ -14,6 +14,7 @@
 #include "sim/core/process/error.h"
 #include "sim/core/process/progress.h"
 #include "tools/pipeline/map_coverage.h"
+#include "tools/pipeline/motion_summary.h"
 #include "tools/pipeline/warnings.h"
 
 namespace seaglint {
@@ -42,6 +43,7 @@ GenerateResult generate_dataset(const Pipeline& pipeline, const std::filesystem:
   const SamplePlan& plan = pipeline.plan();
   report_motion_files(pipeline);
   report_spectrum_table(scenario);
+  if (!options.response) report_rest(target_motions(pipeline));
   warn(mesh_warnings(pipeline));
   warn(motion_warnings(pipeline));
   warn(sea_warnings(scenario, plan.sea_states()));
