@@ -13,6 +13,7 @@
 #include "sim/core/process/address_space.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/progress.h"
+#include "tools/pipeline/constant_keys.h"
 #include "tools/pipeline/map_coverage.h"
 #include "tools/pipeline/motion_summary.h"
 #include "tools/pipeline/warnings.h"
@@ -72,6 +73,8 @@ GenerateResult generate_dataset(const Pipeline& pipeline, const std::filesystem:
     for (std::size_t i = 0; i < range.count; ++i) work.push_back({shard, range.first + i});
   }
 
+  // Stored echoes vary as they did when they were made.
+  if (!work.empty() && !options.response) warn(constant_key_warnings(pipeline, {kTrialSeconds, stop}));
   Progress progress("making maps", work.size());
   std::mutex mutex;
   try {

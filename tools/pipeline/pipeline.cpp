@@ -78,9 +78,21 @@ void check_draws(const Scenario& scenario, const SamplePlan& plan) {
 Pipeline::Pipeline(Scenario scenario, SamplePlan plan)
     : scenario_(std::move(scenario)),
       plan_(std::move(plan)),
-      targets_(std::make_shared<const std::vector<Target>>(load_targets(scenario_, plan_, &loaded_))),
+      loaded_(std::make_shared<LoadedBodies>()),
+      targets_(std::make_shared<const std::vector<Target>>(load_targets(scenario_, plan_, loaded_.get()))),
       range_window_m_(range_window_m(scenario_, plan_, *targets_)) {
   check_draws(scenario_, plan_);
+}
+
+Pipeline::Pipeline(Scenario scenario, SamplePlan plan, std::shared_ptr<LoadedBodies> loaded, double range_window_m)
+    : scenario_(std::move(scenario)),
+      plan_(std::move(plan)),
+      loaded_(std::move(loaded)),
+      targets_(std::make_shared<const std::vector<Target>>(load_targets(scenario_, plan_, loaded_.get()))),
+      range_window_m_(range_window_m) {}
+
+Pipeline Pipeline::of_other(const Scenario& scenario) const {
+  return Pipeline(scenario, SamplePlan(scenario), loaded_, range_window_m_);
 }
 
 std::shared_ptr<const Scene> Pipeline::scene(int sea_state, int realisation) const {
@@ -88,7 +100,7 @@ std::shared_ptr<const Scene> Pipeline::scene(int sea_state, int realisation) con
     auto targets = targets_;
     if (!scenario_.variations.empty()) {
       const Scenario drawn = plan_.drawn(scenario_, {.sea_state = sea_state, .realisation = realisation});
-      targets = std::make_shared<const std::vector<Target>>(load_targets(drawn, plan_, &loaded_));
+      targets = std::make_shared<const std::vector<Target>>(load_targets(drawn, plan_, loaded_.get()));
     }
     Scene scene = make_scene(scenario_, plan_, *targets, sea_state, realisation);
     scene.targets = std::move(targets);

@@ -45,6 +45,9 @@ class Pipeline {
   explicit Pipeline(const Scenario& scenario) : Pipeline(scenario, SamplePlan(scenario)) {}
   Pipeline(Scenario scenario, SamplePlan plan);  // loads the meshes; throws InputError
 
+  // Pipeline of another scenario in the range window of this one, with which it shares bodies of equal fields.
+  Pipeline of_other(const Scenario& scenario) const;
+
   const Scenario& scenario() const { return scenario_; }
   const SamplePlan& plan() const { return plan_; }
   // As loaded with drawn keys at the middles of their distributions.
@@ -90,9 +93,11 @@ class Pipeline {
   Echo echo_of(std::size_t sample, const SampleAddress& at, const PulseTrain& train, const BodyResponse& response,
                const Scene& scene) const;
 
+  Pipeline(Scenario scenario, SamplePlan plan, std::shared_ptr<LoadedBodies> loaded, double range_window_m);
+
   Scenario scenario_;
   SamplePlan plan_;
-  mutable LoadedBodies loaded_;
+  std::shared_ptr<LoadedBodies> loaded_;
   std::shared_ptr<const std::vector<Target>> targets_;
   double range_window_m_ = 0;
 
