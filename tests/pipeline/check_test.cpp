@@ -43,6 +43,55 @@ TEST(Check, PrintsAScenarioThatReadsBackTheSame) {
   EXPECT_EQ(parse_scenario(result.out, kPoints).radar.pulses, 64);
 }
 
+TEST(Check, SaysHowMuchThereIsWhatVariesAndWhatMoves) {
+  const std::string said = run_program({"check", kPoints, "--set", "sea.peak_period_s=uniform(7, 9)"}).err;
+  EXPECT_THAT(said,
+              HasSubstr("\nseas                5: 5 realisations of each sea state, 2 intervals of each 10 s apart "
+                        "and view\nswept               view.azimuth_deg 30, 80\n"
+                        "drawn               sea.peak_period_s uniform(7, 9), once per sea\n"
+                        "moves               line: 8 points with velocities of their own in any sea\n"));
+  EXPECT_THAT(said, ContainsRegex("\nwork +about [0-9.]+ [a-z]+ of processor, [0-9.]+ [a-z]+ on [0-9]+ threads?, "
+                                  "[0-9.]+ [kM]B of maps\n"));
+}
+
+// Maps of ideal points at Hs 0.1 and 3 m are equal to the last bit.
+TEST(Check, NamesAKeyThatChangesNothingAsGenerateDoes) {
+  const TemporaryFolder folder;
+  const std::string said =
+      "seaglint: warning: sea.significant_wave_height_m (0.1, 3) changes nothing: maps that differ in it alone are "
+      "equal: targets.line is of points, which do not follow the sea; ";
+  const std::vector<std::string> seas{"--set", "sea.significant_wave_height_m=[0.1, 3]", "--set",
+                                      "dataset={maps_per_case: 2, realisations_per_case: 2}"};
+  for (std::vector<std::string> words :
+       {std::vector<std::string>{"check", kPoints}, {"generate", kPoints, "-o", folder.path() / "data"}}) {
+    words.insert(words.end(), seas.begin(), seas.end());
+    const ProgramResult result = run_program(words);
+    EXPECT_EQ(result.code, 0) << result.err;
+    EXPECT_THAT(result.err, HasSubstr(said)) << words[0];
+  }
+  EXPECT_THAT(run_program({"check", kPoints}).err, Not(HasSubstr("changes nothing")));
+}
+
+TEST(Check, NamesDegreesOfFreedomAtRestAsMotionAndGenerateDo) {
+  const TemporaryFolder folder;
+  write_file(folder.path() / "box.obj",
+             "v -15 -4 0\nv 15 -4 0\nv 15 4 0\nv -15 4 0\nv -15 -4 4\nv 15 -4 4\nv 15 4 4\nv -15 4 4\n"
+             "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
+  const std::string file = folder.path() / "box.yaml";
+  write_file(file,
+             "seaglint: 1\nradar: {pulses: 16}\ntargets: {box: {label: 1, mesh: box.obj, motion: {model: ship}}}\n"
+             "dataset: {maps_per_case: 1, realisations_per_case: 1}\n");
+  const std::string said = "surge, sway, heave are 0 without targets.box.motion.translations: true\n";
+  EXPECT_THAT(run_program({"check", file}).err, HasSubstr(said));
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"motion", file, "-o", folder.path() / "motion.csv"},
+        {"generate", file, "-o", folder.path() / "data"}}) {
+    EXPECT_THAT(run_program(words).err, HasSubstr("targets.box: " + said)) << words[0];
+  }
+  EXPECT_THAT(run_program({"check", file, "--set", "targets.box.motion.translations=true"}).err,
+              Not(HasSubstr(" are 0 ")));
+}
+
 // The warnings that rcs prints about a mesh are printed for a scenario too, once per target.
 TEST(Check, WarnsAboutMeshes) {
   const TemporaryFolder folder;

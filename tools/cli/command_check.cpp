@@ -16,6 +16,7 @@
 #include "tools/cli/command.h"
 #include "tools/pipeline/map_coverage.h"
 #include "tools/pipeline/pipeline.h"
+#include "tools/pipeline/scenario_summary.h"
 #include "tools/pipeline/warnings.h"
 #include "tools/report/learnable.h"
 
@@ -58,7 +59,7 @@ void add_check(CommandOptions& program, CommandContext& context) {
   add_scenario_arguments(command, *arguments);
   command.footer("Example:\n  seaglint check scenarios/quick.yaml --set sea.peak_period_s=9");
   command.callback([arguments, &context] {
-    context.work = [arguments] {
+    context.work = [arguments, &context] {
       const Scenario scenario = arguments->read();
       const Pipeline pipeline(scenario);  // reads every file that the scenario names
       check_division(scenario, pipeline.plan());
@@ -67,12 +68,17 @@ void add_check(CommandOptions& program, CommandContext& context) {
       std::fflush(stdout);
       print_error(summary(scenario, pipeline.plan()) + shared_classes(scenario, pipeline.plan()) +
                   figures_of_merit_text(train, scenario.radar));
+      const TrialLimit limit{kTrialSeconds, &context.stop};
+      const WorkEstimate work = estimate_work(pipeline, limit);
+      print_error(scenario_summary(pipeline, work, thread_count(0)));
       report_motion_files(pipeline);
       report_spectrum_table(scenario);
       warn(mesh_warnings(pipeline));
       warn(motion_warnings(pipeline));
       warn(sea_warnings(scenario, pipeline.plan().sea_states()));
       warn(map_coverage_warnings(pipeline));
+      warn(constant_key_warnings(pipeline, limit));
+      if (!work.failure.empty()) warn(std::vector{work.failure});
     };
   });
 }
