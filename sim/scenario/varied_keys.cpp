@@ -78,7 +78,7 @@ std::string number_text(double value) { return fmt::format("{}", value); }
 }  // namespace
 
 std::string VariedKey::text() const {
-  if (drawn != nullptr) return fmt::format("{}, once per {}", shown(drawn->text()), name_of(drawn->per));
+  if (drawn != nullptr) return fmt::format("{}, once per {}", shown(drawn->text()), name(drawn->per));
   if (sweep.size() <= kMaxListed) return fmt::format("{}", fmt::join(sweep, ", "));
   const auto [low, high] = std::ranges::minmax(sweep);
   return fmt::format("{} to {} in {} values", low, high, sweep.size());
@@ -106,15 +106,6 @@ std::vector<VariedKey> varied_keys(const Scenario& scenario) {
   for (auto& [path, values] : sweeps.found) keys.push_back({path, std::move(values), nullptr});
   for (const Variation& variation : scenario.variations) keys.push_back({variation.key_path, {}, &variation});
   return keys;
-}
-
-const char* name_of(DrawnPer per) {
-  switch (per) {
-    case DrawnPer::kSea: return "sea";
-    case DrawnPer::kObservation: return "observation";
-    case DrawnPer::kMap: break;
-  }
-  return "map";
 }
 
 }  // namespace seaglint

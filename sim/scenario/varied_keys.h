@@ -26,7 +26,4 @@ struct VariedKey {
 // First the swept keys in the order of the fields, then the drawn ones by their paths.
 std::vector<VariedKey> varied_keys(const Scenario& scenario);
 
-// "sea", "observation" or "map".
-const char* name_of(DrawnPer per);
-
 }  // namespace seaglint
