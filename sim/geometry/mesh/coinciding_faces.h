@@ -38,7 +38,7 @@ enum class Coincidence : std::uint8_t {
 
 struct CoincidenceSettings {
   std::span<const char> left_out;  // by triangle: 1 where it counts as removed; empty: none
-  std::function<Coincidence(std::uint32_t, std::uint32_t)> kind;
+  std::function<Coincidence(std::uint32_t, std::uint32_t)> kind;  // of every pair that overlaps
   bool quads = false;  // quads with the same corners only, which are the clearest case; else overlaps of any triangles
 };
 

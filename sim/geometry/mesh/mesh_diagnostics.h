@@ -22,9 +22,9 @@ struct MeshDiagnostics {
   std::size_t two_sided = 0;           // further copies with opposite orientation: backs of sheets without thickness
   std::size_t covered = 0;             // backs of sheets that are cut otherwise than the fronts
   double covered_m2 = 0;               // their area
-  std::size_t partly = 0, unlike = 0;  // of CoincidingFaces
+  std::size_t partly = 0, unlike = 0;  // that overlap others in part; of another material, in open surfaces
   double partly_m2 = 0, unlike_m2 = 0;
-  bool is_crowded = false;
+  bool is_crowded = false;             // CoincidingFaces::is_crowded
   std::size_t kept_backs = 0;          // backs of another material that are kept
   std::size_t dropped_backs = 0;       // backs of another material that are removed, because their surface is open
   std::string lost_part, lost_behind;  // part of the first removed back, and of its front
