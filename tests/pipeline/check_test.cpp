@@ -105,8 +105,8 @@ TEST(Check, WarnsAboutMeshes) {
   write_file(
       file,
       "seaglint: 1\nview: {azimuth_deg: 10}\nsea: {significant_wave_height_m: 1}\n"
-      "targets:\n  a: {label: 1, mesh: inside_out.obj, motion: {model: fixed}, companions: [{target: b, x_m: 10}]}\n"
-      "  b: {label: 0, mesh: holed.obj, motion: {model: fixed}}\n");
+      "targets:\n  a: {label: 1, mesh: inside_out.obj, offset_m: [0, 0, 0.6], companions: [{target: b, x_m: 10}]}\n"
+      "  b: {label: 0, mesh: holed.obj, offset_m: [0, 0, 0.1]}\n");
   const std::string said =
       "seaglint: warning: targets.a.mesh: 1 closed surface is inside out (60 triangles): turned outwards\n"
       "seaglint: warning: targets.b.mesh: 3 open edges; 1 of 1 surfaces are open: holes, or sheets, seen from both "
