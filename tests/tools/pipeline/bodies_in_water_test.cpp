@@ -33,7 +33,7 @@ constexpr double kRounding_db = -120;
 // radius: a square of 0.4 mm in 40 m^2, at -80 dB of the area, of which the echo has the difference of two sizes.
 constexpr double kPatches_db = -90;
 
-class Waterline : public testing::Test {
+class BodiesInWater : public testing::Test {
  protected:
   // A hull of 10 x 4 m with sloping sides, and a house, from z = -1 to 3 m; and as it is drawn to z = `waterline`.
   void write_hulls(double waterline) {
@@ -95,7 +95,7 @@ class Waterline : public testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(Waterline, OfAWholeHullHasTheEchoOfTheHullDrawnToItByBothMethods) {
+TEST_F(BodiesInWater, OfAWholeHullHasTheEchoOfTheHullDrawnToItByBothMethods) {
   write_hulls(0);
   for (const std::string method : {"beams", "rays"}) {
     const double error_db = difference_db("motion: {model: fixed}, solver: {method: " + method +
@@ -106,7 +106,7 @@ TEST_F(Waterline, OfAWholeHullHasTheEchoOfTheHullDrawnToItByBothMethods) {
 }
 
 // Where the sea reflects, the submerged part remains as an occluder without an echo.
-TEST_F(Waterline, HoldsWhereTheSeaReflectsToo) {
+TEST_F(BodiesInWater, HoldsWhereTheSeaReflectsToo) {
   write_hulls(0);
   for (const char* paths : {"all", "direct_only", "multipath_only"}) {
     const double error_db =
@@ -115,7 +115,7 @@ TEST_F(Waterline, HoldsWhereTheSeaReflectsToo) {
   }
 }
 
-TEST_F(Waterline, GrowsWithTheMeshAndFollowsTheHeightOfEveryBody) {
+TEST_F(BodiesInWater, GrowsWithTheMeshAndFollowsTheHeightOfEveryBody) {
   write_hulls(0);
   EXPECT_LT(difference_db("scale: 1.7, motion: {model: fixed}"), kRounding_db);
   write_hulls(-0.75);  // 0.75 m above the water
@@ -130,7 +130,7 @@ TEST_F(Waterline, GrowsWithTheMeshAndFollowsTheHeightOfEveryBody) {
 }
 
 // Bodies of one layout in the water at different heights: the sum of two targets with one body each.
-TEST_F(Waterline, IsThatOfEachBodyOfALayout) {
+TEST_F(BodiesInWater, IsThatOfEachBodyOfALayout) {
   write_hulls(0);
   const Pipeline pipeline(scene_of(
       target("a", "whole.obj", "layout: {line: {count: 6, spacing_m: 20}, heights: {lowest_m: -0.9, highest_m: 2}}")));
@@ -149,7 +149,7 @@ TEST_F(Waterline, IsThatOfEachBodyOfALayout) {
   EXPECT_LE(prepared.size(), 6u);
 }
 
-TEST_F(Waterline, CutsCompanionsAndParts) {
+TEST_F(BodiesInWater, CutsCompanionsAndParts) {
   write_hulls(0);
   const auto scene = [&](const char* mesh) {
     return scene_of(
@@ -163,7 +163,7 @@ TEST_F(Waterline, CutsCompanionsAndParts) {
   EXPECT_THAT(mesh_warnings(cut), IsEmpty());
 }
 
-TEST_F(Waterline, FollowsADrawnScale) {
+TEST_F(BodiesInWater, FollowsADrawnScale) {
   write_hulls(0);
   const Pipeline pipeline(scene_of(target("a", "whole.obj", "scale: uniform(0.5 2)") +
                                    target("b", "cut.obj", "scale: same(targets.a.scale)")));
@@ -178,7 +178,7 @@ TEST_F(Waterline, FollowsADrawnScale) {
 }
 
 // The strip theory has the sections of the whole hull, not those of the cut one.
-TEST_F(Waterline, LeavesTheMotionOfTheWholeHull) {
+TEST_F(BodiesInWater, LeavesTheMotionOfTheWholeHull) {
   write_hulls(0);
   const Pipeline pipeline(scene_of(target("a", "whole.obj", "motion: {model: ship}")));
   const auto& ship = std::get<ShipParticulars>(pipeline.targets()[0].models[0]->motion->model);
@@ -187,7 +187,7 @@ TEST_F(Waterline, LeavesTheMotionOfTheWholeHull) {
   EXPECT_NEAR(bounds(pipeline.targets()[0].models[0]->prepared->mesh).lower.z(), 0, 0);
 }
 
-TEST_F(Waterline, IsReportedWithAreaAndDepthOfTheTarget) {
+TEST_F(BodiesInWater, IsReportedWithAreaAndDepthOfTheTarget) {
   write_hulls(0);
   EXPECT_THAT(mesh_warnings(Pipeline(scene_of(target("a", "whole.obj", "motion: {model: fixed}")))),
               ElementsAre(HasSubstr("targets.a.mesh: ")));
@@ -197,7 +197,7 @@ TEST_F(Waterline, IsReportedWithAreaAndDepthOfTheTarget) {
   EXPECT_THAT(mesh_warnings(Pipeline(scene_of(target("a", "cut.obj", "motion: {model: fixed}")))), IsEmpty());
 }
 
-TEST_F(Waterline, NamesBodiesThatHover) {
+TEST_F(BodiesInWater, NamesBodiesThatHover) {
   write_hulls(0);
   const auto warnings = [&](const std::string& more) {
     return mesh_warnings(Pipeline(scene_of(target("a", "cut.obj", more))));
@@ -216,7 +216,7 @@ TEST_F(Waterline, NamesBodiesThatHover) {
   EXPECT_THAT(mesh_warnings(Pipeline(scene_of(target("a", "reflector.glb", "motion: {model: float}")))), IsEmpty());
 }
 
-TEST_F(Waterline, RefusesBodiesThatAreUnderIt) {
+TEST_F(BodiesInWater, RefusesBodiesThatAreUnderIt) {
   write_hulls(0);
   const auto complaint = [&](const std::string& more) {
     try {
@@ -241,7 +241,7 @@ TEST_F(Waterline, RefusesBodiesThatAreUnderIt) {
 }
 
 // The law of orientation and offset_m.
-TEST_F(Waterline, OfATurnedMeshOfAnotherOriginIsThatOfTheMeshInTheBodyFrame) {
+TEST_F(BodiesInWater, OfATurnedMeshOfAnotherOriginIsThatOfTheMeshInTheBodyFrame) {
   write_hulls(0);
   const TriangleMesh whole = read_mesh(folder_.path() / "whole.obj");
   for (const auto& [forward, up] : {std::pair{"+y", "+z"}, {"-x", "+z"}, {"+z", "+y"}, {"-y", "-x"}, {"+x", "-z"}}) {
@@ -264,7 +264,7 @@ TEST_F(Waterline, OfATurnedMeshOfAnotherOriginIsThatOfTheMeshInTheBodyFrame) {
   }
 }
 
-TEST_F(Waterline, OfAShipWithOtherAxesIsAFindingThatNamesTheKey) {
+TEST_F(BodiesInWater, OfAShipWithOtherAxesIsAFindingThatNamesTheKey) {
   const std::string hulls = SEAGLINT_SOURCE_DIR "/tests/cases/hulls/";
   const auto findings = [&](const std::string& mesh, const std::string& more) {
     return motion_warnings(Pipeline(scene_of(target("a", mesh, more))));
@@ -292,7 +292,7 @@ TEST_F(Waterline, OfAShipWithOtherAxesIsAFindingThatNamesTheKey) {
 }
 
 // Both hulls in the same waves: equal angles.
-TEST_F(Waterline, OfAShipWithItsBowAlongYMovesAsAlongX) {
+TEST_F(BodiesInWater, OfAShipWithItsBowAlongYMovesAsAlongX) {
   const std::string hulls = SEAGLINT_SOURCE_DIR "/tests/cases/hulls/";
   const Pipeline pipeline(
       scene_of(target("a", hulls + "06_bow_along_y.obj", "orientation: {forward: +y}, motion: {model: ship}") +
@@ -304,7 +304,7 @@ TEST_F(Waterline, OfAShipWithItsBowAlongYMovesAsAlongX) {
   }
 }
 
-TEST_F(Waterline, OfAHullThatNoStripTheoryCarriesIsRefusedWithItsSizes) {
+TEST_F(BodiesInWater, OfAHullThatNoStripTheoryCarriesIsRefusedWithItsSizes) {
   write_hulls(0);
   try {
     Pipeline pipeline(scene_of(target("a", "whole.obj", "motion: {model: ship, roll_period_s: 0.2}")));
