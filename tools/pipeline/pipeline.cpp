@@ -76,7 +76,7 @@ void check_draws(const Scenario& scenario, const SamplePlan& plan) {
 }  // namespace
 
 Pipeline::Pipeline(Scenario scenario, SamplePlan plan)
-    : scenario_(std::move(scenario)),
+    : scenario_(with_files(std::move(scenario))),
       plan_(std::move(plan)),
       loaded_(std::make_shared<LoadedBodies>()),
       targets_(std::make_shared<const std::vector<Target>>(load_targets(scenario_, plan_, loaded_.get()))),
