@@ -119,10 +119,10 @@ ComparisonFigures draw(const std::vector<ExportComparison>& comparisons, const C
 
 // "; from the known value (exact (Mie series)) the export differs by 1.06 dB rms, seaglint by 0.03 dB", empty where
 // nothing is known.
-std::string known_too(const ExportComparison& comparison, Polarisation element) {
+std::string known_too(const ExportComparison& comparison, std::size_t quantity) {
   if (!comparison.known) return "";
   for (const KnownStatistics& s : comparison.known->statistics) {
-    if (s.element == element)
+    if (s.quantity == quantity)
       return fmt::format("; from the known value ({}) the export differs by {:.2f} dB rms, {} by {:.2f} dB",
                          comparison.known->name, s.reference_rms_db, comparison.compared, s.compared_rms_db);
   }
@@ -142,7 +142,7 @@ std::vector<std::string> failures(const std::vector<ExportComparison>& compariso
       if (arguments.tolerance_db && s.mean_abs_db > *arguments.tolerance_db)
         sentences.push_back(fmt::format("{} {}: mean difference {:.3f} dB is over --tolerance-db {:g}{}",
                                         comparison.name, element, s.mean_abs_db, *arguments.tolerance_db,
-                                        known_too(comparison, s.element)));
+                                        known_too(comparison, s.quantity())));
       if (arguments.min_correlation && s.correlation.value_or(0) < *arguments.min_correlation)
         sentences.push_back(fmt::format("{} {}: correlation {:.4f} is under --min-correlation {:g}", comparison.name,
                                         element, s.correlation.value_or(0), *arguments.min_correlation));

@@ -51,12 +51,12 @@ std::string known_table(const std::vector<ExportComparison>& comparisons) {
     if (!c.known) continue;
     bodies += fmt::format("<p>{}: {}, {}.</p>\n", escape_html(c.name), c.known->body, c.known->name);
     for (const KnownStatistics& s : c.known->statistics)
-      rows.push_back({escape_html(c.name), name_of(s.element), fmt::format("{}", s.pairs),
+      rows.push_back({escape_html(c.name), kQuantityNames[s.quantity], fmt::format("{}", s.pairs),
                       signed_decibels(s.reference_bias_db), decibels(s.reference_rms_db),
                       signed_decibels(s.compared_bias_db), decibels(s.compared_rms_db),
                       escape_html(closer_text(s.reference_rms_db, s.compared_rms_db, s.error_db, c.compared))});
     for (const KnownLevel& l : c.known->levels)
-      levels.push_back({escape_html(c.name), name_of(l.element), l.body, decibels(l.known_dbsm),
+      levels.push_back({escape_html(c.name), kQuantityNames[l.quantity], l.body, decibels(l.known_dbsm),
                         decibels(l.reference_dbsm), decibels(l.compared_dbsm),
                         escape_html(closer_text(std::abs(l.reference_dbsm - l.known_dbsm),
                                                 std::abs(l.compared_dbsm - l.known_dbsm), 0, c.compared))});

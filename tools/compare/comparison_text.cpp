@@ -128,13 +128,13 @@ nlohmann::ordered_json solver_json(const ExportComparison& comparison) {
   return json;
 }
 
-// Known values of one element.
-nlohmann::ordered_json known_json(const ExportComparison& comparison, Polarisation element) {
+// Known values of one quantity.
+nlohmann::ordered_json known_json(const ExportComparison& comparison, std::size_t quantity) {
   if (!comparison.known) return nullptr;
   const KnownValues& known = *comparison.known;
   nlohmann::ordered_json json{{"body", known.body}, {"value", known.name}};
   for (const KnownStatistics& s : known.statistics) {
-    if (s.element != element) continue;
+    if (s.quantity != quantity) continue;
     json["pairs"] = s.pairs;
     json["export_bias_db"] = s.reference_bias_db;
     json["export_rms_db"] = s.reference_rms_db;
@@ -145,7 +145,7 @@ nlohmann::ordered_json known_json(const ExportComparison& comparison, Polarisati
   }
   json["levels"] = nlohmann::ordered_json::array();
   for (const KnownLevel& l : known.levels) {
-    if (l.element != element) continue;
+    if (l.quantity != quantity) continue;
     json["levels"].push_back({{"body", l.body},
                               {"place", l.place},
                               {"range_m", l.range_m},
@@ -247,7 +247,7 @@ nlohmann::ordered_json comparison_json(const std::vector<ExportComparison>& comp
                                   {"main_contribution", worst.main}});
       }
       entry["solver"] = solver_json(c);
-      entry["known"] = known_json(c, s.element);
+      entry["known"] = known_json(c, s.quantity());
       entry["trials"] = trials_json(c);
       entry["warnings"] = c.warnings;
       entry["interpolation"] = interpolation_json(c);

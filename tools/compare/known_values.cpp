@@ -50,6 +50,16 @@ std::string name_of(const CanonicalBody& body) {
   return body.shape == CanonicalShape::kSphere ? "exact (Mie series)" : "closed form";
 }
 
+// Level of an element of a scattering matrix, or of the sum over both received polarisations.
+template <class Matrix>
+double level_dbsm(const Matrix& matrix_m, const PairedCut& cut) {
+  if (!cut.total) return dbsm(matrix_m[static_cast<std::size_t>(cut.element)]);
+  double power = 0;
+  for (const bool v : {false, true})
+    power += std::norm(matrix_m[static_cast<std::size_t>(element_of(v, transmits_v(cut.element)))]);
+  return dbsm(Complex(std::sqrt(power)));
+}
+
 // Known levels of all cuts; the largest error of them, dB.
 double set_known_levels(std::vector<PairedCut>& cuts, const CanonicalBody& body) {
   Solutions solutions(body);
@@ -62,17 +72,17 @@ double set_known_levels(std::vector<PairedCut>& cuts, const CanonicalBody& body)
         cut.known->level_dbsm.push_back(std::numeric_limits<double>::quiet_NaN());
         continue;
       }
-      cut.known->level_dbsm.push_back(dbsm(echo->matrix_m[static_cast<std::size_t>(cut.element)]));
+      cut.known->level_dbsm.push_back(level_dbsm(echo->matrix_m, cut));
       error = std::max(error, echo->relative_error);
     }
   }
   return 20 * std::log10(1 + error);
 }
 
-double highest_known(const std::vector<PairedCut>& cuts, std::optional<Polarisation> element = std::nullopt) {
+double highest_known(const std::vector<PairedCut>& cuts, std::optional<std::size_t> quantity = std::nullopt) {
   double highest = -1e300;
   for (const PairedCut& cut : cuts) {
-    if (!cut.known || (element && cut.element != *element)) continue;
+    if (!cut.known || (quantity && cut.quantity() != *quantity)) continue;
     for (const double level : cut.known->level_dbsm) {
       if (!std::isnan(level)) highest = std::max(highest, level);
     }
@@ -80,11 +90,11 @@ double highest_known(const std::vector<PairedCut>& cuts, std::optional<Polarisat
   return highest;
 }
 
-KnownStatistics statistics_of(const std::vector<PairedCut>& cuts, Polarisation element, double floor) {
+KnownStatistics statistics_of(const std::vector<PairedCut>& cuts, std::size_t quantity, double floor) {
   KnownStatistics sums;
-  sums.element = element;
+  sums.quantity = quantity;
   for (const PairedCut& cut : cuts) {
-    for (std::size_t i = 0; cut.element == element && i < cut.places.size(); ++i) {
+    for (std::size_t i = 0; cut.quantity() == quantity && i < cut.places.size(); ++i) {
       if (std::isnan(cut.known->level_dbsm[i])) continue;
       const double known = std::max(cut.known->level_dbsm[i], floor);
       const double reference = std::max(cut.level_dbsm[i], floor) - known,
@@ -108,14 +118,14 @@ KnownValues of_one(std::vector<PairedCut>& cuts, const CanonicalBody& body, doub
   constexpr double kNothing_db = 60;
   KnownValues known{text_of(body), name_of(body), {}, {}};
   const double error_db = set_known_levels(cuts, body), highest = highest_known(cuts);
-  for (const Polarisation element : {Polarisation::kHh, Polarisation::kHv, Polarisation::kVh, Polarisation::kVv}) {
-    if (highest_known(cuts, element) < highest - kNothing_db) continue;
-    KnownStatistics statistics = statistics_of(cuts, element, highest - floor_db);
+  for (std::size_t quantity = 0; quantity < kQuantities; ++quantity) {
+    if (highest_known(cuts, quantity) < highest - kNothing_db) continue;
+    KnownStatistics statistics = statistics_of(cuts, quantity, highest - floor_db);
     statistics.error_db = error_db;
     if (statistics.pairs > 0) known.statistics.push_back(statistics);
   }
   for (PairedCut& cut : cuts) {
-    if (highest_known(cuts, cut.element) < highest - kNothing_db ||
+    if (highest_known(cuts, cut.quantity()) < highest - kNothing_db ||
         std::ranges::all_of(cut.known->level_dbsm, [](double level) { return std::isnan(level); }))
       cut.known.reset();
   }
@@ -168,7 +178,7 @@ void add_levels(const PairedCut& cut, std::span<const CanonicalBody> bodies, Kno
     known.levels.push_back(
         {fmt::format("{} at {:g}, {:g}, {:g} m", text_of(*sphere.body), to_millimetres(sphere.body->centre_m.x()),
                      to_millimetres(sphere.body->centre_m.y()), to_millimetres(sphere.body->centre_m.z())),
-         cut.place, cut.element, sphere.range_m, level(exact), level(cut.amplitude_m),
+         cut.place, cut.quantity(), sphere.range_m, level(exact), level(cut.amplitude_m),
          level(cut.models[0].amplitude_m)});
   }
 }
@@ -206,8 +216,8 @@ std::vector<std::string> known_lines(const KnownValues& known, const std::string
   for (const KnownStatistics& s : known.statistics) {
     lines.push_back(
         fmt::format("{}: {} of a {}, {} places: export bias {:+.2f}, rms {:.2f} dB; {} bias {:+.2f}, rms {:.2f} dB: {}",
-                    kPolarisationNames[static_cast<int>(s.element)], known.name, known.body, s.pairs,
-                    s.reference_bias_db, s.reference_rms_db, compared, s.compared_bias_db, s.compared_rms_db,
+                    kQuantityNames[s.quantity], known.name, known.body, s.pairs, s.reference_bias_db,
+                    s.reference_rms_db, compared, s.compared_bias_db, s.compared_rms_db,
                     closer_text(s.reference_rms_db, s.compared_rms_db, s.error_db, compared)));
   }
   constexpr std::size_t kMostLines = 12;
@@ -215,8 +225,8 @@ std::vector<std::string> known_lines(const KnownValues& known, const std::string
     const KnownLevel& l = known.levels[i];
     lines.push_back(fmt::format(
         "{}: {} of a {} in its range profile ({}): {:.2f} dBsm, export {:.2f}, {} {:.2f}: {}",
-        kPolarisationNames[static_cast<int>(l.element)], known.name, l.body, l.place, l.known_dbsm, l.reference_dbsm,
-        compared, l.compared_dbsm,
+        kQuantityNames[l.quantity], known.name, l.body, l.place, l.known_dbsm, l.reference_dbsm, compared,
+        l.compared_dbsm,
         closer_text(std::abs(l.reference_dbsm - l.known_dbsm), std::abs(l.compared_dbsm - l.known_dbsm), 0, compared)));
   }
   if (known.levels.size() > kMostLines)

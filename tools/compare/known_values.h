@@ -15,7 +15,7 @@ namespace seaglint {
 
 // Differences of both from the known levels of one element, dB.
 struct KnownStatistics {
-  Polarisation element = Polarisation::kHh;
+  std::size_t quantity = 0;  // quantity_of()
   std::size_t pairs = 0;
   double reference_bias_db = 0, reference_rms_db = 0;  // export - known
   double compared_bias_db = 0, compared_rms_db = 0;    // compared - known
@@ -25,7 +25,7 @@ struct KnownStatistics {
 // Levels at the specular point of one of several spheres, dBsm: sums over frequency as in range_profile().
 struct KnownLevel {
   std::string body, place;
-  Polarisation element = Polarisation::kHh;
+  std::size_t quantity = 0;
   double range_m = 0;  // positive = farther
   double known_dbsm = 0, reference_dbsm = 0, compared_dbsm = 0;
 };
@@ -38,7 +38,7 @@ struct KnownValues {
 };
 
 // One body: differences at all places where its form applies, levels below floor_db under the highest known level are
-// clipped; elements whose known levels are all 60 dB below the highest are left out. `known` of each cut is set.
+// clipped; quantities whose known levels are all 60 dB below the highest are left out. `known` of each cut is set.
 // Several spheres: their levels over frequency where they lie more than four resolution cells apart in range and none
 // shadows another; of each cut with at least eight uniform frequencies and phases. Absent if nothing applies.
 std::optional<KnownValues> known_values(std::vector<PairedCut>& cuts, std::span<const CanonicalBody> bodies,

@@ -65,8 +65,8 @@ FieldTable few_views(const FieldTable& table) {
   return few;
 }
 
-// compared - export by element, frequency and path gradient, of levels that are not weak.
-using PlaceKey = std::tuple<Polarisation, double, double, double, double>;
+// compared - export by quantity, frequency and path gradient, of levels that are not weak.
+using PlaceKey = std::tuple<std::size_t, double, double, double, double>;
 
 std::map<PlaceKey, double> differences_of(const std::vector<PairedCut>& cuts) {
   double highest = -1e300;
@@ -78,7 +78,7 @@ std::map<PlaceKey, double> differences_of(const std::vector<PairedCut>& cuts) {
     for (std::size_t i = 0; i < cut.places.size(); ++i) {
       if (cut.level_dbsm[i] < highest - kDynamic_db || cut.models[0].level_dbsm[i] < highest - kRounding_db) continue;
       const PairedCut::Place& p = cut.places[i];
-      differences[{cut.element, p.frequency_hz, p.path_gradient.x(), p.path_gradient.y(), p.path_gradient.z()}] =
+      differences[{cut.quantity(), p.frequency_hz, p.path_gradient.x(), p.path_gradient.y(), p.path_gradient.z()}] =
           cut.models[0].level_dbsm[i] - cut.level_dbsm[i];
     }
   }

@@ -144,9 +144,10 @@ double stored_bytes(const Pipeline& pipeline) {
   const auto pulses = static_cast<double>(train.pulses()), frequencies = static_cast<double>(train.frequencies());
   double each = cells * sizeof(float) * (set.complex_maps ? 3 : 1);
   if (set.echoes) each += pulses * frequencies * 2 * sizeof(double);
-  each += pulses * sizeof(std::uint16_t) + scenario.features.max_centres * sizeof(StoredCentre);
+  each += pulses * sizeof(std::uint16_t) + static_cast<double>(scenario.features.max_centres) * sizeof(StoredCentre);
   for (const SampleColumn& column : sample_columns())
-    each += std::holds_alternative<std::string SampleRecord::*>(column.member) ? kNameBytes : sizeof(double);
+    each += static_cast<double>(std::holds_alternative<std::string SampleRecord::*>(column.member) ? kNameBytes
+                                                                                                   : sizeof(double));
   const DrawnKeys drawn = drawn_keys(scenario);
   each += static_cast<double>(drawn.numbers.size() * sizeof(double) + drawn.words.size() * kNameBytes);
   const SamplePlan& plan = pipeline.plan();

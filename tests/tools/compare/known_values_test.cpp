@@ -66,6 +66,16 @@ TEST(KnownValues, StatesBothBiasesOfASphere) {
   EXPECT_THAT(known_lines(*known, "seaglint")[0], HasSubstr(": seaglint is closer"));
 }
 
+TEST(KnownValues, OfATotalIsTheSumOverBothReceivedPolarisations) {
+  std::vector<PairedCut> cuts{flat_cut(Polarisation::kVv, -6.54, -5.51), flat_cut(Polarisation::kVv, -6.54, -5.51)};
+  cuts[1].total = true;
+  const auto known = known_values(cuts, std::vector{sphere(0.3, Vec3::Zero())}, 80);
+  ASSERT_TRUE(known);
+  ASSERT_EQ(known->statistics.size(), 2u);
+  EXPECT_EQ(known->statistics[1].quantity, quantity_of(Polarisation::kVv, true));
+  EXPECT_NEAR(cuts[1].known->level_dbsm[0], cuts[0].known->level_dbsm[0], 1e-9);  // no cross-polar echo
+}
+
 TEST(KnownValues, OfAPlateAreThoseOfItsMainLobe) {
   CanonicalBody plate{CanonicalShape::kPlate, Vec3::Zero(), 0.3, 0.2, Mat3::Identity()};
   plate.axes << 0, 0, 1, 1, 0, 0, 0, 1, 0;  // sides along y and z, normal along x
