@@ -409,9 +409,9 @@ double product_of_lengths(std::initializer_list<const Sweep*> sweeps) {
 }
 
 double sea_count(const SeaSpec& sea) {
-  return product_of_lengths(
-      {&sea.significant_wave_height_m, &sea.peak_period_s, &sea.energy_period_s, &sea.zero_crossing_period_s,
-       &sea.steepness, &sea.gamma, &sea.propagation_deg, &sea.coming_from_deg});
+  return product_of_lengths({&sea.significant_wave_height_m, &sea.peak_period_s, &sea.energy_period_s,
+                             &sea.zero_crossing_period_s, &sea.steepness, &sea.gamma, &sea.propagation_deg,
+                             &sea.coming_from_deg});
 }
 
 double case_count(const Scenario& scenario) {
@@ -464,6 +464,8 @@ void check_contradictions(const Scenario& scenario, const ScenarioDocument& docu
   }
   errors.check({"sea.propagation_deg"},
                [&] { check_directions("sea.propagation_deg", scenario.sea.propagation_deg, document); });
+  errors.check({"sea.coming_from_deg"},
+               [&] { check_directions("sea.coming_from_deg", scenario.sea.coming_from_deg, document); });
   errors.check({"sea_reflection", "view.elevation_deg", "radar"}, [&] { check_sea_reflection(scenario, document); });
   for (const TargetSpec& target : scenario.targets) {
     const std::string path = "targets." + target.name;

@@ -382,7 +382,7 @@ TEST_F(CompareCommand, ComparesATotalWithTheSumOfBothElements) {
 // A folder is all its exports, whose JSON names the geometry: neither a target nor a list of files is needed.
 TEST_F(CompareCommand, TakesAFolderAndTheGeometryThatItsExportsName) {
   std::filesystem::create_directories(path("exports/geometry"));
-  const std::string dihedral = read_file(kExports + "dihedral.obj");
+  const std::string dihedral = read_file(std::string(SEAGLINT_SOURCE_DIR "/") + kExports + "dihedral.obj");
   const std::size_t faces = dihedral.find("f 1");
   write_file(path("exports/geometry/left.obj"), dihedral.substr(0, faces) + "f 1 2 3 4\n");
   write_file(path("exports/geometry/right.obj"), dihedral.substr(0, faces) + "f 5 1 4 6\n");

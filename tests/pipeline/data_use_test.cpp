@@ -154,8 +154,8 @@ TEST_F(DataSetUse, IsNotExportedUnderTheNameOfAnotherFormat) {
     EXPECT_THAT(result.err, AllOf(HasSubstr(std::string(name) + ": "), HasSubstr("is no format of --as: npz writes"),
                                   HasSubstr("webdataset")));
     EXPECT_FALSE(fs::exists(out)) << name;
-    if (name != std::string("set.tar"))
-      EXPECT_EQ(run_program({"export", data_, "-o", out, "--as", "webdataset"}).code, 2) << name;
+    if (name == std::string("set.tar")) continue;
+    EXPECT_EQ(run_program({"export", data_, "-o", out, "--as", "webdataset"}).code, 2) << name;
   }
   EXPECT_EQ(run_program({"export", data_, "-o", folder_->path() / "set.v2"}).code, 0);
 }

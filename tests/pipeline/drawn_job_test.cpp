@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -94,6 +95,9 @@ const std::vector<DrawnKey>& drawn_job_keys() {
   const Override of_sea{"clutter.level", "nrl"}, budget{"radar.link_budget", "{}"}, range{"radar.range_km", "10"};
   const Override companion{"targets.corner.companions", "[{target: dots, x_m: 3, y_m: 1}]"};
   const Override bretschneider{"sea.spectrum", "bretschneider"};
+  const Override series{"targets.hull.motion", "{model: series, file: series.csv}"};
+  const Override series_with_translations{"targets.hull.motion",
+                                          "{model: series, file: series.csv, translations: true}"};
   static const std::vector<DrawnKey> keys{
       {"view.azimuth_deg", "uniform(10, 170)"},
       {"view.elevation_deg", "uniform(2, 6)"},
@@ -105,14 +109,21 @@ const std::vector<DrawnKey>& drawn_job_keys() {
       {"sea.peak_period_s", "uniform(7, 10)"},
       {"sea.wind.speed_mps", "uniform(5, 9)", "", {wind}},
       {"sea.wind.fetch_km", "uniform(50, 200)", "", {wind}},
+      {"sea.steepness", "uniform(0.01, 0.04)"},
+      {"sea.energy_period_s", "uniform(7, 9)"},
+      {"sea.zero_crossing_period_s", "uniform(6, 8)"},
       {"sea.gamma", "normal(3.3, 0.5, 1, 7)"},
       {"sea.normalisation", "choice(exact, dnv)"},
       {"sea.propagation_deg", "uniform(0, 360)"},
+      {"sea.coming_from_deg", "uniform(0, 360)"},
       {"sea.spreading.kind", "choice(none, cos2s)"},
       {"sea.spreading.s", "uniform(5, 20)", "", {spread}},
       {"sea.spreading.width_deg", "uniform(10, 40)", "", {wrapped}},
       {"sea.swell.significant_wave_height_m", "uniform(0, 1)"},
       {"sea.swell.peak_period_s", "uniform(11, 14)", "", {swell}},
+      {"sea.swell.energy_period_s", "uniform(10, 13)", "", {swell}},
+      {"sea.swell.zero_crossing_period_s", "uniform(9, 11)", "", {swell}},
+      {"sea.swell.coming_from_deg", "uniform(0, 360)", "", {swell}},
       {"sea.swell.gamma", "uniform(3, 7)", "", {swell}},
       {"sea.swell.propagation_deg", "uniform(0, 360)", "", {swell}},
       {"sea.swell.components", "integers(8, 16)", "", {swell}},
@@ -134,6 +145,8 @@ const std::vector<DrawnKey>& drawn_job_keys() {
       {"targets.NAME.points.N.amplitude_m", "loguniform(0.5, 2)", "dots"},
       {"targets.NAME.mesh", "choice(hull.obj, corner.obj)", "hull", {{"targets.hull.motion.model", "fixed"}}},
       {"targets.NAME.unit", "choice(m, ft)", "corner"},
+      {"targets.NAME.orientation.forward", "choice(+x, -x)"},
+      {"targets.NAME.orientation.up", "choice(+z, +y)", "hull", {{"targets.hull.motion.model", "fixed"}}},
       {"targets.NAME.scale", "uniform(0.8, 1.2)"},
       {"targets.NAME.material", "choice(pec, aluminium)"},
       {"targets.NAME.sheet_thickness_mm", "uniform(0, 2)", "corner"},
@@ -166,6 +179,8 @@ const std::vector<DrawnKey>& drawn_job_keys() {
       {"targets.NAME.layout.scales.highest", "uniform(1, 2)", "corner"},
       {"targets.NAME.layout.seed", "integers(0, 1000000)", "corner", {area}},
       {"targets.NAME.motion.model", "choice(fixed, ship)"},
+      {"targets.NAME.motion.heading", "choice(auto, keep)", "hull", {series}},
+      {"targets.NAME.motion.position", "choice(auto, keep)", "hull", {series_with_translations}},
       {"targets.NAME.motion.translations", "choice(true, false)"},
       {"targets.NAME.motion.roll_period_s", "uniform(5, 9)"},
       {"targets.NAME.motion.pitch_period_s", "uniform(4, 6)"},
@@ -231,7 +246,7 @@ const std::vector<DrawnKey>& drawn_job_keys() {
   return keys;
 }
 
-// Keys of files, of lists of numbers, and of what another key of the list selects.
+// Keys of files, of how a file is read, and of lists of numbers.
 constexpr const char* kNotDrawn[] = {
     "targets.NAME.label",
     "targets.NAME.role",
@@ -247,7 +262,17 @@ constexpr const char* kNotDrawn[] = {
     "targets.NAME.motion.wamit_heading",
     "targets.NAME.motion.wamit_time_factor",
     "targets.NAME.motion.sections",
+    "targets.NAME.motion.rao_scale",
+    "targets.NAME.motion.rao_phase_deg",
+    "targets.NAME.motion.rao_rotations",
+    "targets.NAME.motion.rao_follows_long_waves",
+    "targets.NAME.motion.wamit_body",
+    "targets.NAME.motion.wamit_xbody_m",
+    "targets.NAME.motion.wamit_first_column",
+    "targets.NAME.offset_m",
     "sea.table",
+    "sea.table_time",
+    "sea.scatter_diagram",
 };
 
 class DrawnJob : public testing::Test {
@@ -256,6 +281,11 @@ class DrawnJob : public testing::Test {
     write_file(folder_.path() / "scenario.yaml", kScenario);
     write_file(folder_.path() / "hull.obj", kHull);
     write_file(folder_.path() / "corner.obj", kCorner);
+    std::string series = "time_s,roll_deg,pitch_deg,yaw_deg,surge_m,sway_m,heave_m\n";
+    for (int i = 0; i <= 1200; ++i)
+      series += fmt::format("{},{:.4f},{:.4f},40,0,0,{:.4f}\n", 0.1 * i, 2 * std::sin(0.07 * i), std::sin(0.05 * i),
+                            0.3 * std::cos(0.06 * i));
+    write_file(folder_.path() / "series.csv", series);
   }
 
   static std::vector<Override> overrides_of(const std::vector<DrawnKey>& keys) {
@@ -281,7 +311,7 @@ class DrawnJob : public testing::Test {
     const json metrics = json::parse(read_file(run / "metrics.json"));
     const std::string card = read_file(run / "data" / "README.md"), page = read_file(run / "report.html");
     for (const DrawnKey& key : keys) {
-      EXPECT_THAT(card, HasSubstr("`" + key.path() + "`"));
+      EXPECT_THAT(card, HasSubstr(fmt::format("`{}`", key.path())));
       const auto by = std::ranges::find_if(evaluation.at("by"),
                                            [&](const json& column) { return column.at("column") == key.path(); });
       ASSERT_NE(by, evaluation.at("by").end());
@@ -342,6 +372,21 @@ TEST_F(DrawnJob, IsDoneWithEveryKey) {
       ADD_FAILURE() << error.what();
     }
   }
+}
+
+TEST_F(DrawnJob, IsDoneWithPairsOfAScatterDiagram) {
+  write_file(folder_.path() / "scatter.csv",
+             read_file(SEAGLINT_SOURCE_DIR "/tests/cases/tables/scatter_synthetic.csv"));
+  const Scenario scenario = read_scenario(folder_.path() / "scenario.yaml",
+                                          {{"sea.scatter_diagram", (folder_.path() / "scatter.csv").string()},
+                                           {"view.azimuth_deg", "\"uniform(10, 170)\""}});
+  const fs::path run = folder_.path() / "run";
+  run_scenario(scenario, run, {.resume = false, .threads = 1});
+  write_report(run, scenario, 1, nullptr);
+  const json metrics = json::parse(read_file(run / "metrics.json"));
+  std::vector<std::string> drawn;
+  for (const json& condition : metrics.at("fused").at("group").at("by_drawn")) drawn.push_back(condition.at("column"));
+  EXPECT_THAT(drawn, testing::ElementsAre("sea.peak_period_s", "view.azimuth_deg"));
 }
 
 // Pairs that contradict each other are refused; they are drawn again.

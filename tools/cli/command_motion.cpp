@@ -111,7 +111,8 @@ void write_motion(const MotionArguments& arguments, const CommandContext& contex
   if (!arguments.spectrum.empty()) write_file(arguments.spectrum, spectrum_csv(bodies, arguments.duration_s));
   write_file(arguments.output, text);
   print_out("{}", motion_statistics(bodies, arguments.duration_s));
-  if (arguments.duration_s >= kStatisticsStep_s) report_rest(motions_of(scenario, bodies, arguments.duration_s));
+  if (arguments.duration_s >= kStatisticsStep_s)
+    report_rest(scenario, motions_of(scenario, bodies, arguments.duration_s));
 }
 
 }  // namespace

@@ -348,7 +348,8 @@ void judge(const TargetSolution& solution, const ComparisonSettings& settings, E
     TargetSolutions trials{solution.solutions.threads, solution.solutions.stop, [](const std::string&) {}};
     return solved_pairs({table, request, target, trials}).pairs;
   };
-  comparison.trials = trial_solutions({solution.table, solution.request, comparison.cuts, solve, solution.solutions.say});
+  comparison.trials =
+      trial_solutions({solution.table, solution.request, comparison.cuts, solve, solution.solutions.say});
   // Of a mesh in another unit no other suggestion and no known value means anything.
   const bool other_unit = std::ranges::any_of(comparison.trials, is_unit);
   if (other_unit) comparison.warnings.clear();

@@ -56,9 +56,9 @@ struct ExportComparison {
   std::vector<RcsCut> solved;                         // of a target: all elements, at the places of the export
   std::vector<std::string> omitted;    // a sentence for each element that is not compared: zero or rounding in one
   std::vector<std::string> one_sided;  // the same of those that are an echo in the other: differences without a number
-  std::optional<RcsRequest> solver = {};              // settings of a solved target
-  std::optional<KnownValues> known = {};              // of a solved target that is recognised
-  std::vector<Trial> trials = {};                     // of a solved target whose agreement is poor
+  std::optional<RcsRequest> solver = {};  // settings of a solved target
+  std::optional<KnownValues> known = {};  // of a solved target that is recognised
+  std::vector<Trial> trials = {};         // of a solved target whose agreement is poor
 };
 
 struct ComparisonSettings {

@@ -144,9 +144,10 @@ void RcsArguments::add_mesh_to(CommandOptions& command) {
 CommandOption RcsArguments::add_target_to(CommandOptions& command) {
   const CommandOption option =
       command
-          .add_option("--target", targets,
-                      "Mesh file: .glb .gltf .obj .stl .ply, or shells in .nas .bdf .dat .fem .unv .msh (repeatable: the "
-                      "files are the parts of one target)")
+          .add_option(
+              "--target", targets,
+              "Mesh file: .glb .gltf .obj .stl .ply, or shells in .nas .bdf .dat .fem .unv .msh (repeatable: the "
+              "files are the parts of one target)")
           .repeatable("FILE");
   add_placement_options(command, request);
   return option;

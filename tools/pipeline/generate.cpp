@@ -44,7 +44,7 @@ GenerateResult generate_dataset(const Pipeline& pipeline, const std::filesystem:
   const SamplePlan& plan = pipeline.plan();
   report_motion_files(pipeline);
   report_spectrum_table(scenario);
-  if (!options.response) report_rest(target_motions(pipeline));
+  if (!options.response) report_rest(scenario, target_motions(pipeline));
   warn(mesh_warnings(pipeline));
   warn(motion_warnings(pipeline));
   warn(sea_warnings(scenario, plan.sea_states()));

@@ -14,6 +14,7 @@
 #include "sim/motion/simulate.h"
 #include "sim/motion/statistics.h"
 #include "sim/motion/target_motion.h"
+#include "sim/scenario/files/scenario_document.h"
 #include "sim/sea/realisation.h"
 
 namespace seaglint {
@@ -47,6 +48,14 @@ std::string rest_reason(const TargetSpec& target, std::size_t i) {
   if (motion.model == MotionModel::kRao)
     return fmt::format("in its table or in these waves ({}.file, sea.propagation_deg)", path);
   return "in these waves (sea.significant_wave_height_m, sea.propagation_deg, sea.spreading)";
+}
+
+// Whether the scenario has a section `motion` of the target.
+bool has_motion_section(const Scenario& scenario, const TargetSpec& target) {
+  const YamlNode* node = scenario.document ? &scenario.document->root : nullptr;
+  for (const std::string& key : {std::string("targets"), target.name, std::string("motion")})
+    node = node == nullptr ? nullptr : node->find(key);
+  return node != nullptr;
 }
 
 }  // namespace
@@ -105,8 +114,9 @@ std::string rest_text(const TargetMotion& motion) {
   return text;
 }
 
-void report_rest(const std::vector<TargetMotion>& motions) {
+void report_rest(const Scenario& scenario, const std::vector<TargetMotion>& motions) {
   for (const TargetMotion& motion : motions) {
+    if (motion.target->motion.model == MotionModel::kFixed && has_motion_section(scenario, *motion.target)) continue;
     const std::string text = rest_text(motion);
     if (!text.empty()) print_error(on_one_line(fmt::format("targets.{}: {}", motion.target->name, text)) + "\n");
   }

@@ -106,7 +106,7 @@ std::string drawn_table(const ordered_json& metrics, const std::vector<const cha
         const auto& counts = condition.at("bins").at(bin);
         rows.push_back({escape_html(condition.at("column").get<std::string>()),
                         escape_html(counts.at("bin").get<std::string>()) +
-                            (units.empty() || units == "1" ? "" : " " + escape_html(units))});
+                            (units.empty() || units == "1" ? "" : fmt::format(" {}", escape_html(units)))});
         for (const char* group : kGroups)
           rows.back().push_back(accuracy_cell(of(group).at("by_drawn").at(key).at("bins").at(bin)));
         rows.back().push_back(fmt::format("{}", counts.at("rows").get<std::size_t>()));

@@ -28,7 +28,9 @@ RcsSweep sweep_of(std::vector<double> azimuth_deg, const std::vector<Complex>& v
 }
 
 RcsCut cut_of(const std::vector<std::pair<double, Complex>>& values) {
-  RcsCut cut{"other", Polarisation::kVv, {}, {}};
+  RcsCut cut;
+  cut.name = "other";
+  cut.element = Polarisation::kVv;
   for (const auto& [phi, s] : values) cut.values.push_back({10e9, 90, phi, 10 * std::log10(4 * kPi * std::norm(s)), s});
   return cut;
 }

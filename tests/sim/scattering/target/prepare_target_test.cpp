@@ -49,6 +49,7 @@ TEST_F(PreparedCylinder, HasMaterialsAndAWaterline) {
   source_.materials = {{std::nullopt, SEAGLINT_SOURCE_DIR "/assets/materials/stainless_steel.yaml", ""}};
   ScattererSettings settings;
   settings.waterline_m = 0.25;
+  settings.sea_reflects = true;
   const PreparedTarget target = prepare_target(load_solver_mesh(source_), settings);
   ASSERT_EQ(target.materials.size(), 2u);
   EXPECT_NE(target.materials[0].kind, SurfaceKind::kPec);
@@ -58,6 +59,14 @@ TEST_F(PreparedCylinder, HasMaterialsAndAWaterline) {
     for (const std::uint32_t v : target.mesh.triangles[t]) top = std::max(top, target.mesh.vertices[v].z());
     EXPECT_EQ(target.mesh.triangle_material[t] == 1, top <= 0.25 + 1e-9);
   }
+}
+
+TEST_F(PreparedCylinder, EndsAtTheWaterlineWithoutSeaReflection) {
+  ScattererSettings settings;
+  settings.waterline_m = 0.25;
+  const PreparedTarget target = prepare_target(load_solver_mesh(source_), settings);
+  ASSERT_EQ(target.materials.size(), 1u);
+  EXPECT_NEAR(bounds(target.mesh).lower.z(), 0.25, 1e-9);
 }
 
 TEST_F(PreparedCylinder, NamesThePlaceOfAnError) {

@@ -68,7 +68,7 @@ TEST(Steepness, IsDrawnWithAnyWaveHeight) {
 TEST(Steepness, IsRefusedWhereItHasNoPeakPeriod) {
   const std::pair<const char*, const char*> cases[] = {
       {"sea: {steepness: 0.04, peak_period_s: 8}\n",
-       "sea.peak_period_s: value '8': not allowed here: valid only with sea.steepness left out"},
+       "sea.steepness: value '0.04': not allowed here: valid only without sea.peak_period_s"},
       {"sea: {steepness: 0.2}\n", "sea.steepness: value '0.2': must be"},
       {"sea: {steepness: 0}\n", "sea.steepness: value '0': must be"},
       {"sea: {steepness: 0.04, significant_wave_height_m: 0}\n", "must be greater than 0 with sea.steepness"},
