@@ -90,8 +90,12 @@ class ValueVisitor : public FieldVisitor {
     line(key, fmt::format("[{}]", fmt::join(as_yaml, ", ")));
   }
   void require(const char*) override {}
-  // A key that is drawn is written even where the middle of its distribution is the default.
-  bool optional(const char* key, bool present) override { return present || variation_of(key) != nullptr; }
+  // A key that is drawn, or a section with one, is written even where the middle of its distribution is the default.
+  bool optional(const char* key, bool present) override {
+    const std::string section = path_of(key) + ".";
+    return present || variation_of(key) != nullptr ||
+           std::ranges::any_of(variations_, [&](const Variation& v) { return v.key_path.starts_with(section); });
+  }
 
  protected:
   std::string path_of(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }

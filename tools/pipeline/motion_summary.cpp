@@ -9,13 +9,12 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
-#include "sim/core/process/printable.h"
-#include "sim/core/process/standard_error.h"
 #include "sim/motion/simulate.h"
 #include "sim/motion/statistics.h"
 #include "sim/motion/target_motion.h"
 #include "sim/scenario/files/scenario_document.h"
 #include "sim/sea/realisation.h"
+#include "tools/pipeline/warnings.h"
 
 namespace seaglint {
 
@@ -118,7 +117,7 @@ void report_rest(const Scenario& scenario, const std::vector<TargetMotion>& moti
   for (const TargetMotion& motion : motions) {
     if (motion.target->motion.model == MotionModel::kFixed && has_motion_section(scenario, *motion.target)) continue;
     const std::string text = rest_text(motion);
-    if (!text.empty()) print_error(on_one_line(fmt::format("targets.{}: {}", motion.target->name, text)) + "\n");
+    if (!text.empty()) warn(std::array{fmt::format("targets.{}: {}", motion.target->name, text)});
   }
 }
 

@@ -30,7 +30,7 @@ std::string motion_text(const TargetMotion& motion);
 // targets.ship.motion.translations: true"; empty where none is.
 std::string rest_text(const TargetMotion& motion);
 
-// Prints rest_text() of every mesh target as a line unless it is empty, or the scenario says itself that the target is
+// Warns of rest_text() of every mesh target unless it is empty, or the scenario says itself that the target is
 // fixed.
 void report_rest(const Scenario& scenario, const std::vector<TargetMotion>& motions);
 
