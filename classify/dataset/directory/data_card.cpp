@@ -69,12 +69,22 @@ std::string drawn_table(const Scenario& scenario) {
   return table;
 }
 
-// A quantity of the sea states: the distribution of its key, or its values, also those that follow from other keys.
+// A quantity of the seas, also one that follows from other keys: its values, of more than eight their range, with the
+// distribution of its key. Of drawn seas the first kMostSeas.
 std::string sea_values(const Scenario& scenario, const SamplePlan& plan, const std::string& key,
                        double SeaState::*member) {
+  constexpr int kMostSeas = 500;
+  constexpr std::size_t kMostValues = 8;
+  const int states = static_cast<int>(plan.sea_states().size());
+  const int realisations = scenario.variations.empty() ? 1 : scenario.dataset.realisations_per_case;
   std::set<double> values;
-  for (const SeaState& state : plan.sea_states()) values.insert(state.*member);
-  return markdown_text(value_text(scenario, key, join({values.begin(), values.end()})));
+  for (int sea = 0; sea < std::min(states * realisations, std::max(states, kMostSeas)); ++sea)
+    values.insert(plan.sea_state({.sea_state = sea % states, .realisation = sea / states}).*member);
+  const std::string text = values.size() <= kMostValues
+                               ? join({values.begin(), values.end()})
+                               : fmt::format("{:.4g} to {:.4g}", *values.begin(), *values.rbegin());
+  const std::string distribution = value_text(scenario, key, "");
+  return markdown_text(distribution.empty() ? text : fmt::format("{} ({})", text, distribution));
 }
 
 std::string clutter_level(const Scenario& scenario) {

@@ -217,5 +217,16 @@ TEST(Variation, OfAChoiceAllowsTheKeysOfItsOtherValues) {
   EXPECT_THROW(parse_scenario(text, "spectrum.yaml", {{"sea.spectrum", "bretschneider"}}), InputError);
 }
 
+// A section is written where a key of it is drawn, though the middle of the distribution is the default.
+TEST(Variation, OfAKeyWhoseMiddleIsTheDefaultIsInTheEffectiveScenario) {
+  const Scenario scenario = parse_scenario(
+      "seaglint: 1\ntargets: {hull: {label: 0, mesh: hull.obj, orientation: {forward: \"choice(+x, -x)\"}}}\n"
+      "dataset: {maps_per_case: 1, realisations_per_case: 1}\n",
+      "turned.yaml");
+  const Scenario again = parse_scenario(effective_yaml(scenario), "effective.yaml");
+  ASSERT_EQ(again.variations.size(), 1u);
+  EXPECT_EQ(again.variations.front().key_path, "targets.hull.orientation.forward");
+}
+
 }  // namespace
 }  // namespace seaglint
