@@ -225,7 +225,8 @@ ConditionScores score_by(const Condition& condition, std::span<const Prediction>
     if (of_bin[i].empty()) continue;
     const ColumnBin& bin = condition.bins[i];
     result.bins.push_back({bin.text, bin.lowest, bin.highest, bin.mean,
-                           score(of_bin[i], bootstrap_samples, seed, bootstrap_index + result.bins.size())});
+                           score(of_bin[i], bootstrap_samples, seed, bootstrap_index + result.bins.size()),
+                           roc_curves(of_bin[i])});
   }
   return result;
 }

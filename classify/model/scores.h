@@ -87,6 +87,7 @@ struct BinnedScores {
   std::string text;  // as in ColumnBin, with the values of all rows
   double lowest = 0, highest = 0, mean = 0;
   Scores scores;
+  std::vector<std::vector<RocPoint>> roc = {};  // roc_curves()
 };
 
 struct ConditionScores {

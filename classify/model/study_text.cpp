@@ -113,6 +113,9 @@ ordered_json to_json(const Study& study, const LearningSpec& spec) {
     for (const Outcome& outcome : group.outcomes) {
       entry[name(outcome.protocol)] = to_object(outcome.primary, study.classes);
       entry[name(outcome.protocol)]["roc"] = to_object(outcome.roc, study.classes);
+      for (std::size_t i = 0; group.name == "fused" && i < outcome.primary.by_wave_height.size(); ++i)
+        entry[name(outcome.protocol)]["by_wave_height"][i]["roc"] =
+            to_object(outcome.primary.by_wave_height[i].roc, study.classes);
       entry[name(outcome.protocol)]["logistic_regression"] = to_object(outcome.linear, study.classes);
       for (const ConditionScores& condition : outcome.by_drawn)
         entry[name(outcome.protocol)]["by_drawn"].push_back(to_object(condition, study.classes));

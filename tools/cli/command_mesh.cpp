@@ -236,7 +236,7 @@ void add_convert(CommandOptions& mesh, CommandContext& context) {
   auto arguments = std::make_shared<ConvertArguments>();
   convert
       .add_option("FILE", arguments->input,
-                  "Mesh file: .glb .gltf .obj .stl .ply, or shells in .nas .bdf .dat .unv .msh")
+                  "Mesh file: .glb .gltf .obj .stl .ply, or shells in .nas .bdf .dat .fem .unv .msh")
       .required();
   convert.add_option("-o,--output", arguments->output, "Mesh file to write: .glb .gltf .obj .stl or .ply").required();
   add_placement_options(convert, arguments->placement);

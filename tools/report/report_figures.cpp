@@ -174,6 +174,9 @@ void add_scores(FigureList& list, const nlohmann::ordered_json& metrics) {
                                has_random ? "The same" : "Receiver operating characteristic", unseen),
              fmt::format("ROC, {} split", protocol));
   }
+  if (std::optional<LinePlot> plot = roc_by_wave_height_plot(metrics))
+    list.add("accuracy", "roc_by_wave_height", std::move(*plot), {640, 400},
+             fmt::format("The same of the fused features by wave height, {}.", unseen), "ROC by wave height");
 }
 
 // One scatter with a series per class.

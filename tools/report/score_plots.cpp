@@ -31,6 +31,15 @@ void add_curve(Series& series, const nlohmann::ordered_json& curve) {
   for (const double y : curve.at("detections")) series.y.push_back(100 * y);
 }
 
+// Of two classes, without curves.
+LinePlot empty_roc_plot(std::string title) {
+  LinePlot plot;
+  plot.title = std::move(title);
+  plot.x = {"false alarms: label 0 declared label 1 (%)", AxisRange{0, 100}, false};
+  plot.y = {"detections: label 1 declared label 1 (%)", AxisRange{0, 102}, false};
+  return plot;
+}
+
 Series chance() { return {"chance", {0, 100}, {0, 100}, {}, SeriesStyle::kLines}; }
 
 // Of more than two classes: each against the rest, by the fused features.
@@ -111,14 +120,27 @@ std::vector<std::pair<std::string, LinePlot>> drawn_accuracy_plots(const nlohman
   return plots;
 }
 
+std::optional<LinePlot> roc_by_wave_height_plot(const nlohmann::ordered_json& metrics) {
+  LinePlot plot = empty_roc_plot("ROC by wave height, fused, " + split_name(metrics, "group"));
+  for (const auto& row : metrics.at("fused").at("group").at("by_wave_height")) {
+    const auto& roc = row.at("roc");
+    if (!roc.contains("detections")) return std::nullopt;  // more than two classes
+    if (roc.at("detections").empty()) continue;            // maps of one class only
+    Series series;
+    series.name = fmt::format("{} m, AUC {:.3f}", row.at("bin").get<std::string>(), value_or_nan(row.at("auc")));
+    add_curve(series, roc);
+    plot.series.push_back(std::move(series));
+  }
+  if (plot.series.size() < 2) return std::nullopt;
+  plot.series.push_back(chance());
+  return plot;
+}
+
 std::optional<LinePlot> roc_plot(const nlohmann::ordered_json& metrics, const std::string& protocol) {
   const auto& fused = metrics.at("fused").at(protocol);
   if (fused.contains("roc") && !fused.at("roc").contains("detections"))
     return rest_roc_plot(fused.at("roc"), split_name(metrics, protocol));
-  LinePlot plot;
-  plot.title = "ROC, " + split_name(metrics, protocol);
-  plot.x = {"false alarms: label 0 declared label 1 (%)", AxisRange{0, 100}, false};
-  plot.y = {"detections: label 1 declared label 1 (%)", AxisRange{0, 102}, false};
+  LinePlot plot = empty_roc_plot("ROC, " + split_name(metrics, protocol));
   for (const auto& [group, label] : kGroups) {
     const auto& scores = metrics.at(group).at(protocol);
     if (!scores.contains("roc")) return std::nullopt;

@@ -19,6 +19,10 @@ LinePlot accuracy_plot(const nlohmann::ordered_json& metrics, const std::string&
 // The same under the group protocol over the drawn keys of numbers, by key: over the means of their bins.
 std::vector<std::pair<std::string, LinePlot>> drawn_accuracy_plots(const nlohmann::ordered_json& metrics);
 
+// Detections over false alarms of the fused features under the group protocol, %, a curve for each bin of the wave
+// height; none of more than two classes, and with one bin.
+std::optional<LinePlot> roc_by_wave_height_plot(const nlohmann::ordered_json& metrics);
+
 // Detections over false alarms, %; none for the metrics of an earlier version, which have no curves.
 std::optional<LinePlot> roc_plot(const nlohmann::ordered_json& metrics, const std::string& protocol);
 

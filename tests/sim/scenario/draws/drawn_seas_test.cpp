@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -13,6 +14,7 @@
 #include "sim/core/numbers/dispersion.h"
 #include "sim/core/process/file.h"
 #include "sim/scenario/files/scatter_diagram.h"
+#include "sim/scenario/jonswap.h"
 #include "sim/scenario/sample_plan.h"
 #include "sim/scenario/writer.h"
 #include "tests/sim/scenario/parsing.h"
@@ -154,6 +156,30 @@ TEST_F(DrawnPairs, AreWrittenAsTheirFile) {
   ASSERT_EQ(files.size(), 3u);
   EXPECT_EQ(files[0].key, "sea.scatter_diagram");
   EXPECT_EQ(files[0].path, folder_.path() / "seas.csv");
+}
+
+// Tables of Tz or Te, as those of classification societies: the peak period of each pair follows from its mean period.
+TEST_F(DrawnPairs, OfMeanPeriodsHaveTheirPeakPeriods) {
+  const std::pair<const char*, double (*)(double)> kinds[] = {{"zero_crossing_period_s", zero_crossing_period_ratio},
+                                                              {"energy_period_s", energy_period_ratio}};
+  for (const auto& [key, ratio] : kinds) {
+    write_file(folder_.path() / "seas.csv",
+               fmt::format("Hs/{},6,8\n0.5,10,20\n1.5,20,10\n", std::string(key) == kinds[0].first ? "Tz" : "Te"));
+    const Scenario scenario = read("scatter_diagram: seas.csv, gamma: 2");
+    const SamplePlan plan(scenario);
+    for (const int realisation : {0, 7, 199}) {
+      const SeaState state = plan.sea_state({.realisation = realisation});
+      const double mean_period_s = ratio(2) * state.peak_period_s;
+      EXPECT_GE(mean_period_s, 5 * (1 - 1e-9)) << key;
+      EXPECT_LE(mean_period_s, 9 * (1 + 1e-9)) << key;
+    }
+    const auto drawn = std::ranges::find(scenario.variations, fmt::format("sea.{}", key), &Variation::key_path);
+    ASSERT_NE(drawn, scenario.variations.end()) << key;
+    const double text = std::stod(drawn_value(*drawn, scenario.seed, plan.draw_place({.realisation = 7})));
+    EXPECT_NEAR(text, ratio(2) * plan.sea_state({.realisation = 7}).peak_period_s, 1e-9) << key;
+    EXPECT_EQ(effective_yaml(parse_scenario(effective_yaml(scenario), folder_.path() / "t.yaml")),
+              effective_yaml(scenario));
+  }
 }
 
 TEST_F(DrawnPairs, AreRefusedBesideOtherHeightsAndPeriods) {
