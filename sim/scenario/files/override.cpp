@@ -46,6 +46,13 @@ void remove_alternatives(YamlNode& section, const std::string& section_path, con
     if (section_path != group.section || !is_of_group(key)) continue;
     std::erase_if(section.entries, [&](const YamlEntry& entry) { return entry.key != key && is_of_group(entry.key); });
   }
+  if (section_path != "sea") return;
+  const auto is_of_diagram = [](const std::string& name) {
+    return std::ranges::find(kOfScatterDiagram, name) != std::end(kOfScatterDiagram);
+  };
+  std::erase_if(section.entries, [&](const YamlEntry& entry) {
+    return (key == kScatterDiagram && is_of_diagram(entry.key)) || (is_of_diagram(key) && entry.key == kScatterDiagram);
+  });
 }
 
 }  // namespace

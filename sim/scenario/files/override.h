@@ -22,6 +22,11 @@ inline constexpr Alternatives kAlternatives[] = {
     {"sea.swell", {"propagation_deg", "coming_from_deg"}},
 };
 
+// Keys of `sea` of which a scatter diagram has the values: --set of one replaces the diagram, which replaces them.
+inline constexpr const char* kScatterDiagram = "scatter_diagram";
+inline constexpr std::string_view kOfScatterDiagram[] = {"significant_wave_height_m", "peak_period_s",
+                                                         "energy_period_s", "zero_crossing_period_s", "steepness"};
+
 // `key.path=value` of --set; the value is YAML and is checked like the file.
 struct Override {
   std::string key_path;

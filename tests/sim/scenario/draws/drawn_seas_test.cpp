@@ -158,6 +158,17 @@ TEST_F(DrawnPairs, AreWrittenAsTheirFile) {
   EXPECT_EQ(files[0].path, folder_.path() / "seas.csv");
 }
 
+TEST_F(DrawnPairs, AreReplacedByHeightsAndPeriodsOfSetAndReplaceThem) {
+  const Scenario scenario = read("scatter_diagram: seas.csv");
+  const std::string yaml = effective_yaml(scenario), file = folder_.path() / "t.yaml";
+  const Scenario fixed =
+      parse_scenario(yaml, file, {{"sea.peak_period_s", "7"}, {"sea.significant_wave_height_m", "[1, 2]"}});
+  EXPECT_TRUE(fixed.variations.empty());
+  EXPECT_EQ(fixed.sea.significant_wave_height_m, (Sweep{1, 2}));
+  EXPECT_EQ(fixed.sea.peak_period_s, Sweep{7});
+  EXPECT_EQ(effective_yaml(parse_scenario(effective_yaml(fixed), file, {{"sea.scatter_diagram", "seas.csv"}})), yaml);
+}
+
 // Tables of Tz or Te, as those of classification societies: the peak period of each pair follows from its mean period.
 TEST_F(DrawnPairs, OfMeanPeriodsHaveTheirPeakPeriods) {
   const std::pair<const char*, double (*)(double)> kinds[] = {{"zero_crossing_period_s", zero_crossing_period_ratio},
