@@ -9,7 +9,7 @@
 
 #include "radar/echo/clutter_motion.h"
 #include "radar/waveform/pulse_train.h"
-#include "sim/scattering/response/frequency_response.h"
+#include "sim/scattering/observation/frequency_response.h"
 #include "sim/scenario/radar_spec.h"
 
 namespace seaglint {

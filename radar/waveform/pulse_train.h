@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "sim/core/numbers/linear.h"
-#include "sim/scattering/response/frequency_response.h"
+#include "sim/scattering/observation/frequency_response.h"
 #include "sim/scenario/radar_spec.h"
 
 namespace seaglint {

@@ -8,8 +8,8 @@
 
 #include "sim/cavity/cavity_aperture.h"
 #include "sim/cavity/wall_currents.h"
-#include "sim/scattering/surfaces/footprint.h"
-#include "sim/scattering/target/embree_scene.h"
+#include "sim/scattering/radiation/footprint.h"
+#include "sim/scattering/scatterer/embree_scene.h"
 
 namespace seaglint {
 

@@ -12,9 +12,9 @@
 #include "sim/cavity/wall_patches.h"
 #include "sim/core/process/parallel.h"
 #include "sim/geometry/mesh/triangle_mesh.h"
-#include "sim/scattering/beams/bistatic_geometry.h"
-#include "sim/scattering/target/embree_scene.h"
-#include "sim/scattering/target/scatterer.h"
+#include "sim/scattering/observation/bistatic_geometry.h"
+#include "sim/scattering/scatterer/embree_scene.h"
+#include "sim/scattering/scatterer/scatterer.h"
 
 namespace seaglint {
 

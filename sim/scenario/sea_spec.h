@@ -90,7 +90,7 @@ enum class SeaRoughness { kMillerBrownVegh, kAment, kNone };
 enum class SeaPaths { kAll, kDirect, kMultipath };
 
 // The `sea_reflection` section: specular reflection by the mean sea surface between radar and target
-// (sim/scattering/response/README.md, "Sea reflection"). The roughness factor follows the significant wave height of
+// (sim/scattering/solver/README.md, "Sea reflection"). The roughness factor follows the significant wave height of
 // the sea state.
 struct SeaReflectionSpec {
   bool enabled = false;

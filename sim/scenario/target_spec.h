@@ -93,8 +93,8 @@ struct PointSpec {
 // (tests/README.md, "High-order bounces").
 inline constexpr int kDefaultBounces = 40, kMaxBounces = 200;
 
-// How the reflectors of every path are found: by beams (sim/scattering/beams), by shooting and bouncing rays
-// (sim/scattering/rays), or by that of the two which costs less for the target.
+// How the reflectors of every path are found: by beams (sim/scattering/tracing), by shooting and bouncing rays
+// (sim/scattering/tracing), or by that of the two which costs less for the target.
 enum class SolverMethod : std::uint8_t { kBeams, kRays, kAuto };
 inline constexpr const char* kSolverMethodNames[] = {"beams", "rays", "auto"};
 
@@ -107,7 +107,7 @@ struct SolverSpec {
   double max_aspect_change_deg = 0;   // (auto) aspect change covered by one aspect trace, 0 or 0.001 <= x <= 5
   bool shared_traces = false;         // intervals share the traces of a lattice of look directions
   // Which facets form a smooth surface: those whose normals differ by less than this crease angle, 0 <= x <= 60, 0 =
-  // none; absent: as the mesh's normals or its shape say (sim/scattering/target).
+  // none; absent: as the mesh's normals or its shape say (sim/scattering/scatterer).
   std::optional<double> crease_deg = {};
   bool edges = true;             // edge diffraction
   double wavefront_range_m = 0;  // for the curvature of the wavefront, 0 or 100 <= x <= 1e7; 0 = far field at any range

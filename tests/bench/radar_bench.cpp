@@ -11,7 +11,7 @@
 #include "radar/rvmap/scr.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/random.h"
-#include "sim/scattering/response/point_response.h"
+#include "sim/scattering/solver/point_response.h"
 
 namespace seaglint {
 namespace {

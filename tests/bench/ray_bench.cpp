@@ -6,11 +6,11 @@
 
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/shapes/generators.h"
-#include "sim/scattering/beams/beam_segment.h"
-#include "sim/scattering/rays/ray_refinement.h"
-#include "sim/scattering/response/scattering_matrix.h"
-#include "sim/scattering/surfaces/phase_integral.h"
-#include "sim/scattering/target/embree_scene.h"
+#include "sim/scattering/points/phase_integral.h"
+#include "sim/scattering/scatterer/embree_scene.h"
+#include "sim/scattering/solver/scattering_matrix.h"
+#include "sim/scattering/tracing/beam_segment.h"
+#include "sim/scattering/tracing/ray_refinement.h"
 #include "tests/bench/ship.h"
 
 namespace seaglint {

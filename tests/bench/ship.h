@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/scattering/beams/bistatic_geometry.h"
-#include "sim/scattering/interval/body_response.h"
-#include "sim/scattering/target/prepare_target.h"
+#include "sim/scattering/observation/bistatic_geometry.h"
+#include "sim/scattering/scatterer/prepare_target.h"
+#include "sim/scattering/solver/body_response.h"
 
 namespace seaglint {
 

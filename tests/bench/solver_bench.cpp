@@ -5,8 +5,8 @@
 
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/shapes/generators.h"
-#include "sim/scattering/response/scattering_matrix.h"
-#include "sim/scattering/target/embree_scene.h"
+#include "sim/scattering/scatterer/embree_scene.h"
+#include "sim/scattering/solver/scattering_matrix.h"
 #include "tests/bench/ship.h"
 
 namespace seaglint {

@@ -13,8 +13,8 @@
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/mesh/mesh_builder.h"
 #include "sim/geometry/shapes/solids.h"
-#include "sim/scattering/response/scattering_matrix.h"
-#include "sim/scattering/target/prepare_target.h"
+#include "sim/scattering/scatterer/prepare_target.h"
+#include "sim/scattering/solver/scattering_matrix.h"
 #include "tests/temporary_folder.h"
 
 namespace seaglint {

@@ -9,9 +9,9 @@
 #include "radar/rvmap/rv_map.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/geometry/files/mesh_io.h"
-#include "sim/scattering/beams/bistatic_geometry.h"
-#include "sim/scattering/interval/body_response.h"
-#include "sim/scattering/response/point_response.h"
+#include "sim/scattering/observation/bistatic_geometry.h"
+#include "sim/scattering/solver/body_response.h"
+#include "sim/scattering/solver/point_response.h"
 #include "tests/measured.h"
 
 namespace seaglint {

@@ -5,7 +5,7 @@
 #include "sim/core/numbers/fourier.h"
 #include "sim/core/process/parallel.h"
 #include "sim/geometry/shapes/generators.h"
-#include "sim/scattering/interval/body_response.h"
+#include "sim/scattering/solver/body_response.h"
 #include "tools/pipeline/pipeline.h"
 
 namespace seaglint {

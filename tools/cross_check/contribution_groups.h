@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "sim/core/numbers/linear.h"
-#include "sim/scattering/surfaces/point_contributions.h"
+#include "sim/scattering/points/point_contributions.h"
 
 namespace seaglint {
 

@@ -10,8 +10,8 @@
 #include "classify/features/restored_map.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
-#include "sim/scattering/beams/bistatic_geometry.h"
-#include "sim/scattering/response/point_response.h"
+#include "sim/scattering/observation/bistatic_geometry.h"
+#include "sim/scattering/solver/point_response.h"
 
 namespace seaglint {
 

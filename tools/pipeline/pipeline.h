@@ -17,7 +17,7 @@
 #include "radar/waveform/pulse_train.h"
 #include "sim/core/process/parallel.h"
 #include "sim/core/process/shared_results.h"
-#include "sim/scattering/interval/body_response.h"
+#include "sim/scattering/solver/body_response.h"
 #include "sim/scenario/sample_plan.h"
 #include "tools/pipeline/scene.h"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "sim/core/process/parallel.h"
-#include "sim/scattering/response/frequency_response.h"
+#include "sim/scattering/observation/frequency_response.h"
 #include "sim/scenario/scenario.h"
 
 namespace seaglint {

@@ -11,7 +11,7 @@
 #include "classify/dataset/directory/dataset_reader.h"
 #include "radar/waveform/pulse_train.h"
 #include "sim/core/process/shared_results.h"
-#include "sim/scattering/interval/body_response.h"
+#include "sim/scattering/solver/body_response.h"
 #include "sim/scenario/scenario.h"
 #include "tools/pipeline/pipeline.h"
 

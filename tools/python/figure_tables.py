@@ -7,7 +7,7 @@ import subprocess
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 FIGURES = ROOT / "tests/figures"
 RECORDS = ("accuracy", "speed")
-DOCUMENTS = ("README.md", "tests/README.md", "tests/bench/README.md", "sim/scattering/edges/README.md")
+DOCUMENTS = ("README.md", "tests/README.md", "tests/bench/README.md", "sim/scattering/radiation/README.md")
 BLOCK = re.compile(r"(<!-- table ([a-z_]+), written by tools/measure -->\n)(.*?)(<!-- end of table -->)", re.DOTALL)
 PLACEHOLDER = re.compile(r"\{([a-z][a-z0-9_]*)\}")
 

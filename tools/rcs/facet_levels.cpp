@@ -6,7 +6,7 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/dbsm.h"
-#include "sim/scattering/response/scattering_centres_3d.h"
+#include "sim/scattering/sums/scattering_centres_3d.h"
 
 namespace seaglint {
 

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "sim/scattering/surfaces/point_contributions.h"
-#include "sim/scattering/target/scatterer.h"
+#include "sim/scattering/points/point_contributions.h"
+#include "sim/scattering/scatterer/scatterer.h"
 
 namespace seaglint {
 

@@ -13,7 +13,7 @@
 #include "sim/core/process/error.h"
 #include "sim/core/process/progress.h"
 #include "sim/geometry/mesh/mesh_changes.h"
-#include "sim/scattering/response/scattering_matrix.h"
+#include "sim/scattering/solver/scattering_matrix.h"
 #include "tools/rcs/rcs_target.h"
 #include "tools/rcs/rcs_views.h"
 

@@ -9,7 +9,7 @@
 #include <iterator>
 
 #include "sim/core/process/error.h"
-#include "sim/scattering/beams/bistatic_geometry.h"
+#include "sim/scattering/observation/bistatic_geometry.h"
 
 namespace seaglint {
 namespace {

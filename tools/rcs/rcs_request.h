@@ -12,8 +12,8 @@
 
 #include "sim/cavity/cavity_scattering.h"
 #include "sim/field_tables/transmitter_keys.h"
-#include "sim/scattering/beams/illumination_settings.h"
-#include "sim/scattering/target/prepare_target.h"
+#include "sim/scattering/scatterer/prepare_target.h"
+#include "sim/scattering/tracing/illumination_settings.h"
 #include "sim/scenario/sea_spec.h"
 #include "sim/scenario/target_spec.h"
 #include "tools/rcs/rcs_sweep.h"

@@ -15,7 +15,7 @@ namespace seaglint {
 
 inline constexpr double kMinPrinted_m2 = 1e-30;  // floor of printed levels, -300 dBsm
 
-// Estimates of one view at one frequency (sim/scattering/surfaces/view_estimate.h) for hh and vv, and the indices of
+// Estimates of one view at one frequency (sim/scattering/sums/view_estimate.h) for hh and vv, and the indices of
 // the parts that contribute most to each.
 struct ViewUncertainty {
   std::array<std::complex<float>, 2> flat_less_smooth{};  // echo of flat facets less that of smooth surfaces, m

@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "sim/scattering/target/scatterer.h"
+#include "sim/scattering/scatterer/scatterer.h"
 #include "tools/rcs/rcs_request.h"
 #include "tools/rcs/rcs_sweep.h"
 

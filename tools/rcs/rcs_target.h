@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "sim/field_tables/field_table.h"
-#include "sim/scattering/beams/contribution_filter.h"
-#include "sim/scattering/target/prepare_target.h"
+#include "sim/scattering/scatterer/prepare_target.h"
+#include "sim/scattering/tracing/contribution_filter.h"
 #include "tools/rcs/rcs_cavities.h"
 #include "tools/rcs/rcs_request.h"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/scattering/surfaces/view_estimate.h"
+#include "sim/scattering/sums/view_estimate.h"
 #include "tools/rcs/rcs_sweep.h"
 
 namespace seaglint {

@@ -11,11 +11,11 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/progress.h"
-#include "sim/scattering/beams/bistatic_geometry.h"
-#include "sim/scattering/interval/body_response.h"
-#include "sim/scattering/response/reciprocity.h"
-#include "sim/scattering/response/scattering_matrix.h"
-#include "sim/scattering/response/sea_reflection.h"
+#include "sim/scattering/observation/bistatic_geometry.h"
+#include "sim/scattering/observation/sea_reflection.h"
+#include "sim/scattering/solver/body_response.h"
+#include "sim/scattering/solver/scattering_matrix.h"
+#include "sim/scattering/sums/reciprocity.h"
 #include "tools/rcs/rcs_uncertainty.h"
 
 namespace seaglint {

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "sim/core/process/parallel.h"
-#include "sim/scattering/beams/illumination_settings.h"
-#include "sim/scattering/response/scattering_matrix.h"
-#include "sim/scattering/surfaces/point_contributions.h"
+#include "sim/scattering/points/point_contributions.h"
+#include "sim/scattering/solver/scattering_matrix.h"
+#include "sim/scattering/tracing/illumination_settings.h"
 #include "tools/rcs/rcs_request.h"
 #include "tools/rcs/rcs_sweep.h"
 #include "tools/rcs/rcs_target.h"

@@ -13,7 +13,7 @@
 #include "sim/core/text/escape.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/placement/mesh_placement.h"
-#include "sim/scattering/response/scattering_centres_3d.h"
+#include "sim/scattering/sums/scattering_centres_3d.h"
 #include "tools/rcs/echo_selection.h"
 #include "tools/rcs/facet_levels.h"
 #include "tools/rcs/rcs_table.h"

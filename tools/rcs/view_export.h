@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "sim/scattering/surfaces/point_contributions.h"
+#include "sim/scattering/points/point_contributions.h"
 #include "tools/rcs/rcs_request.h"
 #include "tools/rcs/rcs_target.h"
 

@@ -12,8 +12,8 @@
 
 #include "sim/geometry/mesh/triangle_mesh.h"
 #include "sim/motion/body.h"
-#include "sim/scattering/interval/shared_traces.h"
-#include "sim/scattering/target/prepare_target.h"
+#include "sim/scattering/scatterer/prepare_target.h"
+#include "sim/scattering/solver/shared_traces.h"
 #include "sim/scenario/scenario.h"
 
 namespace seaglint {

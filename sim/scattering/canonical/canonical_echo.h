@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "sim/scattering/beams/bistatic_geometry.h"
 #include "sim/scattering/canonical/canonical_body.h"
+#include "sim/scattering/observation/bistatic_geometry.h"
 
 namespace seaglint {
 

@@ -11,7 +11,7 @@
 #include "radar/echo/echo.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/random.h"
-#include "sim/scattering/response/point_response.h"
+#include "sim/scattering/solver/point_response.h"
 #include "sim/scenario/scenario.h"
 #include "sim/sea/realisation.h"
 #include "sim/sea/wave_field.h"

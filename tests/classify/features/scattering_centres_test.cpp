@@ -12,7 +12,7 @@
 #include "radar/echo/echo.h"
 #include "radar/rvmap/scr.h"
 #include "sim/core/numbers/random.h"
-#include "sim/scattering/response/point_response.h"
+#include "sim/scattering/solver/point_response.h"
 #include "tests/measured.h"
 
 namespace seaglint {

@@ -9,7 +9,7 @@
 #include "radar/echo/sea_clutter.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
-#include "sim/scattering/response/point_response.h"
+#include "sim/scattering/solver/point_response.h"
 
 namespace seaglint {
 namespace {

@@ -11,7 +11,7 @@
 #include "radar/echo/receiver_noise.h"
 #include "radar/echo/sea_clutter.h"
 #include "sim/core/numbers/constants.h"
-#include "sim/scattering/response/point_response.h"
+#include "sim/scattering/solver/point_response.h"
 #include "tests/measured.h"
 
 namespace seaglint {

@@ -11,7 +11,7 @@
 #include "radar/rvmap/rv_map.h"
 #include "radar/waveform/figures_of_merit.h"
 #include "sim/core/numbers/constants.h"
-#include "sim/scattering/response/point_response.h"
+#include "sim/scattering/solver/point_response.h"
 #include "tests/measured.h"
 
 namespace seaglint {

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Echo of an upright cylinder before a level rectangle by geometrical and physical optics: cylinder_patch.py > cylinder_patch.csv
 
-The cylinder, perfectly conducting, has its axis on z, a radius of 0.5 m and stands from z = 0 to 1 m. The rectangle lies in z = 0; its border cuts the rays that the cylinder spreads. The field on each body is that of geometrical optics: of the incident wave, and of the one reflected by the other body, on the rectangle with the ray's exact spreading. Physical-optics currents are integrated by Gauss-Legendre quadrature, along z in closed form. At the cylinder's shadow boundary the current fades out over (k R)^(-1/3) rad, as in sim/scattering/surfaces.
+The cylinder, perfectly conducting, has its axis on z, a radius of 0.5 m and stands from z = 0 to 1 m. The rectangle lies in z = 0; its border cuts the rays that the cylinder spreads. The field on each body is that of geometrical optics: of the incident wave, and of the one reflected by the other body, on the rectangle with the ray's exact spreading. Physical-optics currents are integrated by Gauss-Legendre quadrature, along z in closed form. At the cylinder's shadow boundary the current fades out over (k R)^(-1/3) rad, as in sim/scattering/radiation.
 Columns: number of the rectangle, azimuth and elevation, deg, frequency, GHz; S in m, hh, vv: power 4 pi |S|^2, e^{+jwt}, phase origin at z = 0 on the axis.
 """
 import numpy as np

@@ -8,7 +8,7 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/geometry/shapes/generators.h"
-#include "sim/scattering/surfaces/footprint.h"
+#include "sim/scattering/radiation/footprint.h"
 
 namespace seaglint {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/dbsm.h"
-#include "sim/scattering/beams/bistatic_geometry.h"
 #include "sim/scattering/canonical/canonical_echo.h"
+#include "sim/scattering/observation/bistatic_geometry.h"
 
 namespace seaglint {
 namespace {

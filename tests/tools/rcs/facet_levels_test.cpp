@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/scattering/beams/bistatic_geometry.h"
-#include "sim/scattering/response/scattering_matrix.h"
+#include "sim/scattering/observation/bistatic_geometry.h"
+#include "sim/scattering/solver/scattering_matrix.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
 namespace seaglint {

@@ -14,8 +14,8 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/shapes/generators.h"
-#include "sim/scattering/interval/body_response.h"
-#include "sim/scattering/response/scattering_matrix.h"
+#include "sim/scattering/solver/body_response.h"
+#include "sim/scattering/solver/scattering_matrix.h"
 
 namespace seaglint {
 namespace {

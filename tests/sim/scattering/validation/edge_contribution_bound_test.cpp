@@ -12,8 +12,8 @@
 
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/mesh/mesh_diagnostics.h"
-#include "sim/scattering/diffraction/fade_windows.h"
-#include "sim/scattering/response/aspect_trace.h"
+#include "sim/scattering/coefficients/fade_windows.h"
+#include "sim/scattering/solver/aspect_trace.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 #include "tests/sim/scattering/validation/random_body.h"
 

@@ -8,8 +8,8 @@
 #include <string>
 
 #include "sim/geometry/files/mesh_io.h"
-#include "sim/scattering/response/scattering_matrix.h"
-#include "sim/scattering/target/part_materials.h"
+#include "sim/scattering/scatterer/part_materials.h"
+#include "sim/scattering/solver/scattering_matrix.h"
 #include "sim/scenario/material_file.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "sim/geometry/files/mesh_io.h"
-#include "sim/scattering/response/scattering_matrix.h"
+#include "sim/scattering/solver/scattering_matrix.h"
 #include "tests/measured.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 #include "tests/sim/scattering/validation/reference_bodies.h"

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "sim/geometry/shapes/generators.h"
-#include "sim/scattering/interval/body_response.h"
-#include "sim/scattering/response/scattering_matrix.h"
+#include "sim/scattering/solver/body_response.h"
+#include "sim/scattering/solver/scattering_matrix.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
 namespace seaglint {

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/scattering/observation/sea_reflection.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "sim/core/process/error.h"
+#include "sim/scattering/coefficients/material.h"
+#include "sim/scattering/coefficients/sea_water.h"
+
+namespace seaglint {
+
+RadarBasis image_basis(const RadarBasis& radar) {
+  const Vec3 r = image_direction(radar.r), h = image_direction(radar.h);
+  return {r, h, r.cross(h)};
+}
+
+SeaReflection::SeaReflection(const SeaReflectionSpec& spec, double significant_wave_height_m)
+    : spec_(spec), rms_m_(significant_wave_height_m / 4) {}
+
+SeaReflectionCoefficients SeaReflection::at(double k, double sin_grazing) const {
+  SEAGLINT_CHECK(sin_grazing > 0 && sin_grazing <= 1 + 1e-12, fmt::format("sine of grazing angle {}", sin_grazing));
+  MaterialSpec water;
+  water.kind = spec_.surface == SeaSurface::kConductor ? SurfaceKind::kPec : SurfaceKind::kSeaWater;
+  water.temperature_c = spec_.temperature_c;
+  water.salinity_psu = spec_.salinity_psu;
+  const InterfaceCoefficients fields = MaterialSurface(water, k).at(sin_grazing);
+  double loss = 1;
+  if (spec_.roughness == SeaRoughness::kAment) loss = ament_factor(k, rms_m_, sin_grazing);
+  if (spec_.roughness == SeaRoughness::kMillerBrownVegh) loss = miller_brown_vegh_factor(k, rms_m_, sin_grazing);
+  return {loss * fields.te, loss * fields.tm};
+}
+
+bool SeaReflection::is_enabled(const PropagationPath& path) const {
+  return spec_.paths == SeaPaths::kAll || (spec_.paths == SeaPaths::kMultipath) == path.is_multipath();
+}
+
+Complex SeaReflection::path_factor(const PropagationPath& path, const SeaReflectionCoefficients& rho, int element) {
+  const Complex received = element < 2 ? rho.h : rho.v, transmitted = element % 2 == 0 ? rho.h : rho.v;
+  return (path.return_via_sea ? received : 1.0) * (path.outbound_via_sea ? transmitted : 1.0);
+}
+
+}  // namespace seaglint

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// Specular reflection of the mean sea surface z = 0 between radar and target (four-path multipath).
+//
+// With r' = (r_x, r_y, -r_z) the direction to the radar's image and S(a, b) the scattering matrix received along a and
+// transmitted along b, about an origin on the surface,
+//     S = S(r, r) + R S(r', r) + S(r, r') R + R S(r', r') R,    R = diag(rho_h, rho_v).
+// rho_h = te and rho_v = tm of the sea (material.h): s = h is common to r and r'; p = s x d is v on the downward path
+// and v' = r' x h on the upward path (both change sign on the return path). A perfectly conducting sea, rho_h = -1 and
+// rho_v = +1, is equivalent to image theory.
+
+#include <array>
+
+#include "sim/core/numbers/linear.h"
+#include "sim/scattering/observation/bistatic_geometry.h"
+#include "sim/scenario/radar_spec.h"
+#include "sim/scenario/sea_spec.h"
+
+namespace seaglint {
+
+// Look direction of the radar's image in the mean sea surface.
+inline Vec3 image_direction(const Vec3& r_hat) { return {r_hat.x(), r_hat.y(), -r_hat.z()}; }
+
+// Basis of the image: h is mirrored (unchanged when horizontal), v' = r' x h'.
+RadarBasis image_basis(const RadarBasis& radar);
+
+// Propagation path: via the sea surface on the way to the target, on the return, on both or on neither.
+struct PropagationPath {
+  bool outbound_via_sea = false;
+  bool return_via_sea = false;
+
+  bool is_multipath() const { return outbound_via_sea || return_via_sea; }
+};
+inline constexpr std::array<PropagationPath, 4> kFourPaths{
+    {{false, false}, {false, true}, {true, false}, {true, true}}};
+
+struct SeaReflectionCoefficients {
+  Complex h = -1, v = 1;
+};
+
+class SeaReflection {
+ public:
+  // Standard deviation of the surface elevation: significant_wave_height / 4.
+  SeaReflection(const SeaReflectionSpec& spec, double significant_wave_height_m);
+
+  // Coherent reflection coefficients at wavenumber k; sin_grazing = r^_z, 0 < x <= 1.
+  SeaReflectionCoefficients at(double k, double sin_grazing) const;
+  // True when the scenario includes this propagation path.
+  bool is_enabled(const PropagationPath& path) const;
+  // Factor of the path on element 0..3, hh, hv, vh, vv (received, transmitted).
+  static Complex path_factor(const PropagationPath& path, const SeaReflectionCoefficients& rho, int element);
+
+ private:
+  SeaReflectionSpec spec_;
+  double rms_m_;
+};
+
+}  // namespace seaglint

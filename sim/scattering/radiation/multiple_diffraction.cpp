@@ -1,0 +1,393 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/scattering/radiation/multiple_diffraction.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/smooth_step.h"
+#include "sim/scattering/coefficients/path_weights.h"
+#include "sim/scattering/geometry/tolerances.h"
+#include "sim/scattering/radiation/grazing_strip.h"
+#include "sim/scattering/radiation/wall_penumbra.h"
+
+namespace seaglint {
+namespace {
+
+constexpr double kNarrowest = 1e-9;  // m
+// Sine of the angle between a grazing wave and an edge below which they do not meet. Look directions that would make
+// them parallel are perturbed by more (illumination.cpp).
+constexpr double kParallelSine = 1e-9;
+// Sine of the angle between an edge and the wave it launches along a face: for an incident wave from outside, and for a
+// grazing wave.
+constexpr double kMinLaunchSine = 1e-6, kMinRelaunchSine = 1e-5;
+
+// A grazing wave that is relaunched enters by its mean amplitude over parts of its interval along which its length
+// grows by at most kMaxGrowth. Lengths below kShortestShare of the longest count as that.
+constexpr double kMaxGrowth = 4, kShortestShare = 0.01;
+
+// Bound of |second_edge_current| in direction s, times 1 - s.w; the maximum on the ship is 0.37.
+constexpr double kMaxCurrent = 0.5;
+constexpr double kNoField = 1e-9;  // relative to the incident field
+
+// Perpendicular walls between two edges, as in a right-angled corner reflector. A wave via walls is not relaunched:
+// near grazing, where the third order matters, contributions via walls are tapered to zero.
+constexpr int kMaxWallReflections = 2;
+
+// Multiple diffraction with reflections on the incident or exit path is omitted: it is weaker than the uncertainty of
+// PO there.
+bool is_reflected(const EdgeIllumination& illumination) { return illumination.reflections > 0; }
+
+// Direction of a grazing wave along w, tilted towards the face.
+Vec3 grazing(const WedgeFace& face, const Vec3& w) { return (w - kInPlaneAngle * face.n).normalized(); }
+
+// 1 - s.w, kept positive.
+double one_minus_cosine(const Vec3& w, const Vec3& s) { return std::max(0.5 * (s - w).squaredNorm(), 1e-15); }
+
+class MultipleDiffractionTracer {
+ public:
+  MultipleDiffractionTracer(const SharpEdges& edges, std::span<const Facet> facets, const Panels& panels,
+                            const BistaticGeometry& geometry, const IlluminationByEdge& outgoing,
+                            const MultipleDiffractionLimits& limits, bool backwards, std::vector<EdgeContribution>& out)
+      : edges_(edges),
+        facets_(facets),
+        panels_(panels),
+        geometry_(geometry),
+        outgoing_(outgoing),
+        limits_(limits),
+        reciprocal_(backwards),
+        out_(out) {
+    for (std::size_t waves = 1; waves < spread_.size(); ++waves)
+      spread_[waves] = spread_[waves - 1] / std::sqrt(limits.k);
+  }
+
+  void launch(const EdgeIllumination& illumination) {
+    EdgeIncidentWave in{
+        illumination.edge, illumination.s, {}, {}, illumination.direction, {illumination.E_h, illumination.E_v}};
+    for (int end = 0; end < 2; ++end) {
+      in.X[end] = illumination.image_start + illumination.s[end] * illumination.image_edge_direction;
+      in.psi[end] = geometry_.transmit.r.dot(in.X[end]);
+    }
+    launch(in);
+  }
+
+ private:
+  // Relaunches a grazing wave, part by part of its interval.
+  void relaunch(const EdgeIncidentWave& in) {
+    const auto [shortest, longest] = std::minmax(in.l[0], in.l[1]);
+    const double first = std::max(shortest, kShortestShare * longest), growth = longest / first;
+    const int parts = std::max(1, static_cast<int>(std::ceil(std::log(growth) / std::log(kMaxGrowth))));
+    double before = 0;  // fraction of the interval, from the end where l is shortest
+    for (int n = 1; n <= parts; ++n) {
+      const double here =
+          n < parts ? (first * std::pow(growth, static_cast<double>(n) / parts) - shortest) / (longest - shortest)
+                    : 1.0;
+      launch(in.l[0] < in.l[1] ? sub_interval(in, before, here) : sub_interval(in, 1 - here, 1 - before));
+      before = here;
+    }
+  }
+
+  void launch(const EdgeIncidentWave& in) {
+    const SharpEdge& edge = edges_.edges[in.edge];
+    if (edge.collinear_length_m < limits_.min_run_m) return;
+    const WedgeFrame* wedge = illuminated_wedge(edge, in.direction);
+    if (!wedge) return;
+    const ThicknessChange thickness = with_edge(in.thickness, *wedge, -in.direction);
+    const double decay = in.grazing_waves > 0 ? mean_inverse_sqrt_length(in.l) : 1.0;
+    for (int i = 0; i < 2; ++i) {
+      const GrazingDiffractedWave wave = grazing_diffracted_wave(*wedge, i, in.direction, in.E);
+      const GrazingSource source{
+          in,
+          wedge->face[i],
+          edge.a,
+          edge.along(),
+          {wave.amplitude[0] * decay * in.factor[0], wave.amplitude[1] * decay * in.factor[1]},
+          wave.launch_parameter,
+          thickness,
+          0,
+          wedge->N < 1 && in.grazing_waves == 0 ? householder(wedge->face[1 - i].n) : in.unfolding,
+          in.met_concave_edge || wedge->N < 1};
+      if (!is_significant(source)) continue;
+      // Below a right angle a concave edge also radiates the field of the grazing wave (E along the normal) back along
+      // the same face as a ray, without which the diffracted field is incomplete: both are omitted.
+      if (wedge->N < 0.5 && in.grazing_waves > 0 && source.face.n.dot(in.E[0]) > 1 - kFlat) continue;
+      RayStrip strip{wave.direction.cross(source.face.n), wave.direction, 0, 0};
+      // Parallel to the edge: a grazing wave that meets an edge nearly so is the wave that continues beside it; as a
+      // ray from that edge it would have the pole without the zero.
+      if (std::abs(strip.u.dot(source.along)) < (in.grazing_waves > 0 ? kMinRelaunchSine : kMinLaunchSine)) continue;
+      const double a = strip.u.dot(edge.a + in.s[0] * source.along), b = strip.u.dot(edge.a + in.s[1] * source.along);
+      strip.from = std::min(a, b);
+      strip.to = std::max(a, b);
+      const int facet = edge.facet[i];
+      int side = 0;
+      while (side < 2 && edges_.edges_of_facet[facet][side] != in.edge) ++side;
+      traverse_facet(source, facet, side, strip, 0);
+    }
+  }
+
+  // Equivalent current of an edge for a grazing wave of unit incident field along w: its fringe current, and the end of
+  // the first edge's current beyond it, J = 2 n x H = 2 w / eta, integrated along w.
+  static Vec3 second_edge_current(const WedgeFrame& wedge, const WedgeFace& face, const Vec3& along, const Vec3& w,
+                                  const Vec3& s) {
+    return fringe_current(wedge, grazing(face, w), face.n, s) +
+           w.cross(along).norm() / (2 * kPi * one_minus_cosine(w, s)) * w;
+  }
+
+  // Follows a strip that enters a facet through one of its sides.
+  void traverse_facet(const GrazingSource& source, int number, int entered, const RayStrip& strip, int depth) {
+    constexpr int kDeepest = 1000;  // facets of one face
+    if (strip.to - strip.from < kNarrowest || depth > kDeepest) return;
+    const Facet& facet = facets_[number];
+    const double split = strip.u.dot(facet.corner[(entered + 2) % 3]);
+    for (const int side : {(entered + 1) % 3, (entered + 2) % 3}) {
+      // Part of the strip that leaves through this side, between the third vertex and one of the side of entry.
+      const double other = strip.u.dot(facet.corner[side == (entered + 1) % 3 ? side : entered]);
+      RayStrip part = strip;
+      part.from = std::max(strip.from, std::min(split, other));
+      part.to = std::min(strip.to, std::max(split, other));
+      if (part.to - part.from < kNarrowest) continue;
+      const int edge = edges_.edges_of_facet[number][side];
+      if (edge != kNoEdge && !edges_.edges[edge].conducts) continue;
+      if (edge != kNoEdge && is_perpendicular_wall(edges_.edges[edge], source.face.n)) {
+        reflect(source, number, side, edges_.edges[edge], part, depth);
+      } else if (edge != kNoEdge) {
+        diffract(source, edge, part);
+      } else if (const int next = facet.neighbour[side]; next >= 0) {
+        const Facet& neighbour = facets_[next];
+        if (std::abs(neighbour.normal.dot(facet.normal)) < 1 - kFlat) continue;
+        const Vec3& p = facet.corner[side];
+        int k = 0;
+        while (k < 3 && neighbour.corner[k] != p) ++k;
+        if (k == 3) continue;
+        // The common side starts or ends at p in the neighbour.
+        const Vec3& q = facet.corner[(side + 1) % 3];
+        const int common = neighbour.corner[(k + 1) % 3] == q ? k : (k + 2) % 3;
+        traverse_facet(source, next, common, part, depth + 1);
+      }
+    }
+  }
+
+  // True for the foot of a wall perpendicular to the face with normal n, on its side.
+  static bool is_perpendicular_wall(const SharpEdge& edge, const Vec3& n) {
+    const auto faces = [&](const WedgeFrame& wedge) {
+      return wedge.face[0].n.dot(n) > 0.5 || wedge.face[1].n.dot(n) > 0.5;
+    };
+    const auto right = [](const WedgeFrame& wedge) { return std::abs(wedge.N - 0.5) < kFlat; };
+    return faces(edge.front_wedge) ? right(edge.front_wedge)
+                                   : edge.two_sided && faces(edge.back_wedge) && right(edge.back_wedge);
+  }
+
+  // Reflects the strip at a perpendicular wall back over the facet. The electric field is normal to the face,
+  // tangential to the wall, and changes sign.
+  void reflect(const GrazingSource& source, int facet, int side, const SharpEdge& foot, const RayStrip& strip,
+               int depth) {
+    if (source.wall_reflections >= kMaxWallReflections || source.in.grazing_waves > 0) return;
+    const Vec3 n = source.face.n.cross(foot.along());  // of the wall
+    if (source.wall_reflections == 0 && geometry_.monostatic && !reciprocal_)
+      add_wall_penumbra(source, facet, foot, n, strip);
+    const Mat3 reflection = householder(n);
+    const Vec3 shift = 2 * n.dot(foot.a) * n;
+    const GrazingSource image{source.in,
+                              source.face,
+                              reflection * source.start + shift,
+                              reflection * source.along,
+                              {-source.amplitude[0], -source.amplitude[1]},
+                              source.departure,
+                              source.thickness,
+                              source.wall_reflections + 1,
+                              source.unfolding * reflection,
+                              source.met_concave_edge};
+    const Vec3 u = reflection * strip.u;
+    traverse_facet(image, facet, side, {u, reflection * strip.w, strip.from + u.dot(shift), strip.to + u.dot(shift)},
+                   depth + 1);
+  }
+
+  // Adds the penumbra terms of the wall; `floor`: a facet of the edge's face at the foot of the wall.
+  void add_wall_penumbra(const GrazingSource& source, int floor, const SharpEdge& foot, const Vec3& n,
+                         const RayStrip& strip) {
+    WallBehindEdge wall{source.start, source.along, source.face.n, n.dot(strip.w) < 0 ? n : Vec3(-n), 0, 0, {}};
+    for (int end = 0; end < 2; ++end) {
+      const double u = end == 0 ? strip.from : strip.to;
+      wall.foot[end] = foot.a + (u - strip.u.dot(foot.a)) / strip.u.dot(foot.along()) * foot.along();
+      const double s = (u - strip.u.dot(source.start)) / strip.u.dot(source.along);
+      wall.ends_follow_edge[end] = s - source.in.s[0] < kCoincident || source.in.s[1] - s < kCoincident;
+    }
+    const auto panel_of = [&](int facet) {
+      return ReflectorPanel{facets_[facet].normal, panels_.outline(panels_.representative(facet))};
+    };
+    for (const int facet : foot.facet) {
+      if (std::abs(facets_[facet].normal.dot(n)) < 1 - kFlat) continue;
+      wall.image_weight = image_weight(geometry_.transmit.r, panel_of(floor), panel_of(facet));
+      for (const Vec3& x : panels_.outline(panels_.representative(facet)))
+        wall.height = std::max(wall.height, source.face.n.dot(x - foot.a));
+    }
+    if (wall.height < kCoincident) return;
+    EdgeContribution echo;  // of the wall, at its foot
+    echo.facet = foot.facet[0];
+    echo.part = facets_[foot.facet[0]].part;
+    echo.other_part = facets_[foot.facet[1]].part;
+    echo.bounces = 2;
+    echo.mechanism = Mechanism::kWallPenumbra;
+    append_wall_penumbra(wall, geometry_.transmit, echo, limits_.k, limits_.min_amplitude_m, out_);
+  }
+
+  void diffract(const GrazingSource& source, int number, const RayStrip& strip) {
+    const EdgeIncidentWave& in = source.in;
+    const SharpEdge& edge = edges_.edges[number];
+    const Vec3& along = edge.along();
+    const double across = strip.u.dot(along);
+    if (edge.collinear_length_m < limits_.min_run_m || std::abs(across) < kParallelSine) return;
+    const WedgeFrame* wedge = illuminated_wedge(edge, grazing(source.face, strip.w));
+    if (!wedge) return;
+    // Interval of this edge that the strip meets, and the wave on it; the rays come from the first edge without
+    // crossing.
+    const auto place = [&](double u) { return (u - strip.u.dot(edge.a)) / across; };
+    EdgeIncidentWave next = in;
+    next.edge = number;
+    next.s = {std::min(place(strip.from), place(strip.to)), std::max(place(strip.from), place(strip.to))};
+    next.direction = grazing(source.face, strip.w);
+    next.E = {source.face.n, source.face.n};
+    ++next.grazing_waves;
+    next.wall_reflections = source.wall_reflections;
+    next.unfolding = source.unfolding;
+    next.previous_direction = in.direction;
+    next.thickness = source.thickness;
+    for (int end = 0; end < 2; ++end) {
+      const Vec3 Q2 = edge.a + next.s[end] * along;
+      const double s1 = strip.u.dot(Q2 - source.start) / strip.u.dot(source.along);
+      const double fraction = (s1 - in.s[0]) / (in.s[1] - in.s[0]);
+      next.l[end] = std::max(0.0, strip.w.dot(Q2 - source.start - s1 * source.along));
+      next.psi[end] = interpolate(in.psi, fraction) - next.l[end];
+      next.X[end] = interpolate(in.X, fraction);
+    }
+    if (mean_inverse_sqrt_length(next.l) > 2e4) return;
+    next.met_concave_edge = source.met_concave_edge;
+    next.departure = source.departure;
+    if (in.grazing_waves > 0)
+      next.detour_m[in.grazing_waves - 1] = 2 * in.departure / std::pow(mean_inverse_sqrt_length(in.l), 2);
+    for (int q = 0; q < 2; ++q) next.factor[q] = 0.5 * source.amplitude[q];  // half of the total field is incident
+    // Paths that end at a concave edge are traced from there (trace_diffraction_to_concave_edges).
+    if (wedge->N > 1) {
+      for (const EdgeIllumination* departure : outgoing_.of(number))
+        radiate_towards(next, *wedge, source.face, strip.w, *departure);
+    }
+    if (next.grazing_waves < kMaxGrazingWaves && edge.collinear_length_m >= limits_.min_run_high_order_m &&
+        next.wall_reflections == 0)
+      relaunch(next);
+  }
+
+  // True when the wave launched along a face can reach min_amplitude_m: evaluated for a next edge with constant phase
+  // and a diffraction coefficient of one. The omitted waves of the ship sum to -89 dB.
+  bool is_significant(const GrazingSource& source) const {
+    const EdgeIncidentWave& in = source.in;
+    const double fields = std::abs(source.amplitude[0]) + std::abs(source.amplitude[1]);
+    if (in.grazing_waves == 0) return fields > kNoField;
+    return fields * spread_[in.grazing_waves + 1] * std::sqrt(in.s[1] - in.s[0]) > limits_.min_amplitude_m;
+  }
+
+  // True when a contribution can reach min_amplitude_m, for a phase rate `rate` along an interval of that length:
+  // transition functions are at most 1 and at most sqrt(pi x).
+  bool is_significant(const EdgeIncidentWave& in, const Vec3& w, const Vec3& s, double arrival, double rate,
+                      double length) const {
+    const double fields = std::abs(in.factor[0]) + std::abs(in.factor[1]);
+    const double shadow = std::min(in.departure, arrival);
+    const double decay = std::min(1 / std::sqrt(std::min(in.l[0], in.l[1])), std::sqrt(2 * kPi * limits_.k * shadow));
+    const double extent = length / std::max(limits_.k * std::abs(rate) * length, 1.0);
+    return fields * kMaxCurrent / one_minus_cosine(w, s) * spread_[in.grazing_waves] * decay * extent >=
+           limits_.min_amplitude_m;
+  }
+
+  // Appends the contribution of a grazing wave that leaves by an exit path of the same edge.
+  void radiate_towards(const EdgeIncidentWave& in, const WedgeFrame& wedge, const WedgeFace& face, const Vec3& w,
+                       const EdgeIllumination& departure) {
+    const SharpEdge& edge = edges_.edges[in.edge];
+    if (is_reflected(departure) || illuminated_wedge(edge, departure.direction) != &wedge) return;
+    const std::array<double, 2> s{std::max(in.s[0], departure.s[0]), std::min(in.s[1], departure.s[1])};
+    if (s[1] - s[0] < kCoincident) return;
+    const double weight = in.wall_reflections > 0 || (reciprocal_ && in.grazing_waves == 1)
+                              ? grazing_wave_weight(in.previous_direction, in.unfolding * -departure.direction)
+                              : 1.0;
+    if (weight <= 0) return;
+    const Vec3& along = edge.along();
+    const Vec3 out = -departure.direction;
+    const double arrival = transition_parameter(w, out);
+    const double rate =
+        (in.psi[1] - in.psi[0]) / (in.s[1] - in.s[0]) + geometry_.receive.r.dot(departure.image_edge_direction);
+    if (!is_significant(in, w, out, arrival, rate, s[1] - s[0])) return;
+    EdgeContribution contribution;
+    contribution.length = s[1] - s[0];
+    contribution.facet = edge.facet[0];
+    contribution.part = facets_[edge.facet[0]].part;
+    contribution.other_part = facets_[edge.facet[1]].part;
+    contribution.bounces = static_cast<std::uint8_t>(in.wall_reflections + in.grazing_waves + 1);
+    contribution.mechanism = in.met_concave_edge ? Mechanism::kConcaveEdge : Mechanism::kMultipleDiffraction;
+    GrazingWaveAmplitude range;
+    for (int end = 0; end < 2; ++end) {
+      const double fraction = (s[end] - in.s[0]) / (in.s[1] - in.s[0]);
+      const Vec3 Y = departure.image_start + s[end] * departure.image_edge_direction;
+      contribution.psi[end] = interpolate(in.psi, fraction) + geometry_.receive.r.dot(Y);
+      contribution.gradient[end].transmit = interpolate(in.X, fraction);
+      contribution.gradient[end].receive = Y;
+      range.l[end] = interpolate(in.l, fraction);
+    }
+    range.launch_parameter = in.departure;
+    range.exit_parameter = arrival;
+    range.detour_m = in.detour_m;
+    range.grazing_waves = in.grazing_waves;
+    contribution.amplitude = range;
+    const Vec3 J = weight * second_edge_current(wedge, face, along, w, out);
+    const double h = departure.E_h.dot(J), v = departure.E_v.dot(J);
+    EdgePattern& pattern = contribution.pattern;
+    pattern.thin = {h * in.factor[0], h * in.factor[1], v * in.factor[0], v * in.factor[1]};
+    const ThicknessChange thickness = with_edge(in.thickness, wedge, out);
+    pattern.thickness_m = thickness.thickness_m;
+    for (int i = 0; i < 4; ++i) {
+      pattern.thickness_linear[i] = pattern.thin[i] * thickness.change.constant;
+      pattern.thickness_log[i] = pattern.thin[i] * thickness.change.logarithm;
+    }
+    out_.push_back(contribution);
+  }
+
+  const SharpEdges& edges_;
+  std::span<const Facet> facets_;
+  const Panels& panels_;
+  const BistaticGeometry& geometry_;
+  const IlluminationByEdge& outgoing_;
+  MultipleDiffractionLimits limits_;
+  bool reciprocal_;  // traced from concave edges, for paths that end there
+  std::vector<EdgeContribution>& out_;
+  std::array<double, kMaxGrazingWaves + 1> spread_{1.0};  // k^(-waves / 2), m^(waves / 2)
+};
+
+}  // namespace
+
+void trace_multiple_diffraction(const SharpEdges& edges, std::span<const Facet> facets, const Panels& panels,
+                                const BistaticGeometry& geometry, EdgeIlluminations incoming,
+                                const IlluminationByEdge& outgoing, const MultipleDiffractionLimits& limits,
+                                std::vector<EdgeContribution>& contributions) {
+  MultipleDiffractionTracer waves(edges, facets, panels, geometry, outgoing, limits, false, contributions);
+  for (const EdgeIllumination* in : incoming) {
+    if (!is_reflected(*in)) waves.launch(*in);
+  }
+}
+
+void trace_diffraction_to_concave_edges(const SharpEdges& edges, std::span<const Facet> facets, const Panels& panels,
+                                        const BistaticGeometry& geometry, const IlluminationByEdge& incoming,
+                                        EdgeIlluminations outgoing, const MultipleDiffractionLimits& limits,
+                                        std::vector<EdgeContribution>& contributions) {
+  const BistaticGeometry exchanged{geometry.receive, geometry.transmit, geometry.monostatic};
+  std::vector<EdgeContribution> back;
+  MultipleDiffractionTracer waves(edges, facets, panels, exchanged, incoming, limits, true, back);
+  for (const EdgeIllumination* out : outgoing) {
+    const WedgeFrame* wedge = illuminated_wedge(edges.edges[out->edge], out->direction);
+    if (!is_reflected(*out) && wedge && wedge->N < 1) waves.launch(*out);
+  }
+  for (EdgeContribution& contribution : back) {
+    for (PathGradient& gradient : contribution.gradient) std::swap(gradient.transmit, gradient.receive);
+    contribution.pattern = transposed(contribution.pattern);
+    contributions.push_back(contribution);
+  }
+}
+
+}  // namespace seaglint

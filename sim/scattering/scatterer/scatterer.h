@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// Target geometry and materials of the solver, independent of the look direction.
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "sim/core/numbers/constants.h"
+#include "sim/scattering/coefficients/material.h"
+#include "sim/scattering/scatterer/bodies.h"
+#include "sim/scattering/scatterer/embree_scene.h"
+#include "sim/scattering/scatterer/facets.h"
+#include "sim/scattering/scatterer/merged_facets.h"
+#include "sim/scattering/scatterer/panel_bvh.h"
+#include "sim/scattering/scatterer/panels.h"
+#include "sim/scattering/scatterer/sharp_edges.h"
+#include "sim/scattering/scatterer/smooth_surface.h"
+
+namespace seaglint {
+
+// Facets, smooth surface, panels, sharp edges and the panel hierarchy of a target. Built once per mesh; safe to share
+// between threads. Their coordinates are those of the mesh relative to centre(), so that no tolerance and no rounding
+// depends on where a file has its origin; the response adds the phase of the origin (origin_phase() in
+// solver/scattering_matrix.h) or the motion of the centre.
+class Scatterer {
+ public:
+  // materials[i]: material of mesh.materials[i]; empty: perfect conductor. crease_rad: adjacent facets whose normals
+  // differ by less form one smooth surface, 0..pi; 0: all facets flat; absent: planar faces are triangulated anew and
+  // the shape determines which facets form a smooth surface (smooth_sides_by_shape()). sheet_thickness_m: thickness of
+  // open surfaces at their free edges, m. merging_m: tolerance to which facets of smooth surfaces are merged
+  // (merged_facets.h), m; 0, and with crease_rad: they stay as meshed. Throws InputError when every triangle is
+  // degenerate.
+  explicit Scatterer(const TriangleMesh& mesh, std::vector<MaterialSpec> materials = {},
+                     std::optional<double> crease_rad = std::nullopt, double sheet_thickness_m = 0,
+                     double merging_m = 0);
+
+  // Movable only: surface and panels refer to the facets.
+  Scatterer(Scatterer&&) = default;
+  Scatterer& operator=(Scatterer&&) = default;
+
+  std::span<const Facet> facets() const { return facets_; }
+  const SmoothSurface& surface() const { return surface_; }
+  const Panels& panels() const { return panels_; }
+  const PanelBvh& tree() const { return tree_; }
+  // Facets as an Embree scene, made at the first call.
+  const RayScene& ray_scene() const;
+  const SharpEdges& edges() const { return edges_; }
+  double sheet_thickness() const { return sheet_thickness_; }  // m
+  // Bounding sphere: its centre in the body frame, rounded to 1e-6 of its radius, and its radius about that, m.
+  const Vec3& centre() const { return centre_; }
+  double radius() const { return radius_; }
+  // Size of the body of each facet, which determines the detail on it.
+  const BodySizes& bodies() const { return bodies_; }
+  std::span<const MaterialSpec> materials() const { return materials_; }  // empty: perfect conductor
+
+ private:
+  Vec3 centre_;
+  std::vector<Facet> facets_;
+  double radius_ = 0, sheet_thickness_ = 0;
+  SmoothSurface surface_;
+  Panels panels_;
+  SharpEdges edges_;
+  PanelBvh tree_;
+  BodySizes bodies_;
+  std::vector<MaterialSpec> materials_;
+  struct RaySceneOnDemand;
+
+  // A mesh about its centre.
+  struct CentredSurface {
+    Vec3 centre;
+    MergedFacets surface;
+  };
+  static CentredSurface centred(const TriangleMesh& mesh, std::optional<double> crease_rad, double merging_m);
+  Scatterer(CentredSurface of, std::vector<MaterialSpec> materials, std::optional<double> crease_rad,
+            double sheet_thickness_m);
+
+  std::shared_ptr<RaySceneOnDemand> ray_scene_;
+};
+
+}  // namespace seaglint

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// Plan of an interval: the directions in which a body is traced, and the weight of every trace at every pulse.
+
+#include <span>
+#include <vector>
+
+#include "sim/motion/kinematics/trajectory.h"
+#include "sim/scattering/observation/frequency_response.h"
+#include "sim/scattering/observation/line_of_sight.h"
+#include "sim/scattering/observation/look_direction_path.h"
+#include "sim/scattering/solver/illumination.h"
+
+namespace seaglint {
+
+// One propagation path of a trace, direct or via the sea.
+struct PlannedPath {
+  PropagationPath path;
+  BistaticGeometry geometry;    // traced directions, body frame
+  LookDirectionPath look_path;  // over the pulses of the trace
+};
+
+struct PlannedTrace {
+  int first = 0, last = -1;  // pulses with a weight > 0; none when last < first
+  std::vector<PlannedPath> paths;
+};
+
+// Limits of the motion of a look direction under one trace, rad.
+struct TraceLimits {
+  double aspect_change = 0;  // length of its path
+  double cross_track = 0;    // departure from a straight track
+};
+
+// Divides the interval into equal spans, each traced at its middle. Between two of these instants the responses are
+// interpolated linearly; before the first and after the last one the nearest response is used.
+class TracePlan {
+ public:
+  // The trajectory must cover the interval of one or more pulses. r_hat in the target frame; the radar is at range_m
+  // from its origin, 0 = far field. centre: the point of the body, body frame, about which it is traced.
+  TracePlan(const Trajectory& trajectory, const IntervalSampling& sampling, const Vec3& r_hat, double range_m,
+            std::span<const PropagationPath> paths, const TraceLimits& limits, const Vec3& centre = Vec3::Zero());
+
+  std::span<const PlannedTrace> traces() const { return traces_; }
+  // Weight of a trace at a pulse; the weights of all traces sum to one.
+  double interpolation_weight(std::size_t trace, int pulse) const;
+  // Pose of the body about its centre at a pulse, and the look directions from the origin of the target frame.
+  const Pose& pose(int pulse) const { return poses_[static_cast<std::size_t>(pulse)]; }
+  const LineOfSight& sight(int pulse) const { return sights_[static_cast<std::size_t>(pulse)]; }
+  // Two-way path to the body's centre relative to that to the origin of the target frame, m, positive when shorter.
+  double path_advance(const PropagationPath& path, int pulse) const {
+    return sight(pulse).path_advance(path, pose(pulse).p, range_m_);
+  }
+
+ private:
+  struct Directions;
+  // Trace of one span, at the pose and look directions of its middle.
+  PlannedTrace planned(std::size_t trace, const Pose& pose, const LineOfSight& line_of_sight, const Directions& seen,
+                       std::span<const PropagationPath> paths) const;
+
+  double range_m_;
+  std::vector<double> time_;  // per pulse, 0 at the first and 1 at the last; 0 for a single pulse
+  std::vector<Pose> poses_;
+  std::vector<LineOfSight> sights_;
+  std::size_t spans_ = 1;
+  std::vector<PlannedTrace> traces_;
+};
+
+}  // namespace seaglint

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/scattering/sums/scattering_centres_3d.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "sim/core/numbers/constants.h"
+#include "sim/core/process/error.h"
+
+namespace seaglint {
+namespace {
+
+std::array<Complex, 4> echo_of(const PointContribution& c, double k) {
+  const Complex a = c.amplitude * std::polar(1.0, k * c.psi);
+  std::array<Complex, 4> s{};
+  for (int i = 0; i < 4; ++i) s[i] = a * Complex(c.pattern[i]);
+  return s;
+}
+
+}  // namespace
+
+double ScatteringCentre3d::peak_rcs() const {
+  double max = 0;
+  for (const Complex& s : amplitude) max = std::max(max, std::norm(s));
+  return 4 * kPi * max;
+}
+
+std::vector<ScatteringCentre3d> cluster_centres(std::span<const PointContribution> contributions, double k,
+                                                double cell_m) {
+  SEAGLINT_CHECK(cell_m > 0, fmt::format("cells of {} m", cell_m));
+  using Key = std::array<std::int64_t, 7>;
+  struct Cell {
+    ScatteringCentre3d centre;
+    double weight = 0;
+  };
+  const auto cell = [&](double x) { return static_cast<std::int64_t>(std::floor(x / (2 * cell_m))); };
+  std::map<Key, Cell> cells;
+  for (const PointContribution& c : contributions) {
+    const Vec3 g = c.gradient.sum();
+    Cell& at = cells[{c.part, c.bounces, static_cast<std::int64_t>(c.mechanism), cell(c.psi), cell(g.x()), cell(g.y()),
+                      cell(g.z())}];
+    const auto s = echo_of(c, k);
+    double weight = 1e-300;
+    for (int i = 0; i < 4; ++i) {
+      at.centre.amplitude[i] += s[i];
+      weight = std::max(weight, std::abs(s[i]));
+    }
+    at.centre.part = c.part;
+    at.centre.bounces = c.bounces;
+    at.centre.mechanism = c.mechanism;
+    // Weighted running mean, inside the cell.
+    at.weight += weight;
+    at.centre.psi += (c.psi - at.centre.psi) * (weight / at.weight);
+    at.centre.gradient += (g - at.centre.gradient) * (weight / at.weight);
+  }
+  std::vector<ScatteringCentre3d> centres;
+  centres.reserve(cells.size());
+  for (const auto& [key, c] : cells) centres.push_back(c.centre);
+  std::stable_sort(centres.begin(), centres.end(), [](const ScatteringCentre3d& a, const ScatteringCentre3d& b) {
+    return a.peak_rcs() > b.peak_rcs();
+  });
+  return centres;
+}
+
+std::vector<std::array<Complex, 4>> facet_contributions(std::span<const PointContribution> contributions, double k,
+                                                        std::size_t facets) {
+  std::vector<std::array<Complex, 4>> echoes(facets);
+  for (const PointContribution& c : contributions) {
+    SEAGLINT_CHECK(c.facet >= 0 && static_cast<std::size_t>(c.facet) < facets,
+                   fmt::format("facet {} of {}", c.facet, facets));
+    const auto s = echo_of(c, k);
+    for (int i = 0; i < 4; ++i) echoes[static_cast<std::size_t>(c.facet)][i] += s[i];
+  }
+  return echoes;
+}
+
+}  // namespace seaglint

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reciprocity of scattering matrices and of their contributions: one antenna, over the sea.
+#include "sim/scattering/sums/reciprocity.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <utility>
+
+#include "tests/sim/scattering/solver_fixtures.h"
+#include "tests/sim/scattering/validation/reference_bodies.h"
+
+namespace seaglint {
+namespace {
+
+using namespace testing_echoes;
+
+constexpr double kRounding = 1e-12;
+const std::array kBand{2 * kPi * 0.95, 2 * kPi, 2 * kPi * 1.05};
+
+// A house on a hull, turned so that no face is along an axis: many bounces, large cross-polarisation.
+const Scatterer& turned_ship() {
+  static const Scatterer ship(
+      transformed(block_ship(), Eigen::AngleAxisd(0.4, Vec3(1, 2, -0.5).normalized()).toRotationMatrix(), {3, -1, 2}));
+  return ship;
+}
+
+double distance(const std::array<Complex, 4>& a, const std::array<Complex, 4>& b) {
+  double sum = 0;
+  for (int i = 0; i < 4; ++i) sum += std::norm(a[i] - b[i]);
+  return std::sqrt(sum);
+}
+
+TEST(Reciprocity, OneAntennaHasEqualCrossPolarisations) {
+  double one_way = 0, cross = 0;
+  for (const double azimuth : {12.0, 33.0, 71.0, 130.0}) {
+    const std::array view{monostatic(radar_basis(direction(azimuth, 17)))};
+    const auto echoes = scattering_matrices(turned_ship(), view, kBand, {})[0];
+    const auto from_transmitter = one_way_matrices(turned_ship(), view, kBand, {})[0];
+    for (std::size_t q = 0; q < kBand.size(); ++q) {
+      EXPECT_EQ(echoes[q][kHvChannel], echoes[q][kVhChannel]) << azimuth;
+      EXPECT_EQ(echoes[q][kHhChannel], from_transmitter[q][kHhChannel]) << azimuth;
+      one_way += std::norm(from_transmitter[q][kHvChannel] - from_transmitter[q][kVhChannel]);
+      cross += std::norm(echoes[q][kHvChannel]);
+    }
+  }
+  std::printf("one antenna: |hv - vh| of the beams alone %.3f of hv\n", std::sqrt(one_way / cross));
+  EXPECT_GT(one_way, 0.01 * cross);  // else the first check would hold without the mean
+}
+
+TEST(Reciprocity, ExchangedPairsAreFound) {
+  const RadarBasis a = radar_basis(direction(33, 17)), b = radar_basis(direction(60, 8)),
+                   c = radar_basis(direction(20, 10));
+  const std::array pairs{bistatic(a, b), monostatic(a), bistatic(b, a), bistatic(a, c)};
+  EXPECT_EQ(exchanged_pair(pairs, 0), 2);
+  EXPECT_EQ(exchanged_pair(pairs, 1), 1);
+  EXPECT_EQ(exchanged_pair(pairs, 2), 0);
+  EXPECT_EQ(exchanged_pair(pairs, 3), std::nullopt);
+}
+
+TEST(Reciprocity, PointsOfAViewSumToItsMatrix) {
+  const RadarBasis a = radar_basis(direction(33, 17)), b = radar_basis(direction(60, 8));
+  for (const BistaticGeometry& geometry : {monostatic(a), bistatic(a, b)}) {
+    const AspectContributions view = aspect_contributions(turned_ship(), geometry, {kBand[1], 1e-3}, {});
+    const auto matrix = scattering_matrices(turned_ship(), geometry, {&kBand[1], 1}, {})[0];
+    EXPECT_LT(distance(view.matrix, matrix), kRounding * largest(matrix));
+    const auto sum = direct_sum(view.points, kBand[1], Vec3::Zero());
+    EXPECT_LT(distance(sum, view.matrix), 1e-5 * largest(view.matrix));  // patterns of points are of single precision
+  }
+}
+
+// The groove of grooves.py: two arms of 3 wavelengths at this angle, 0.4 thick and 3 high, open towards azimuth 0.
+TriangleMesh groove(double angle_deg) {
+  const double half = radians(angle_deg / 2);
+  const Vec2 end = 3 * Vec2(std::cos(half), std::sin(half)), back = end + 0.4 * Vec2(-std::sin(half), std::cos(half));
+  return prism({{0, 0}, end, back, {-0.4 / std::sin(half), 0}, {back.x(), -back.y()}, {end.x(), -end.y()}}, 3);
+}
+
+// Cross-polarised echo of grooves off their axis, where beams leave them in other directions than they came from: hv
+// and vh of the beams, one of which is zero by physical optics alone, and their mean against integral equations. It is
+// predicted as to its order only. The mean is the better one of the two or close to it, but for the groove of 25 deg at
+// 30 deg: its beams of five to eight reflections are narrower than a wavelength, physical optics gives them up to 0.6
+// of vh where the exact value is 0.03, and hv alone, to which they do not contribute, is nearer.
+TEST(Reciprocity, MeanOfBothSensesIsNearestToIntegralEquations) {
+  // Largest error of the mean relative to the exact value, by angle and elevation.
+  const std::map<std::pair<double, double>, double> reached{{{25, 5}, 1.48}, {{25, 15}, 1.14}, {{25, 30}, 1.99},
+                                                            {{80, 5}, 1.03}, {{80, 15}, 0.82}, {{80, 30}, 0.59}};
+  std::map<std::pair<double, double>, std::array<double, 4>> sums;  // errors of hv, vh, mean; power of the exact hv
+  for (const double angle : {25.0, 80.0}) {
+    const Scatterer body(groove(angle));
+    for (const auto& row : read_csv("grooves.csv")) {
+      if (std::stod(row[0]) != angle) continue;
+      const std::array view{monostatic(radar_basis(direction(std::stod(row[1]), std::stod(row[2]))))};
+      const auto s = one_way_matrices(body, view, std::array{2 * kPi}, {7e-5, 12, true})[0][0];
+      const Complex exact(std::stod(row[5]), std::stod(row[6]));
+      auto& sum = sums[{angle, std::stod(row[2])}];
+      sum[0] += std::norm(s[kHvChannel] - exact);
+      sum[1] += std::norm(s[kVhChannel] - exact);
+      sum[2] += std::norm(0.5 * (s[kHvChannel] + s[kVhChannel]) - exact);
+      sum[3] += std::norm(exact);
+    }
+  }
+  ASSERT_EQ(sums.size(), 6);
+  double all_hv = 0, all_vh = 0, all_mean = 0;
+  for (const auto& [place, sum] : sums) {
+    const auto relative = [&sum = sum](int i) { return std::sqrt(sum[i] / sum[3]); };
+    std::printf("groove of %g deg, elevation %g deg: error of hv %.2f, of vh %.2f, of their mean %.2f of it\n",
+                place.first, place.second, relative(0), relative(1), relative(2));
+    constexpr double kLastDigit = 0.01;  // of the figures above
+    EXPECT_LT(relative(2), reached.at(place) + kLastDigit) << place.first << ' ' << place.second;
+    if (place != std::pair{25.0, 30.0}) {
+      EXPECT_LT(relative(2), 1.2 * std::min(relative(0), relative(1))) << place.first << ' ' << place.second;
+    }
+    all_hv += sum[0];
+    all_vh += sum[1];
+    all_mean += sum[2];
+  }
+  EXPECT_LT(all_mean, std::min(all_hv, all_vh));
+}
+
+TEST(Reciprocity, TheEstimateIsHalfOfTheDifferenceOfTheBeams) {
+  const Scatterer body(groove(80));
+  const TracingSettings settings{7e-5, 12, false};
+  const std::array view{monostatic(radar_basis(direction(20, 15)))};
+  std::vector<ViewEstimate> estimates;
+  scattering_matrices(body, view, {&kBand[1], 1}, settings, 1, nullptr, nullptr, {}, &estimates);
+  const auto s = one_way_matrices(body, view, {&kBand[1], 1}, settings)[0][0];
+  EXPECT_GT(std::abs(s[kHvChannel] - s[kVhChannel]), 0.1);
+  EXPECT_LT(std::abs(estimates[0].all().non_reciprocal - 0.5 * (s[kHvChannel] - s[kVhChannel])), 1e-9);
+
+  // Over a conducting sea hv and vh of the image have the factor -1, and the mixed paths do not count.
+  SeaReflectionSpec spec;
+  spec.surface = SeaSurface::kConductor;
+  const double height = 2.3, k = kBand[1];
+  ViewEstimate over_sea(k);
+  scattering_matrices_over_sea(body, view[0].receive.r, height, SeaReflection(spec, 0), {&k, 1}, settings, 1, nullptr,
+                               nullptr, 0, &over_sea);
+  const std::array image{monostatic(image_basis(view[0].receive))};
+  const auto of_image = one_way_matrices(body, image, {&k, 1}, settings)[0][0];
+  const Complex detour = std::polar(1.0, -4 * k * height * view[0].receive.r.z());
+  const Complex expected =
+      0.5 * (s[kHvChannel] - s[kVhChannel]) - 0.5 * detour * (of_image[kHvChannel] - of_image[kVhChannel]);
+  EXPECT_LT(std::abs(over_sea.all().non_reciprocal - expected), 1e-9);
+}
+
+TEST(Reciprocity, HoldsOverTheSea) {
+  SeaReflectionSpec spec;
+  spec.enabled = true;
+  const SeaReflection sea(spec, 0.3);
+  for (const double azimuth : {12.0, 71.0}) {
+    const auto s = scattering_matrices_over_sea(Scatterer(block_ship()), direction(azimuth, 17), 1.5, sea, kBand, {});
+    for (std::size_t q = 0; q < kBand.size(); ++q)
+      EXPECT_LT(std::abs(s[q][kHvChannel] - s[q][kVhChannel]), kRounding * largest(s[q])) << azimuth;
+  }
+}
+
+}  // namespace
+}  // namespace seaglint
