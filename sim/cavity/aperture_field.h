@@ -8,7 +8,7 @@
 
 #include "sim/cavity/cavity_aperture.h"
 #include "sim/cavity/wall_currents.h"
-#include "sim/scattering/radiation/footprint.h"
+#include "sim/scattering/radiation/contribution.h"
 #include "sim/scattering/scatterer/embree_scene.h"
 
 namespace seaglint {

@@ -11,7 +11,7 @@
 #include "sim/cavity/wall_currents.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
-#include "sim/scattering/solver/scattering_matrix.h"
+#include "sim/scattering/observation/observation.h"
 
 namespace seaglint {
 namespace {

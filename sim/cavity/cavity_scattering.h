@@ -12,7 +12,7 @@
 #include "sim/cavity/wall_patches.h"
 #include "sim/core/process/parallel.h"
 #include "sim/geometry/mesh/triangle_mesh.h"
-#include "sim/scattering/observation/bistatic_geometry.h"
+#include "sim/scattering/observation/observation.h"
 #include "sim/scattering/scatterer/embree_scene.h"
 #include "sim/scattering/scatterer/scatterer.h"
 

@@ -264,7 +264,6 @@ void visit(SolverSpec& spec, FieldVisitor& v) {
   v.number("min_patch_m", spec.min_patch_m, zero_or_within(5e-5, 1));
   v.integer("max_bounces", spec.max_bounces, within(1, kMaxBounces));
   v.number("max_aspect_change_deg", spec.max_aspect_change_deg, zero_or_within(0.001, 5));
-  v.flag("shared_traces", spec.shared_traces);
   v.number_or_auto("crease_deg", spec.crease_deg, within(0, 60));
   v.flag("edges", spec.edges);
   v.number("wavefront_range_m", spec.wavefront_range_m, zero_or_within(100, 1e7));

@@ -221,9 +221,6 @@ constexpr Meaning kMeanings[] = {
     {"targets.NAME.solver.max_bounces", "Largest number of bounces."},
     {"targets.NAME.solver.max_aspect_change_deg",
      "Change of aspect that one trace serves, deg; 0: from wavelength and size."},
-    {"targets.NAME.solver.shared_traces",
-     "Slow intervals use traces of a lattice of look directions, each made once (co-polarised echoes without sea "
-     "reflection); faster for many intervals of one aspect in low waves."},
     {"targets.NAME.solver.crease_deg",
      "Adjacent facets whose normals differ by less form a smooth surface, deg; 0: all flat; auto: from the mesh's "
      "normals or its shape, finer facets than its curvature requires merged."},

@@ -105,7 +105,6 @@ struct SolverSpec {
   double min_patch_m = 0;             // (auto) side of the smallest illuminated patch kept, 0 or 5e-5 <= x <= 1
   int max_bounces = kDefaultBounces;  // 1 <= x <= kMaxBounces
   double max_aspect_change_deg = 0;   // (auto) aspect change covered by one aspect trace, 0 or 0.001 <= x <= 5
-  bool shared_traces = false;         // intervals share the traces of a lattice of look directions
   // Which facets form a smooth surface: those whose normals differ by less than this crease angle, 0 <= x <= 60, 0 =
   // none; absent: as the mesh's normals or its shape say (sim/scattering/scatterer).
   std::optional<double> crease_deg = {};

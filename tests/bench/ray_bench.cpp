@@ -8,15 +8,14 @@
 #include "sim/geometry/shapes/generators.h"
 #include "sim/scattering/points/phase_integral.h"
 #include "sim/scattering/scatterer/embree_scene.h"
-#include "sim/scattering/solver/scattering_matrix.h"
-#include "sim/scattering/tracing/beam_segment.h"
+#include "tests/sim/scattering/solve_calls.h"
+#include "sim/scattering/tracing/interaction.h"
 #include "sim/scattering/tracing/ray_refinement.h"
 #include "tests/bench/ship.h"
 
 namespace seaglint {
 namespace {
 
-using Matrices = std::vector<std::array<Complex, 4>>;
 
 // Flat facets for both solvers.
 const Scatterer& flat_ship() {
@@ -102,7 +101,7 @@ class RaySolver {
       for (const Tube& tube : tubes) rays.push_back(tube.ray);
       const std::vector<int> hits = first_hits(rays);
       std::vector<Tube> reflected;
-      std::vector<Footprint> footprints;
+      std::vector<Contribution> contributions;
       std::vector<Ray> to_radar;
       for (std::size_t i = 0; i < tubes.size(); ++i) {
         if (hits[i] == kNoFacet) continue;
@@ -114,7 +113,7 @@ class RaySolver {
         const double distance = n.dot(facet.corner[0] - tube.ray.origin) / n.dot(tube.segment.direction);
         const Vec3 hit = tube.ray.origin + distance * tube.segment.direction + kOffSurface * n;
         if (n.dot(geometry_.receive.r) > 1e-6) {
-          footprints.push_back(footprint(tube, facet, n, cosine, bounce));
+          contributions.push_back(contribution(tube, facet, n, cosine));
           to_radar.push_back({hit, geometry_.receive.r});
         }
         tube.segment.image_transform = {
@@ -128,10 +127,10 @@ class RaySolver {
       }
       // The first hit is visible to the radar.
       const std::vector<int> hidden = bounce == 1 ? std::vector<int>(to_radar.size(), kNoFacet) : first_hits(to_radar);
-      for (std::size_t i = 0; i < footprints.size(); ++i) {
+      for (std::size_t i = 0; i < contributions.size(); ++i) {
         if (hidden[i] != kNoFacet) continue;
         for (std::size_t q = 0; q < k.size(); ++q) {
-          const std::array<Complex, 4> s = scattered(footprints[i], k[q]);
+          const std::array<Complex, 4> s = scattered(contributions[i], geometry_, k[q]);
           for (int c = 0; c < 4; ++c) sum[q][c] += s[c];
         }
       }
@@ -139,19 +138,17 @@ class RaySolver {
     }
   }
 
-  Footprint footprint(const Tube& tube, const Facet& facet, const Vec3& n, double cosine, int bounce) const {
+  Contribution contribution(const Tube& tube, const Facet& facet, const Vec3& n, double cosine) const {
     Footprint footprint;
     footprint.image_transform = tube.segment.image_transform;
     const Vec3 n_image = tube.segment.image_transform.L * facet.normal;
     footprint.plane =
         depth_plane(n_image, n_image.dot(tube.segment.image_transform.image(facet.corner[0])), geometry_.transmit);
-    footprint.bounces = static_cast<std::uint8_t>(bounce);
     set_phase(footprint, n_image, geometry_);
-    footprint.pattern = pec_pattern(tube.segment, n, cosine, geometry_.receive);
     const double half = side_ / 2;
     for (const Vec2& corner : {Vec2(-half, -half), Vec2(half, -half), Vec2(half, half), Vec2(-half, half)})
       footprint.polygon.push_back({tube.p + corner, Vec2::Zero(), Vec2::Zero()});
-    return footprint;
+    return {{pec_pattern(tube.segment, n, cosine, geometry_.receive)}, {}, footprint};
   }
 
   const Scatterer& scatterer_;
@@ -174,8 +171,9 @@ struct SearchTime {
 };
 SearchTime time_of_search(const Scatterer& scatterer, const RadarBasis& basis, const TracingSettings& settings) {
   const RayLattice lattice(scatterer, basis, ray_spacing(scatterer, settings));
-  const std::vector<Receiver> receivers{{monostatic(basis), nullptr}};
-  const TracingContext scene{scatterer, basis, receivers, settings, nullptr, {}, SmallestAreas(scatterer, settings)};
+  const Aspect aspect(scatterer, basis, settings, 1);
+  const std::vector<Receiver> receivers{{monostatic(basis), aspect.visible}};
+  const TracingContext scene{scatterer, basis, receivers, settings, aspect.visible, {}, SmallestAreas(scatterer, settings)};
   SearchTime search;
   search.all_s = fastest_of_three([&] {
     RayPaths paths(scene);
@@ -218,7 +216,7 @@ void ShipSbrReference(benchmark::State& state) {
     });
     const double interval = fastest_of_three([&] {
       return processor_seconds([&] {
-        benchmark::DoNotOptimize(body_response(ship(), trajectory, r, Polarisation::kVv, paper_interval(), {}, 1));
+        benchmark::DoNotOptimize(interval_response(ship(), trajectory, r, Polarisation::kVv, paper_interval(), {}, 1));
       });
     });
     state.counters["rays_dB"] = relative_error_db(by_rays, exact);

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/scattering/observation/bistatic_geometry.h"
+#include "sim/scattering/observation/observation.h"
 #include "sim/scattering/scatterer/prepare_target.h"
-#include "sim/scattering/solver/body_response.h"
+#include "sim/scattering/solver/solve.h"
 
 namespace seaglint {
 

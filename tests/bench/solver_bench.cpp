@@ -6,7 +6,7 @@
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/shapes/generators.h"
 #include "sim/scattering/scatterer/embree_scene.h"
-#include "sim/scattering/solver/scattering_matrix.h"
+#include "tests/sim/scattering/solve_calls.h"
 #include "tests/bench/ship.h"
 
 namespace seaglint {
@@ -50,7 +50,7 @@ void ShipInterval(benchmark::State& state) {
   double solver = 0;
   for (auto _ : state) {
     solver += processor_seconds([&] {
-      benchmark::DoNotOptimize(body_response(ship(), trajectory, r, Polarisation::kVv, paper_interval(), {}, 2));
+      benchmark::DoNotOptimize(interval_response(ship(), trajectory, r, Polarisation::kVv, paper_interval(), {}, 2));
     });
   }
   solver /= static_cast<double>(state.iterations());
@@ -64,7 +64,7 @@ void ShipIntervalRollingAtOneRms(benchmark::State& state) {
   const Trajectory trajectory = rolling(0.014, {0, 0, 1.7});
   const Vec3 r = direction(static_cast<double>(state.range(0)));
   int traces = 0;
-  for (auto _ : state) traces = body_response(ship(), trajectory, r, Polarisation::kVv, paper_interval(), {}, 2).traces;
+  for (auto _ : state) traces = interval_response(ship(), trajectory, r, Polarisation::kVv, paper_interval(), {}, 2).traces;
   state.counters["traces"] = traces;
 }
 BENCHMARK(ShipIntervalRollingAtOneRms)->Arg(50)->Arg(90)->Unit(benchmark::kMillisecond)->UseRealTime();
@@ -75,7 +75,7 @@ void ReflectorInterval(benchmark::State& state) {
   const Trajectory trajectory = rolling(0.6, {0, 0, -0.75});
   int traces = 0;
   for (auto _ : state)
-    traces = body_response(reflector, trajectory, direction(80), Polarisation::kVv, paper_interval(), {}).traces;
+    traces = interval_response(reflector, trajectory, direction(80), Polarisation::kVv, paper_interval(), {}).traces;
   state.counters["traces"] = traces;
 }
 BENCHMARK(ReflectorInterval)->Unit(benchmark::kMillisecond)->UseRealTime();
@@ -92,7 +92,12 @@ void ShipAspect(benchmark::State& state) {
   const RadarBasis basis = radar_basis(direction(static_cast<double>(state.range(0))));
   const std::vector<double> k = frequency_sweep(static_cast<int>(state.range(1)));
   std::size_t segments = 0;
-  for (auto _ : state) benchmark::DoNotOptimize(scattering_matrices(ship(), monostatic(basis), k, {}, 2, &segments));
+  for (auto _ : state) {
+    const BistaticGeometry view = monostatic(basis);
+    const SolveResult solved = solve(views_request(ship(), std::span(&view, 1), k, {}, 2));
+    benchmark::DoNotOptimize(solved.views.data());
+    segments += solved.segments;
+  }
   state.counters["segments/s"] = benchmark::Counter(static_cast<double>(segments), benchmark::Counter::kIsRate);
 }
 BENCHMARK(ShipAspect)->Args({50, 1})->Args({50, 16})->Unit(benchmark::kMillisecond)->UseRealTime();
@@ -158,7 +163,7 @@ void ShipBand(benchmark::State& state) {
   sampling.pulse_time_s.push_back(0);
   const Trajectory rest = Trajectory::at_rest(Vec3::Zero());
   for (auto _ : state)
-    benchmark::DoNotOptimize(body_response(ship(), rest, direction(50), Polarisation::kVv, sampling, {}, 1));
+    benchmark::DoNotOptimize(interval_response(ship(), rest, direction(50), Polarisation::kVv, sampling, {}, 1));
 }
 BENCHMARK(ShipBand)
     ->ArgsProduct({{1, 2, 4, 8, 16, 32}, {320}})

@@ -14,7 +14,7 @@
 #include "sim/geometry/mesh/mesh_builder.h"
 #include "sim/geometry/shapes/solids.h"
 #include "sim/scattering/scatterer/prepare_target.h"
-#include "sim/scattering/solver/scattering_matrix.h"
+#include "tests/sim/scattering/solve_calls.h"
 #include "tests/temporary_folder.h"
 
 namespace seaglint {

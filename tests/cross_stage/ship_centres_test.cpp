@@ -9,8 +9,8 @@
 #include "radar/rvmap/rv_map.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/geometry/files/mesh_io.h"
-#include "sim/scattering/observation/bistatic_geometry.h"
-#include "sim/scattering/solver/body_response.h"
+#include "sim/scattering/observation/observation.h"
+#include "tests/sim/scattering/solve_calls.h"
 #include "sim/scattering/solver/point_response.h"
 #include "tests/measured.h"
 
@@ -57,7 +57,7 @@ TEST(ShipCentres, HoldsAtLeastTwentyScatteringCentresWithin30DbAtObliqueAspects)
   for (const double azimuth : {20.0, 40.0, 60.0, 120.0, 140.0, 160.0}) {
     const Vec3 r = direction_to_radar(radians(azimuth), radians(2));
     const FrequencyResponse response =
-        body_response(ship, trajectory, r, Polarisation::kVv, interval_sampling(train, 0.5), {}, 2).response;
+        interval_response(ship, trajectory, r, Polarisation::kVv, interval_sampling(train, 0.5), {}, 2).response;
     std::vector<Complex> echo(response.values.size());
     const std::size_t bins = train.chirp_spectrum.size();
     for (std::size_t i = 0; i < echo.size(); ++i) echo[i] = train.chirp_spectrum[i % bins] * response.values[i];

@@ -11,7 +11,7 @@
 #include "sim/core/numbers/random.h"
 #include "sim/core/process/file.h"
 #include "sim/field_tables/read_field_table.h"
-#include "sim/scattering/observation/bistatic_geometry.h"
+#include "sim/scattering/observation/observation.h"
 #include "tests/pipeline/program.h"
 
 namespace seaglint {

@@ -219,7 +219,6 @@ const std::vector<DrawnKey>& drawn_job_keys() {
       {"targets.NAME.solver.min_patch_m", "uniform(0.01, 0.02)"},
       {"targets.NAME.solver.max_bounces", "integers(1, 6)", "corner"},
       {"targets.NAME.solver.max_aspect_change_deg", "uniform(0.1, 0.5)"},
-      {"targets.NAME.solver.shared_traces", "choice(true, false)"},
       {"targets.NAME.solver.crease_deg", "choice(auto, 10)"},
       {"targets.NAME.solver.edges", "choice(true, false)"},
       {"targets.NAME.solver.wavefront_range_m", "uniform(5000, 20000)"},

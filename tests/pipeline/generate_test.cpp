@@ -178,29 +178,5 @@ TEST(Generate, WritesTheSameBytesOfRealTargetsForOneAndTwoThreads) {
   }
 }
 
-// Traces that intervals share are kept in another order by each division, and not at all between parts.
-TEST(Generate, WritesTheSameBytesWithSharedTracesForAnyDivision) {
-  const TemporaryFolder folder;
-  const auto generated = [&](const char* name, const std::vector<std::vector<std::string>>& runs,
-                             const char* shared = "true") {
-    for (const std::vector<std::string>& more : runs) {
-      std::vector<std::string> arguments{"generate", "scenarios/benchmark/rigid_twin.yaml", "-o", folder.path() / name};
-      for (const char* value : {"view.azimuth_deg=50", "sea.significant_wave_height_m=0.1", "dataset.maps_per_case=8",
-                                "dataset.realisations_per_case=2", "dataset.maps_per_shard=4"})
-        arguments.insert(arguments.end(), {"--set", value});
-      arguments.insert(arguments.end(), {"--set", std::string("targets.raft.solver.shared_traces=") + shared});
-      arguments.insert(arguments.end(), more.begin(), more.end());
-      const ProgramResult result = run_program(arguments);
-      EXPECT_EQ(result.code, 0) << result.err;
-    }
-    return bytes_of(folder.path() / name);
-  };
-  const Bytes whole = generated("whole", {{"--threads", "1"}});
-  EXPECT_THAT(differences(generated("threads", {{"--threads", "3"}}), whole), testing::IsEmpty());
-  EXPECT_THAT(differences(generated("parts", {{"--part", "2/2", "--resume"}, {"--part", "1/2", "--resume"}}), whole),
-              testing::IsEmpty());
-  EXPECT_NE(generated("own", {{"--threads", "1"}}, "false").at("shard_00000.h5"), whole.at("shard_00000.h5"));
-}
-
 }  // namespace
 }  // namespace seaglint

@@ -5,7 +5,7 @@
 #include "sim/core/numbers/fourier.h"
 #include "sim/core/process/parallel.h"
 #include "sim/geometry/shapes/generators.h"
-#include "sim/scattering/solver/body_response.h"
+#include "tests/sim/scattering/solve_calls.h"
 #include "tools/pipeline/pipeline.h"
 
 namespace seaglint {
@@ -25,7 +25,7 @@ TEST(Threads, SolverAndRadarPlanTheirTransformsConcurrently) {
   const Trajectory rest = Trajectory::at_rest(Vec3::Zero());
   const auto plan_both = [&](std::size_t i) {
     if (i % 2 == 0) {
-      body_response(plate, rest, Vec3::UnitX(), Polarisation::kVv, sampling, SolverSpec{.min_patch_m = 0.0035});
+      interval_response(plate, rest, Vec3::UnitX(), Polarisation::kVv, sampling, SolverSpec{.min_patch_m = 0.0035});
     } else {
       for (std::size_t length = 8; length < 300; ++length) FourierBatch(length + i % 7, 1, Fourier::kForward).execute();
     }

@@ -147,7 +147,7 @@ void run_rcs(const RcsArguments& arguments, const CommandContext& context) {
   print_error(fmt::format("{}: {} rows, {} views in {:.2f} s ({:.3g} views/s, {:.2f} M segments, {:.2f} M/s)\n",
                           arguments.output, sweep.rows(), sweep.views(), seconds, views / seconds, million_segments,
                           million_segments / seconds));
-  if (request.exports.wanted()) print_out("{}", export_view(request, target, result.contributions));
+  if (request.exports.wanted()) print_out("{}", export_view(request, target, result.points));
   for (PairedCut& cut : cuts) set_models(cut, sweep);
   if (!cuts.empty()) print_out("{}", error_table(cuts, arguments.reference.floor_db));
   if (!cuts.empty() || request.uncertainty) show_figure(arguments, cuts, sweep);

@@ -19,7 +19,7 @@ std::string main_contribution(const RcsRequest& request, const RcsTarget& target
   RcsRequest monostatic = request;
   monostatic.transmitter.reset();
   const RcsView view{place.azimuth_deg, place.elevation_deg, place.frequency_hz};
-  const GroupSums sums = group_sums(view_contributions(monostatic, target, view, 1, &stop).points,
+  const GroupSums sums = group_sums(view_contributions(monostatic, target, view, 1, &stop).views[0].points,
                                     2 * kPi * place.frequency_hz / kSpeedOfLight);
   const Polarisation element = element_of_quantity(quantity);
   const auto size = [&](const auto& group) {

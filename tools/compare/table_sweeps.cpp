@@ -8,7 +8,7 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/dbsm.h"
-#include "sim/scattering/observation/bistatic_geometry.h"
+#include "sim/scattering/observation/observation.h"
 #include "tools/compare/cut_angles.h"
 #include "tools/rcs/rcs_views.h"
 

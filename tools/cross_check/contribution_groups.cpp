@@ -9,12 +9,13 @@
 
 namespace seaglint {
 
-GroupSums group_sums(std::span<const PointContribution> contributions, double k) {
+GroupSums group_sums(std::span<const Point> points, double k) {
   GroupSums sums;
-  for (const PointContribution& c : contributions) {
-    std::array<Complex, 4>& sum = sums[{c.part, c.bounces, c.mechanism}];
-    const Complex field = c.amplitude * std::polar(1.0, k * c.psi);
-    for (std::size_t i = 0; i < 4; ++i) sum[i] += Complex(c.pattern[i]) * field;
+  for (const Point& point : points) {
+    ScatteringMatrix& sum = sums[{point.source.part, point.source.bounces, point.source.mechanism}];
+    const Complex phase = std::polar(1.0, k * point.psi);
+    const ScatteringMatrix matrix = point.matrix(0);
+    for (std::size_t i = 0; i < 4; ++i) sum[i] += phase * matrix[i];
   }
   return sums;
 }

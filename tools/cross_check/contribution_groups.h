@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "sim/core/numbers/linear.h"
-#include "sim/scattering/points/point_contributions.h"
+#include "sim/scattering/points/point.h"
 
 namespace seaglint {
 
@@ -24,10 +24,10 @@ struct ContributionGroup {
   auto operator<=>(const ContributionGroup&) const = default;  // NOLINT(modernize-use-nullptr): compares with 0
 };
 
-using GroupSums = std::map<ContributionGroup, std::array<Complex, 4>>;
+using GroupSums = std::map<ContributionGroup, ScatteringMatrix>;
 
 // hh, hv, vh, vv of every group that occurs, m, at wavenumber k; phase about the point that psi refers to.
-GroupSums group_sums(std::span<const PointContribution> contributions, double k);
+GroupSums group_sums(std::span<const Point> points, double k);
 
 // "part hull, 2 bounces, po"
 std::string text_of(const ContributionGroup& group, const std::vector<std::string>& part_names);

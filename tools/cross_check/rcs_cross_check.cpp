@@ -106,8 +106,8 @@ CrossCheck compare_solutions(const RcsRequest& beams, const RcsRequest& rays, co
         [&](std::size_t i) {
           const RcsView view{sweep.azimuth_of(i), sweep.elevation_of(i), check.grouped_hz};
           // One after the other: a view of a large target has millions of contributions.
-          const GroupSums of_beams = group_sums(view_contributions(beams, target, view, 1, stop).points, k);
-          set_groups(of_beams, group_sums(view_contributions(rays, target, view, 1, stop).points, k),
+          const GroupSums of_beams = group_sums(view_contributions(beams, target, view, 1, stop).views[0].points, k);
+          set_groups(of_beams, group_sums(view_contributions(rays, target, view, 1, stop).views[0].points, k),
                      &check.rows[2 * i]);
           ++done;
           progress.advance();

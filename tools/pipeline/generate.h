@@ -19,7 +19,7 @@ struct GenerateOptions {
   bool resume = false;  // keep existing shards that are valid
   int threads = 0;      // 0 = all processors
   // Response of a sample's target in place of a computed one; from any thread.
-  std::function<BodyResponse(std::size_t sample, const PulseTrain& train)> response = {};
+  std::function<IntervalResult(std::size_t sample, const PulseTrain& train)> response = {};
 };
 
 struct GenerateResult {

@@ -10,7 +10,7 @@
 
 #include "radar/rvmap/rv_map.h"
 #include "sim/core/numbers/constants.h"
-#include "sim/scattering/observation/bistatic_geometry.h"
+#include "sim/scattering/observation/observation.h"
 
 namespace seaglint {
 namespace {

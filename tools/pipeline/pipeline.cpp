@@ -10,7 +10,7 @@
 #include "classify/features/restored_map.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
-#include "sim/scattering/observation/bistatic_geometry.h"
+#include "sim/scattering/observation/observation.h"
 #include "sim/scattering/solver/point_response.h"
 
 namespace seaglint {
@@ -108,7 +108,7 @@ std::shared_ptr<const Scene> Pipeline::scene(int sea_state, int realisation) con
   });
 }
 
-BodyResponse Pipeline::target_response(std::size_t index, const Observation& seen, const StopFlag* stop) {
+IntervalResult Pipeline::target_response(std::size_t index, const ObservedInterval& seen, const StopFlag* stop) {
   const auto& [scenario, scene, view, state, sampling] = seen;
   const Target& target = (*scene->targets)[index];
   const Vec3 r_hat = direction_to_radar(view.azimuth_rad, view.elevation_rad);
@@ -121,15 +121,20 @@ BodyResponse Pipeline::target_response(std::size_t index, const Observation& see
       return {point_response_over_sea(spec.points, r_hat, sampling, scenario.radar.polarisation, *sea), 0};
     return {point_response(spec.points, r_hat, sampling), 0};
   }
-  BodyResponse sum;
+  IntervalResult sum;
   for (std::size_t i = 0; i < target.models.size(); ++i) {
     const Trajectory& body = scene->bodies[index][i];
     // A companion is at its given place at the start of the interval.
     const Trajectory carried =
         relative_velocity_mps.isZero(0) ? body : body.with_drift(relative_velocity_mps, sampling.pulse_time_s.front());
-    const TracedTarget& model = *target.models[i]->prepared;
-    const BodyResponse term = body_response(*model.scatterer, carried, r_hat, scenario.radar.polarisation, sampling,
-                                            spec.solver, 1, sea, stop, model.traces.get());
+    const IntervalResult term = solve({.scatterer = *target.models[i]->prepared->scatterer,
+                                       .trajectory = carried,
+                                       .r_hat = r_hat,
+                                       .polarisation = scenario.radar.polarisation,
+                                       .sampling = sampling,
+                                       .solver = spec.solver,
+                                       .sea = sea,
+                                       .stop = stop});
     sum.traces += term.traces;
     if (sum.response.values.empty()) {
       sum.response = term.response;
@@ -161,13 +166,13 @@ ClutterScene Pipeline::clutter_scene(const SampleAddress& at, const Scene& scene
           sea_and_view * scenario_.targets.size() + static_cast<std::uint64_t>(at.target)};
 }
 
-BodyResponse Pipeline::response(const SampleAddress& at, const PulseTrain& train, const StopFlag* stop) const {
-  const Observation seen{scenario_of(at), scene(at.sea_state, at.realisation), plan_.view(at), plan_.sea_state(at),
+IntervalResult Pipeline::response(const SampleAddress& at, const PulseTrain& train, const StopFlag* stop) const {
+  const ObservedInterval seen{scenario_of(at), scene(at.sea_state, at.realisation), plan_.view(at), plan_.sea_state(at),
                          sampling(train, plan_.start_s(at))};
   const auto target = static_cast<std::size_t>(at.target);
-  BodyResponse sum = target_response(target, seen, stop);
+  IntervalResult sum = target_response(target, seen, stop);
   for (const std::size_t companion : (*seen.scene->targets)[target].companions) {
-    const BodyResponse term = target_response(companion, seen, stop);
+    const IntervalResult term = target_response(companion, seen, stop);
     sum.response += term.response;
     sum.traces += term.traces;
   }
@@ -175,7 +180,7 @@ BodyResponse Pipeline::response(const SampleAddress& at, const PulseTrain& train
 }
 
 Echo Pipeline::echo_of(std::size_t sample, const SampleAddress& at, const PulseTrain& train,
-                       const BodyResponse& response, const Scene& scene) const {
+                       const IntervalResult& response, const Scene& scene) const {
   try {
     return synthesise_echo(train, response.response, scenario_of(at).clutter, scenario_.seed, sample,
                            clutter_scene(at, scene));
@@ -201,7 +206,7 @@ GeneratedSample Pipeline::generate_sample(std::size_t sample, const StopFlag* st
 }
 
 GeneratedSample Pipeline::received_sample(std::size_t sample, const PulseTrain& train,
-                                          const BodyResponse& response) const {
+                                          const IntervalResult& response) const {
   const SampleAddress at = plan_.address(sample);
   // Sea and motion are common to both classes and all views; hop code, clutter and noise are specific to the sample.
   const std::shared_ptr<const Scene> moving = scene(at.sea_state, at.realisation);

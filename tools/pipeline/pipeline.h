@@ -17,7 +17,7 @@
 #include "radar/waveform/pulse_train.h"
 #include "sim/core/process/parallel.h"
 #include "sim/core/process/shared_results.h"
-#include "sim/scattering/solver/body_response.h"
+#include "sim/scattering/solver/solve.h"
 #include "sim/scenario/sample_plan.h"
 #include "tools/pipeline/scene.h"
 
@@ -62,12 +62,12 @@ class Pipeline {
   // Its two steps after one another: the pulses of a sample; and the sample whose target has this response at their
   // times and frequencies. Throws InputError when the response has no power.
   PulseTrain pulse_train(std::size_t sample) const;
-  GeneratedSample received_sample(std::size_t sample, const PulseTrain& train, const BodyResponse& response) const;
+  GeneratedSample received_sample(std::size_t sample, const PulseTrain& train, const IntervalResult& response) const;
 
   double window_m() const { return range_window_m_; }  // full width of the range window of all its maps, m
 
   // Frequency response H of a sample's target with its companions, at the times and frequencies of `train`.
-  BodyResponse response(const SampleAddress& at, const PulseTrain& train, const StopFlag* stop = nullptr) const;
+  IntervalResult response(const SampleAddress& at, const PulseTrain& train, const StopFlag* stop = nullptr) const;
 
   // Sea and motion that the clutter of a sample depends on; refers to the scene.
   ClutterScene clutter_scene(const SampleAddress& at, const Scene& scene) const;
@@ -77,7 +77,7 @@ class Pipeline {
 
  private:
   // What determines a sample's response: drawn values, and the scene of its sea.
-  struct Observation {
+  struct ObservedInterval {
     Scenario scenario;
     std::shared_ptr<const Scene> scene;
     View view;
@@ -87,10 +87,10 @@ class Pipeline {
   // Times and directions at which the interval from start_s samples the response, with the radar's own motion.
   IntervalSampling sampling(const PulseTrain& train, double start_s) const;
   // H of a target: the sum over its bodies, or its ideal points.
-  static BodyResponse target_response(std::size_t target, const Observation& seen, const StopFlag* stop);
+  static IntervalResult target_response(std::size_t target, const ObservedInterval& seen, const StopFlag* stop);
 
   // The echo of a sample. Throws InputError, naming target and sample, when it has no power.
-  Echo echo_of(std::size_t sample, const SampleAddress& at, const PulseTrain& train, const BodyResponse& response,
+  Echo echo_of(std::size_t sample, const SampleAddress& at, const PulseTrain& train, const IntervalResult& response,
                const Scene& scene) const;
 
   Pipeline(Scenario scenario, SamplePlan plan, std::shared_ptr<LoadedBodies> loaded, double range_window_m);
@@ -102,7 +102,7 @@ class Pipeline {
   double range_window_m_ = 0;
 
   mutable SharedResults<std::pair<int, int>, Scene> scenes_{8};     // by sea state and realisation
-  mutable SharedResults<std::size_t, BodyResponse> responses_{16};  // by the first sample of an interval and target
+  mutable SharedResults<std::size_t, IntervalResult> responses_{16};  // by the first sample of an interval and target
 };
 
 // The axes of a map.

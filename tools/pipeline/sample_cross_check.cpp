@@ -43,7 +43,7 @@ SampleDifference difference_of(const Pipeline& pipeline, const Pipeline& other, 
   const SampleAddress at = pipeline.plan().address(sample);
   const TargetSpec& target = pipeline.scenario().targets[static_cast<std::size_t>(at.target)];
   const PulseTrain train = pipeline.pulse_train(sample);
-  const BodyResponse response = pipeline.response(at, train, stop), by_other = other.response(at, train, stop);
+  const IntervalResult response = pipeline.response(at, train, stop), by_other = other.response(at, train, stop);
   const std::vector<float> map = pipeline.received_sample(sample, train, response).stored.magnitude,
                            other_map = other.received_sample(sample, train, by_other).stored.magnitude;
   const std::size_t cell = static_cast<std::size_t>(std::ranges::max_element(map) - map.begin());

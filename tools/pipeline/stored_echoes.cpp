@@ -38,7 +38,7 @@ StoredEchoes::StoredEchoes(const DatasetReader& reader) : reader_(reader) {
   }
 }
 
-BodyResponse StoredEchoes::response(std::size_t sample, const PulseTrain& train) const {
+IntervalResult StoredEchoes::response(std::size_t sample, const PulseTrain& train) const {
   const std::vector<ManifestShard>& files = reader_.manifest().shards;
   const auto after = std::find_if(files.begin(), files.end(),
                                   [&](const ManifestShard& file) { return sample < file.first_sample + file.samples; });
@@ -47,7 +47,7 @@ BodyResponse StoredEchoes::response(std::size_t sample, const PulseTrain& train)
     return reader_.shard(static_cast<std::size_t>(after - files.begin()));
   });
   const Sample& stored = shard->samples[sample - after->first_sample];
-  BodyResponse response;
+  IntervalResult response;
   response.response.pulses = static_cast<int>(train.pulses());
   response.response.frequencies_per_pulse = static_cast<int>(train.frequencies());
   const std::size_t values = train.pulses() * train.frequencies();

@@ -11,7 +11,7 @@
 #include "classify/dataset/directory/dataset_reader.h"
 #include "radar/waveform/pulse_train.h"
 #include "sim/core/process/shared_results.h"
-#include "sim/scattering/solver/body_response.h"
+#include "sim/scattering/solver/solve.h"
 #include "sim/scenario/scenario.h"
 #include "tools/pipeline/pipeline.h"
 
@@ -25,7 +25,7 @@ class StoredEchoes {
 
   // The response of a sample's target at the pulses and frequencies of `train`, as it was computed, to the bit. Throws
   // InputError naming a damaged shard, or a sample whose echo has other pulses or frequencies.
-  BodyResponse response(std::size_t sample, const PulseTrain& train) const;
+  IntervalResult response(std::size_t sample, const PulseTrain& train) const;
 
  private:
   static constexpr std::size_t kKept = 4;  // shards

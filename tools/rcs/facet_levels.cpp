@@ -10,13 +10,13 @@
 
 namespace seaglint {
 
-FacetLevels facet_levels(const Scatterer& scatterer, std::span<const PointContribution> contributions, double k,
+FacetLevels facet_levels(const Scatterer& scatterer, std::span<const Point> points, double k,
                          std::optional<std::size_t> element) {
   const std::size_t facets = scatterer.facets().size();
   const auto panel_of = [&](std::size_t facet) {
     return static_cast<std::size_t>(scatterer.panels().representative(static_cast<int>(facet)));
   };
-  const std::vector<std::array<Complex, 4>> echoes = facet_contributions(contributions, k, facets);
+  const std::vector<std::array<Complex, 4>> echoes = facet_contributions(points, k, facets);
   std::vector<std::array<Complex, 4>> panel(facets);
   for (std::size_t f = 0; f < facets; ++f) {
     for (std::size_t i = 0; i < 4; ++i) panel[panel_of(f)][i] += echoes[f][i];

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "sim/scattering/points/point_contributions.h"
+#include "sim/scattering/points/point.h"
 #include "sim/scattering/scatterer/scatterer.h"
 
 namespace seaglint {
@@ -21,7 +21,7 @@ struct FacetLevels {
 // Levels at wavenumber k (rad/m) of an aspect's contributions. Facets of one panel (coplanar, of one part) have the
 // level of their coherent sum, which does not depend on how the panel is cut. `element`: of hh, hv, vh, vv; absent: the
 // largest of the four.
-FacetLevels facet_levels(const Scatterer& scatterer, std::span<const PointContribution> contributions, double k,
+FacetLevels facet_levels(const Scatterer& scatterer, std::span<const Point> points, double k,
                          std::optional<std::size_t> element = std::nullopt);
 
 // The scatterer's facets as a mesh in the body frame: one triangle per facet in their order, with their parts; no

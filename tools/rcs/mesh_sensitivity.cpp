@@ -13,14 +13,12 @@
 #include "sim/core/process/error.h"
 #include "sim/core/process/progress.h"
 #include "sim/geometry/mesh/mesh_changes.h"
-#include "sim/scattering/solver/scattering_matrix.h"
+#include "sim/scattering/solver/solve.h"
 #include "tools/rcs/rcs_target.h"
 #include "tools/rcs/rcs_views.h"
 
 namespace seaglint {
 namespace {
-
-using Matrices = std::vector<std::array<Complex, 4>>;
 
 constexpr double kNoiseOfAWavelength = 1.0 / 1900, kShiftOfTheRadius = 50;
 
@@ -76,8 +74,14 @@ class Views {
         [&](std::size_t view) {
           RadarBasis basis = basis_at(azimuth_of(view), elevation_of(view));
           for (Vec3* axis : {&basis.r, &basis.h, &basis.v}) *axis = of.turn * *axis;
-          all[view] = scattering_matrices(scatterer, monostatic(basis), wavenumbers_, settings,
-                                          std::max(1, threads_ / side_by_side), nullptr, stop_);
+          all[view] = solve({.scatterer = scatterer,
+                             .views = {monostatic(basis)},
+                             .wavenumbers = wavenumbers_,
+                             .settings = settings,
+                             .threads = std::max(1, threads_ / side_by_side),
+                             .stop = stop_})
+                          .views[0]
+                          .matrices;
           for (std::size_t q = 0; q < wavenumbers_.size(); ++q) {
             for (Complex& s : all[view][q]) s *= std::polar(1.0, -2 * wavenumbers_[q] * basis.r.dot(of.shift));
           }

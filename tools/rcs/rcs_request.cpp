@@ -9,7 +9,7 @@
 #include <iterator>
 
 #include "sim/core/process/error.h"
-#include "sim/scattering/observation/bistatic_geometry.h"
+#include "sim/scattering/observation/observation.h"
 
 namespace seaglint {
 namespace {

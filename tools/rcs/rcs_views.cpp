@@ -11,11 +11,9 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/progress.h"
-#include "sim/scattering/observation/bistatic_geometry.h"
+#include "sim/scattering/observation/observation.h"
 #include "sim/scattering/observation/sea_reflection.h"
-#include "sim/scattering/solver/body_response.h"
-#include "sim/scattering/solver/scattering_matrix.h"
-#include "sim/scattering/sums/reciprocity.h"
+#include "sim/scattering/solver/solve.h"
 #include "tools/rcs/rcs_uncertainty.h"
 
 namespace seaglint {
@@ -92,31 +90,31 @@ class SweepTracer {
       pairs.push_back(antennas_of(request_, basis_at(result.sweep.azimuth_of(view), result.sweep.elevation_of(view))));
     const bool requested = &model == &result.sweep.models.back();
     if (request_.exports.wanted() && requested) {
-      AspectContributions view = view_contributions(
+      SolveResult solved = view_contributions(
           request_, target_,
           {result.sweep.azimuth_of(first), result.sweep.elevation_of(first), request_.frequency_hz.front()}, threads,
           stop_);
-      model.matrices[first] = {view.matrix};
-      set_uncertainty(first, view.estimate, result.sweep);
-      result.contributions = std::move(view.points);
-      segments += view.segments;
+      ViewResult& view = solved.views.front();
+      model.matrices[first] = std::move(view.matrices);
+      set_uncertainty(first, *view.estimate, result.sweep);
+      result.points = std::move(view.points);
+      segments += solved.segments;
       return;
     }
-    if (!request_.sea.reflection) {
-      std::vector<ViewEstimate> estimates;
-      std::ranges::move(scattering_matrices(scatterer, pairs, wavenumbers_, settings, threads, &segments, stop_,
-                                            {request_.range_m}, requested ? &estimates : nullptr),
-                        model.matrices.begin() + static_cast<std::ptrdiff_t>(first));
-      for (std::size_t i = 0; i < estimates.size(); ++i) set_uncertainty(first + i, estimates[i], result.sweep);
-      return;
-    }
-    const SeaReflection sea = reflection_of(request_.sea);
+    SolveRequest solver{.scatterer = scatterer,
+                        .views = std::move(pairs),
+                        .wavenumbers = wavenumbers_,
+                        .settings = settings,
+                        .radar = {request_.range_m},
+                        .estimates = requested,
+                        .threads = threads,
+                        .stop = stop_};
+    if (request_.sea.reflection) solver.sea = {reflection_of(request_.sea), request_.sea.height_m};
+    SolveResult solved = solve(solver);
+    segments += solved.segments;
     for (std::size_t i = 0; i < count; ++i) {
-      ViewEstimate estimate(wavenumbers_.front());
-      model.matrices[first + i] = scattering_matrices_over_sea(scatterer, pairs[i].receive.r, request_.sea.height_m,
-                                                               sea, wavenumbers_, settings, threads, &segments, stop_,
-                                                               request_.range_m, requested ? &estimate : nullptr);
-      if (requested) set_uncertainty(first + i, estimate, result.sweep);
+      model.matrices[first + i] = std::move(solved.views[i].matrices);
+      if (requested) set_uncertainty(first + i, *solved.views[i].estimate, result.sweep);
     }
   }
 
@@ -202,13 +200,19 @@ TracingSettings settings_of(const RcsRequest& request, const RcsTarget& target, 
   return settings;
 }
 
-AspectContributions view_contributions(const RcsRequest& request, const RcsTarget& target, const RcsView& view,
-                                       int threads, const StopFlag* stop) {
+SolveResult view_contributions(const RcsRequest& request, const RcsTarget& target, const RcsView& view, int threads,
+                               const StopFlag* stop) {
   const Scatterer& scatterer = *target.prepared.scatterer;
   const double k = 2 * kPi * view.frequency_hz / kSpeedOfLight;
-  return aspect_contributions(scatterer, antennas_of(request, basis_at(view.azimuth_deg, view.elevation_deg)),
-                              {k, default_aspect_change(scatterer, 2 * kPi / k)},
-                              settings_of(request, target, request.edges), threads, stop, {request.range_m});
+  return solve({.scatterer = scatterer,
+                .views = {antennas_of(request, basis_at(view.azimuth_deg, view.elevation_deg))},
+                .wavenumbers = {k},
+                .settings = settings_of(request, target, request.edges),
+                .radar = {request.range_m},
+                .estimates = true,
+                .points_for_rad = default_aspect_change(scatterer, 2 * kPi / k),
+                .threads = threads,
+                .stop = stop});
 }
 
 RcsResult compute_rcs(const RcsRequest& request, const RcsTarget& target, int threads, const StopFlag* stop,

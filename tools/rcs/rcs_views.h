@@ -10,8 +10,7 @@
 #include <vector>
 
 #include "sim/core/process/parallel.h"
-#include "sim/scattering/points/point_contributions.h"
-#include "sim/scattering/solver/scattering_matrix.h"
+#include "sim/scattering/solver/solve.h"
 #include "sim/scattering/tracing/illumination_settings.h"
 #include "tools/rcs/rcs_request.h"
 #include "tools/rcs/rcs_sweep.h"
@@ -33,15 +32,15 @@ struct RcsView {
   double azimuth_deg = 0, elevation_deg = 0, frequency_hz = 0;
 };
 
-// Contributions of the target, without the sea and its cavities, to the requested model of one view. Throws Interrupted
-// when *stop becomes true.
-AspectContributions view_contributions(const RcsRequest& request, const RcsTarget& target, const RcsView& view,
-                                       int threads = 1, const StopFlag* stop = nullptr);
+// The requested model of one view of the target, without the sea and its cavities, with its points and estimate. Throws
+// Interrupted when *stop becomes true.
+SolveResult view_contributions(const RcsRequest& request, const RcsTarget& target, const RcsView& view, int threads = 1,
+                               const StopFlag* stop = nullptr);
 
 struct RcsResult {
-  RcsSweep sweep;                                // the requested model is the last
-  std::vector<PointContribution> contributions;  // of the requested model, for a request with exports
-  std::size_t segments = 0;                      // beam segments traced from transmitters
+  RcsSweep sweep;            // the requested model is the last
+  std::vector<Point> points; // of the requested model, for a request with exports
+  std::size_t segments = 0;  // beam segments traced from transmitters
 };
 
 // Computes all models of the request, on `threads` threads (0 = all processors). Throws WorkError when a cavity's

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "sim/scattering/points/point_contributions.h"
+#include "sim/scattering/points/point.h"
 #include "tools/rcs/rcs_request.h"
 #include "tools/rcs/rcs_target.h"
 
@@ -15,6 +15,6 @@ namespace seaglint {
 // Writes the exports of a request with one aspect from the contributions at that aspect (rcs_views.h); returns one line
 // per file.
 std::string export_view(const RcsRequest& request, const RcsTarget& target,
-                        std::span<const PointContribution> contributions);
+                        std::span<const Point> points);
 
 }  // namespace seaglint

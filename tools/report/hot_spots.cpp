@@ -10,9 +10,8 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/dbsm.h"
 #include "sim/field_tables/field_table.h"
-#include "sim/scattering/observation/bistatic_geometry.h"
-#include "sim/scattering/solver/body_response.h"
-#include "sim/scattering/solver/scattering_matrix.h"
+#include "sim/scattering/observation/observation.h"
+#include "sim/scattering/solver/solve.h"
 #include "tools/page/html.h"
 #include "tools/page/plot_json.h"
 #include "tools/rcs/facet_levels.h"
@@ -60,11 +59,15 @@ ordered_json json_of(const Target& target, const Scenario& scenario, const std::
   const auto element = static_cast<std::size_t>(scenario.radar.polarisation);
   for (const View& view : views) {
     const RadarBasis basis = radar_basis(direction_to_radar(view.azimuth_rad, view.elevation_rad));
-    const AspectContributions contributions =
-        aspect_contributions(scatterer, monostatic(basis), {k, default_aspect_change(scatterer, wavelength)},
-                             tracing_settings(solver), threads, stop);
-    levels.push_back(facet_levels(scatterer, contributions.points, k, element));
-    total_dbsm.push_back(dbsm_of_area(4 * kPi * std::norm(contributions.matrix[element])));
+    const SolveResult solved = solve({.scatterer = scatterer,
+                                      .views = {monostatic(basis)},
+                                      .wavenumbers = {k},
+                                      .settings = tracing_settings(solver),
+                                      .points_for_rad = default_aspect_change(scatterer, wavelength),
+                                      .threads = threads,
+                                      .stop = stop});
+    levels.push_back(facet_levels(scatterer, solved.views[0].points, k, element));
+    total_dbsm.push_back(dbsm_of_area(4 * kPi * std::norm(solved.views[0].matrices[0][element])));
   }
   const double top = std::ceil(std::ranges::max_element(levels, {}, &FacetLevels::highest_dbsm)->highest_dbsm);
   const TriangleMesh mesh = welded(mesh_of_facets(scatterer));

@@ -208,8 +208,7 @@ BodyModel LoadedBodies::model(const Scenario& scenario, const TargetSpec& spec, 
   model.scale = scale;
   model.motion = motions_.get(motion_fields(spec, scale), [&] { return load_body(scenario, spec, mesh().mesh); });
   model.prepared = prepared_.get(scatterer_fields(scenario, spec, scale, height_m), [&] {
-    return TracedTarget{prepare_target(std::move(mesh()), scatterer_settings(scenario, spec, height_m)),
-                        std::make_shared<SharedTraces>(memory_)};
+    return prepare_target(std::move(mesh()), scatterer_settings(scenario, spec, height_m));
   });
   model.radius_m = radius_m(model.prepared->mesh);
   return model;

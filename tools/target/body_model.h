@@ -13,20 +13,14 @@
 #include "sim/geometry/mesh/triangle_mesh.h"
 #include "sim/motion/body.h"
 #include "sim/scattering/scatterer/prepare_target.h"
-#include "sim/scattering/solver/shared_traces.h"
 #include "sim/scenario/scenario.h"
 
 namespace seaglint {
 
-// Scatterer with the traces that its intervals share (solver.shared_traces).
-struct TracedTarget : PreparedTarget {
-  std::shared_ptr<SharedTraces> traces;
-};
-
 struct BodyModel {
   double scale = 1;                              // factor by which the mesh of the file is enlarged, after its unit
   double radius_m = 0;                           // largest distance of a vertex from the mesh's origin
-  std::shared_ptr<const TracedTarget> prepared;  // cut at the waterline
+  std::shared_ptr<const PreparedTarget> prepared;  // cut at the waterline
   std::shared_ptr<const Body> motion;  // of a rigid raft that of the raft, whatever the size of its reflectors
 };
 
@@ -79,9 +73,8 @@ class LoadedBodies {
   BodyModel model(const Scenario& scenario, const TargetSpec& spec, double scale, std::optional<double> height_m);
 
   std::mutex mutex_;
-  std::shared_ptr<TraceMemory> memory_ = std::make_shared<TraceMemory>();
   Kept<Bounds> boxes_;
-  Kept<TracedTarget> prepared_;
+  Kept<PreparedTarget> prepared_;
   Kept<Body> motions_;
 };
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "sim/scattering/canonical/canonical_body.h"
-#include "sim/scattering/observation/bistatic_geometry.h"
+#include "sim/scattering/observation/observation.h"
 
 namespace seaglint {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "sim/scattering/observation/bistatic_geometry.h"
+#include "sim/scattering/observation/observation.h"
 
 namespace seaglint {
 

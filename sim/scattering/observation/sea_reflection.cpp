@@ -41,4 +41,17 @@ Complex SeaReflection::path_factor(const PropagationPath& path, const SeaReflect
   return (path.return_via_sea ? received : 1.0) * (path.outbound_via_sea ? transmitted : 1.0);
 }
 
+BistaticGeometry antennas_on(const PropagationPath& path, const RadarBasis& radar, const RadarBasis& image) {
+  const RadarBasis &transmit = path.outbound_via_sea ? image : radar, &receive = path.return_via_sea ? image : radar;
+  return path.outbound_via_sea == path.return_via_sea ? monostatic(transmit) : bistatic(transmit, receive);
+}
+
+std::vector<PropagationPath> propagation_paths(const SeaReflection* sea) {
+  std::vector<PropagationPath> paths;
+  for (const PropagationPath& path : kFourPaths) {
+    if (sea ? sea->is_enabled(path) : !path.is_multipath()) paths.push_back(path);
+  }
+  return paths;
+}
+
 }  // namespace seaglint

@@ -11,9 +11,10 @@
 // rho_v = +1, is equivalent to image theory.
 
 #include <array>
+#include <vector>
 
 #include "sim/core/numbers/linear.h"
-#include "sim/scattering/observation/bistatic_geometry.h"
+#include "sim/scattering/observation/observation.h"
 #include "sim/scenario/radar_spec.h"
 #include "sim/scenario/sea_spec.h"
 
@@ -35,6 +36,9 @@ struct PropagationPath {
 inline constexpr std::array<PropagationPath, 4> kFourPaths{
     {{false, false}, {false, true}, {true, false}, {true, true}}};
 
+// Antennas of a path: the radar, or its image on a leg via the sea.
+BistaticGeometry antennas_on(const PropagationPath& path, const RadarBasis& radar, const RadarBasis& image);
+
 struct SeaReflectionCoefficients {
   Complex h = -1, v = 1;
 };
@@ -55,5 +59,8 @@ class SeaReflection {
   SeaReflectionSpec spec_;
   double rms_m_;
 };
+
+// The paths that the sea enables; without a sea the direct one.
+std::vector<PropagationPath> propagation_paths(const SeaReflection* sea);
 
 }  // namespace seaglint

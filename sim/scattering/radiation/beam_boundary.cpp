@@ -9,6 +9,7 @@
 #include "sim/core/numbers/smooth_step.h"
 #include "sim/scattering/coefficients/fade_windows.h"
 #include "sim/scattering/geometry/tolerances.h"
+#include "sim/scattering/radiation/reflected_edge.h"
 
 namespace seaglint {
 namespace {
@@ -74,9 +75,10 @@ class EdgePair {
 // Boundary terms of one footprint along one of its sides; `outline`: of its panel, in the projection plane.
 class SideBoundaryTerms {
  public:
-  SideBoundaryTerms(const SideFrame& side, const DiffractedPaths& paths, std::span<const Vec2> outline,
-                    std::vector<EdgeContribution>& out)
-      : footprint_(paths.footprint()),
+  SideBoundaryTerms(const Contribution& contribution, const SideFrame& side, const DiffractedPaths& paths,
+                    std::span<const Vec2> outline, std::vector<Contribution>& out)
+      : contribution_(contribution),
+        footprint_(paths.footprint()),
         side_(side),
         panels_on_path_(paths.panels_on_path()),
         paths_(paths),
@@ -93,11 +95,10 @@ class SideBoundaryTerms {
     const double a = side_.t(edge.a), b = side_.t(edge.b), length = side_.length;
     const std::array<double, 2> t{std::max(0.0, std::min(a, b)), std::min(length, std::max(a, b))};
     if (t[1] - t[0] < kMinLength) return;
-    EdgeContribution on_line = new_term(t[1] - t[0]);
+    EdgeInterval on_line = interval_of(t[1] - t[0]);
     const DepthPlane& plane = *panels_on_path_[edge.panel_index].plane;
     const Vec2 middle = side_.from.p + 0.5 * (t[0] + t[1]) * side_.along;
     set_fresnel_limit(plane.at(middle) - footprint_.plane.at(middle), edge.depth, on_line);
-    set_pattern(weight, edge, on_line);
     std::array<Vec2, 2> places, moves;
     for (std::size_t end = 0; end < 2; ++end) {
       const double s = t[end] / length;
@@ -109,7 +110,7 @@ class SideBoundaryTerms {
       places[end] = vertex.p;
       moves[end] = {side_.along.dot(vertex.d1), side_.along.dot(vertex.d2)};
     }
-    out_.push_back(on_line);
+    append(endpoint_factor(weight, edge), on_line);
     if (visible && !hidden) add_at_edge(edge, places, moves, weight, on_line);
   }
 
@@ -138,7 +139,7 @@ class SideBoundaryTerms {
       if (end.apart < -kCoincident || end.distance < -kCoincident) return false;
     }
 
-    EdgeContribution lacking = new_term(turned * both.length());
+    EdgeInterval lacking = interval_of(turned * both.length());
     DoubleKnifeEdge knives;
     knives.psi_slope = slope_;
     set_fresnel_limit(0.5 * distance_sum, first.depth, lacking);
@@ -177,39 +178,44 @@ class SideBoundaryTerms {
     const double weight =
         askew * smooth_taper(turned * (ends[0].apart + ends[1].apart) / distance_sum, kParaxialWindow);
     if (weight > 0 && knives.off_axis_weight + knives.axial_weight > 0) {
-      for (int i = 0; i < 4; ++i) lacking.pattern.thin[i] = Complex(0, weight / (2 * kPi)) * footprint_.pattern[i];
       lacking.amplitude = knives;
-      out_.push_back(lacking);
+      append(Complex(0, weight / (2 * kPi)), lacking);
     }
     return knives.second_in_shadow && moved.weight > 0 && landed < 0;
   }
 
  private:
-  EdgeContribution new_term(double length) const {
-    EdgeContribution end;
-    end.length = length;
-    end.facet = footprint_.facet;
-    end.part = end.other_part = footprint_.part;
-    end.bounces = footprint_.bounces;
-    end.mechanism = Mechanism::kShadowBoundary;
-    return end;
+  static EdgeInterval interval_of(double length) {
+    EdgeInterval interval;
+    interval.length = length;
+    return interval;
   }
 
-  void set_fresnel_limit(double distance, double reflector_depth, EdgeContribution& end) const {
+  // Appends the contribution of an interval whose pattern is that of the footprint times a factor.
+  void append(const Complex& factor, const EdgeInterval& interval) {
+    if (factor == 0.0) return;
+    ContributionSource source = contribution_.source;
+    source.mechanism = Mechanism::kShadowBoundary;
+    Pattern pattern;
+    for (int i = 0; i < 4; ++i) pattern.value[i] = factor * contribution_.pattern.value[i];
+    out_.push_back({pattern, source, interval});
+  }
+
+  void set_fresnel_limit(double distance, double reflector_depth, EdgeInterval& end) const {
     const double depth = std::min(reflector_depth, depth_);
     end.fresnel_wavenumber = 2 * distance / (depth * depth);
   }
 
-  // PO end-point contribution along this side, with the sign that subtracts `weight` of it: by the divergence theorem
-  // with F = e e^{jk w.p} / (jk w.e), e the inward direction on the edge's face. Every point of the edge then has the
-  // end-point contribution of the strip that it bounds, as in endpoint_correction(), and the phase may vary along the
-  // side. Gordon's e = w (phase_integral) would include end-point contributions of other sides.
-  void set_pattern(double weight, const BeamEdge& edge, EdgeContribution& end) const {
+  // Factor of the footprint's pattern in the PO end-point contribution along this side, with the sign that subtracts
+  // `weight` of it: by the divergence theorem with F = e e^{jk w.p} / (jk w.e), e the inward direction on the edge's
+  // face. Every point of the edge then has the end-point contribution of the strip that it bounds, as in
+  // endpoint_correction(), and the phase may vary along the side. Gordon's e = w (phase_integral.h) would include
+  // end-point contributions of other sides.
+  double endpoint_factor(double weight, const BeamEdge& edge) const {
     const Vec2& e = edge.inward;
     const double across = e.x() * side_.along.y() - e.y() * side_.along.x(), slope = footprint_.w.dot(e) / across;
-    if (!(std::abs(slope) > kSlopeWindow[0])) return;  // infinite or, for a face observed along its edge, undefined
-    const double factor = weight * (1 - smooth_taper(std::abs(slope), kSlopeWindow)) / (2 * kPi * slope);
-    for (int i = 0; i < 4; ++i) end.pattern.thin[i] = factor * footprint_.pattern[i];
+    if (!(std::abs(slope) > kSlopeWindow[0])) return 0;  // infinite or, for a face observed along its edge, undefined
+    return weight * (1 - smooth_taper(std::abs(slope), kSlopeWindow)) / (2 * kPi * slope);
   }
 
   // Slide of a point along the side in the body, whose points at this height move by -z d_i in the projection plane.
@@ -218,11 +224,10 @@ class SideBoundaryTerms {
   // Adds the end-point contribution at the edge of a reflector; `moves`: rates of its points along the side. Length and
   // fresnel_wavenumber are those of `other`.
   void add_at_edge(const BeamEdge& edge, const std::array<Vec2, 2>& places, const std::array<Vec2, 2>& moves,
-                   double weight, const EdgeContribution& other) {
+                   double weight, const EdgeInterval& other) {
     if (weight <= 0) return;
-    EdgeContribution on_edge = new_term(other.length);
+    EdgeInterval on_edge = interval_of(other.length);
     on_edge.fresnel_wavenumber = other.fresnel_wavenumber;
-    set_pattern(-weight, edge, on_edge);
     std::array<DiffractedPaths::DiffractedPath, 2> path{paths_.diffracted_path(edge.panel_index, places[0]),
                                                         paths_.diffracted_path(edge.panel_index, places[1])};
     const double run = (path[1].psi - path[0].psi) / on_edge.length;
@@ -234,7 +239,7 @@ class SideBoundaryTerms {
       gradient.transmit = path[end].transmit + gradient.transmit_slide;
       gradient.receive = path[end].receive;
     }
-    out_.push_back(on_edge);
+    append(endpoint_factor(-weight, edge), on_edge);
   }
 
   // Depth of the panel across the side, m.
@@ -244,33 +249,53 @@ class SideBoundaryTerms {
     return across(*max) - across(*min);
   }
 
+  const Contribution& contribution_;
   const Footprint& footprint_;
   const SideFrame& side_;
   std::span<const PathPanel> panels_on_path_;
   const DiffractedPaths& paths_;
   const RadarBasis& transmit_;
-  std::vector<EdgeContribution>& out_;
+  std::vector<Contribution>& out_;
   double slope_;  // of psi, towards the outside
   double depth_;  // of the last panel across the side, m
 };
 
 }  // namespace
 
-void BeamBoundary::append_boundary_terms(const Footprint& footprint, std::vector<EdgeContribution>& out) {
+void FootprintBoundary::start(const Interaction& interaction, const Contribution& contribution) {
+  const auto& [segment, candidate] = interaction;
+  panels_on_path_.clear();
+  edges_on_path_.reset();
+  // Flat perfect conductors on the whole path, after one to kMaxCorrectedReflections reflections.
+  if (!scene_.settings.edges || segment.bounce <= 1 || segment.bounce > kMaxCorrectedReflections + 1 ||
+      segment.has_curved_reflection || contribution.footprint()->curvature || !contribution.pattern.at_node.empty())
+    return;
+  panels_on_path_.resize(static_cast<std::size_t>(segment.bounce));
+  panels_on_path_.back() = {candidate.projection.facet, &segment.image_transform, &candidate.projection.plane,
+                            segment.direction};
+  const BeamSegment* after = &segment;
+  for (std::size_t place = panels_on_path_.size() - 1; place > 0; after = after->previous)
+    panels_on_path_[--place] = {after->source_facet, &after->image_transform, &after->source_plane,
+                                after->previous->direction};
+}
+
+void FootprintBoundary::append_terms(const Contribution& contribution) {
+  if (panels_on_path_.empty()) return;
+  const Panels& panels = scene_.scatterer.panels();
   if (!edges_on_path_) {
-    edges_on_path_ = beam_edges(edges_, panels_, geometry_.transmit, panels_on_path_);
-    outline_ = projected_outline(panels_, geometry_.transmit, panels_on_path_.back());
+    edges_on_path_ = beam_edges(scene_.scatterer.edges(), panels, geometry_.transmit, panels_on_path_);
+    outline_ = projected_outline(panels, geometry_.transmit, panels_on_path_.back());
   }
   std::optional<DiffractedPaths> paths;
-  const MovingPolygon& piece = footprint.polygon;
+  const MovingPolygon& piece = contribution.footprint()->polygon;
   for (std::size_t i = 0; i < piece.size(); ++i) {
     const MovingVertex &from = piece[i], &to = piece[i + 1 == piece.size() ? 0 : i + 1];
     if ((to.p - from.p).norm() < kMinLength) continue;
     const SideFrame side(from, to);
     for (const BeamEdge& inner : *edges_on_path_) {
       if (!side.lies_on(inner)) continue;
-      if (!paths) paths.emplace(geometry_, panels_on_path_, footprint);
-      SideBoundaryTerms ends(side, *paths, outline_, out);
+      if (!paths) paths.emplace(geometry_, panels_on_path_, *contribution.footprint());
+      SideBoundaryTerms ends(contribution, side, *paths, outline_, out_);
       bool hidden = false;
       for (const BeamEdge& outer : *edges_on_path_) hidden |= ends.couple_edges(inner, outer);
       if (inner.panel_index + 1 < panels_on_path_.size()) ends.move_endpoint_to_edge(inner, hidden);
@@ -278,14 +303,15 @@ void BeamBoundary::append_boundary_terms(const Footprint& footprint, std::vector
   }
 }
 
-double boundary_term_bound(const EdgeContribution& contribution, double lowest, double highest) {
+double boundary_term_bound(const Contribution& contribution, double lowest, double highest) {
+  const EdgeInterval& interval = *contribution.interval();
   double pattern = 0;
-  for (const Complex& element : contribution.pattern.thin) pattern = std::max(pattern, std::abs(element));
+  for (const Complex& element : contribution.pattern.value) pattern = std::max(pattern, std::abs(element));
   // With a varying phase an interval radiates from its ends.
-  const double run = lowest * std::abs(contribution.psi[1] - contribution.psi[0]);
-  const auto* knives = std::get_if<DoubleKnifeEdge>(&contribution.amplitude);  // else uniform
-  return pattern * contribution.length * std::min(1.0, 2 / run) * (knives ? knives->upper_bound(lowest) : 1.0) *
-         contribution.fresnel_taper(highest);
+  const double run = lowest * std::abs(interval.psi[1] - interval.psi[0]);
+  const auto* knives = std::get_if<DoubleKnifeEdge>(&interval.amplitude);  // else uniform
+  return pattern * interval.length * std::min(1.0, 2 / run) * (knives ? knives->upper_bound(lowest) : 1.0) *
+         interval.fresnel_taper(highest);
 }
 
 }  // namespace seaglint

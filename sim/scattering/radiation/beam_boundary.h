@@ -35,34 +35,37 @@
 #include <vector>
 
 #include "sim/scattering/radiation/diffracted_paths.h"
-#include "sim/scattering/radiation/edge_contribution.h"
+#include "sim/scattering/radiation/contribution.h"
+#include "sim/scattering/tracing/interaction.h"
 
 namespace seaglint {
 
-// Boundary terms of the footprints on one panel. `panels_on_path`: the reflectors of the path and, last, the panel
-// itself. All arguments must outlive the object.
-class BeamBoundary {
+// Boundary terms of the footprints that one receiver sees; none when edge diffraction is off in the settings. Appends to
+// `out`, which must outlive the object, as must the scene with the receiver.
+class FootprintBoundary {
  public:
-  BeamBoundary(const SharpEdges& edges, const Panels& panels, const BistaticGeometry& geometry,
-               std::span<const PathPanel> panels_on_path)
-      : edges_(edges), panels_(panels), geometry_(geometry), panels_on_path_(panels_on_path) {}
+  FootprintBoundary(const TracingContext& scene, const Receiver& receiver, std::vector<Contribution>& out)
+      : scene_(scene), geometry_(receiver.geometry), out_(out) {}
 
-  // Appends the boundary terms of one footprint. They are tapered to zero outside the validity of half-plane
-  // diffraction (README.md, "Shadow boundaries of reflected beams"): where the path from edge to edge leaves the beam,
-  // where the edges cross, on panels narrower than the transition region, and as reflected_edge_weight().
-  void append_boundary_terms(const Footprint& footprint, std::vector<EdgeContribution>& out);
+  // Once per beam and panel, with its contribution but for the polygon.
+  void start(const Interaction& interaction, const Contribution& contribution);
+  // Appends the boundary terms of one footprint of that beam and panel. They are tapered to zero outside the validity of
+  // half-plane diffraction (README.md, "Shadow boundaries of reflected beams"): where the path from edge to edge leaves
+  // the beam, where the edges cross, on panels narrower than the transition region, and as reflected_edge_weight().
+  void append_terms(const Contribution& contribution);
 
  private:
-  const SharpEdges& edges_;
-  const Panels& panels_;
+  const TracingContext& scene_;
   const BistaticGeometry& geometry_;
-  std::span<const PathPanel> panels_on_path_;
+  std::vector<Contribution>& out_;
+  // Reflectors of the path and, last, the panel; none where there are no boundary terms.
+  std::vector<PathPanel> panels_on_path_;
   std::optional<std::vector<BeamEdge>> edges_on_path_;  // computed for the first footprint that needs them
   std::vector<Vec2> outline_;                           // of the last panel, in the projection plane
 };
 
 // Upper bound of the amplitude of a boundary term over wavenumbers from `lowest` to `highest`, m; 0 where its taper is
 // zero at all of them.
-double boundary_term_bound(const EdgeContribution& contribution, double lowest, double highest);
+double boundary_term_bound(const Contribution& contribution, double lowest, double highest);
 
 }  // namespace seaglint

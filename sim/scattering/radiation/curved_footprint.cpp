@@ -41,11 +41,20 @@ Complex CurvedFootprint::divergence_factor(const Vec2& p) const {
   return caustics * std::min(on_panel, kMaxObliquity * across) / std::sqrt(std::max(across, 1e-12));
 }
 
+ScatteringMatrix smooth_pattern(const CurvedFootprint& curvature, const Vec2& p) {
+  ScatteringMatrix pattern{};
+  for (int i = 0; i < 3; ++i) {
+    const double weight = curvature.lambda.at(i, p);
+    for (int q = 0; q < 4; ++q) pattern[q] += weight * curvature.pattern[i][q];
+  }
+  return pattern;
+}
+
 std::shared_ptr<const CurvedFootprint> make_curved_footprint(const CurvatureContext& on,
                                                              const BistaticGeometry& geometry,
-                                                             const BeamSegment& segment,
-                                                             const CandidatePanel& candidate,
-                                                             const Footprint& footprint) {
+                                                             const Interaction& interaction,
+                                                             const Footprint& footprint, const Pattern& pattern) {
+  const auto& [segment, candidate] = interaction;
   const auto& [transmit, receive, is_monostatic] = geometry;
   const int facet = candidate.projection.facet;
   const CurvedFacet* curved = on.surface.curved(facet);
@@ -82,7 +91,7 @@ std::shared_ptr<const CurvedFootprint> make_curved_footprint(const CurvatureCont
     if (c.has_bundle) c.w[i] += rays.further_phase_slope(corner[i]);
     c.rise[i] = footprint.plane.slope;
     c.slope[i] = c.w[i];
-    c.pattern[i] = footprint.pattern;
+    c.pattern[i] = pattern.value;
     if (curved) {
       const int vertex = curved->vertex[i];
       c.incident_shadow_distance[i] = on.surface.shadow_boundary_distance(vertex, -segment.direction, side);
@@ -96,7 +105,7 @@ std::shared_ptr<const CurvedFootprint> make_curved_footprint(const CurvatureCont
       const Vec3 tangential = both - image * image.dot(both);
       c.slope[i] += Vec2(tangential.dot(transmit.h), tangential.dot(transmit.v)) +
                     tangential.dot(transmit.r) * footprint.plane.slope - footprint.w - standing.slope(corner[i]);
-      if (footprint.patterns.empty()) c.pattern[i] = pec_pattern(segment, n, cosine, receive);
+      if (pattern.at_node.empty()) c.pattern[i] = pec_pattern(segment, n, cosine, receive);
     }
   }
   return std::make_shared<const CurvedFootprint>(c);

@@ -8,7 +8,7 @@
 #include <array>
 #include <memory>
 
-#include "sim/scattering/radiation/footprint.h"
+#include "sim/scattering/radiation/contribution.h"
 #include "sim/scattering/tracing/curved_reflection.h"
 
 namespace seaglint {
@@ -25,8 +25,8 @@ struct CurvedFootprint {
   // gradient of psi along the surface, magnitude 0..2, as components along a step on the flat facet in the projection
   // plane
   std::array<Vec2, 3> slope;
-  // as Footprint::pattern, with the smooth normals where all surfaces are perfect conductors
-  std::array<std::array<Complex, 4>, 3> pattern;
+  // of the surface, with the smooth normals where all surfaces are perfect conductors
+  std::array<ScatteringMatrix, 3> pattern;
   bool has_bundle = false;  // a reflector before the panel is curved
   bool flat_panel = false;  // the panel is not: psi and its gradient hold at every point
   ArrivingRays rays;        // where has_bundle
@@ -40,12 +40,14 @@ struct CurvedFootprint {
   Complex divergence_factor(const Vec2& p) const;
 };
 
-// Curvature terms of a footprint whose flat phase and pattern are set; null where the facet and all reflectors are
-// flat. The triangle is the curved facet, or encloses the beam on a flat panel.
+// Pattern at the point p, interpolated between the vertices of the facet.
+ScatteringMatrix smooth_pattern(const CurvedFootprint& curvature, const Vec2& p);
+
+// Curvature terms of a footprint whose flat phase is set, with its flat pattern; null where the facet and all
+// reflectors are flat. The triangle is the curved facet, or encloses the beam on a flat panel.
 std::shared_ptr<const CurvedFootprint> make_curved_footprint(const CurvatureContext& on,
                                                              const BistaticGeometry& geometry,
-                                                             const BeamSegment& segment,
-                                                             const CandidatePanel& candidate,
-                                                             const Footprint& footprint);
+                                                             const Interaction& interaction,
+                                                             const Footprint& footprint, const Pattern& pattern);
 
 }  // namespace seaglint

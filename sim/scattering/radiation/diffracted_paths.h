@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "sim/scattering/radiation/footprint.h"
+#include "sim/scattering/radiation/contribution.h"
 #include "sim/scattering/scatterer/panels.h"
 #include "sim/scattering/scatterer/sharp_edges.h"
 

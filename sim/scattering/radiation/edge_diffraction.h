@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// All contributions of sharp edges: single diffraction over all path combinations, and multiple diffraction.
+// Contributions of sharp edges: single diffraction over all combinations of paths, and multiple diffraction.
+//
+// An interval of an edge is illuminated directly or after reflections; exit paths are found by tracing the receiver's
+// wave back to the edge (reciprocity). Each pair of an incident and an exit path with a common interval is one
+// contribution. For one antenna two reciprocal paths are one contribution.
 
+#include <cstddef>
 #include <functional>
 #include <span>
-#include <vector>
 
-#include "sim/scattering/radiation/edge_contribution.h"
+#include "sim/scattering/radiation/contribution.h"
 #include "sim/scattering/radiation/multiple_diffraction.h"
+#include "sim/scattering/scatterer/scatterer.h"
 #include "sim/scattering/tracing/edge_illumination.h"
 #include "sim/scattering/tracing/illumination_settings.h"
 
@@ -20,15 +25,21 @@ namespace seaglint {
 MultipleDiffractionLimits multiple_diffraction_limits(const Scatterer& scatterer, const TracingSettings& settings,
                                                       double lowest);
 
+struct EdgeDiffractionRequest {
+  const Scatterer& scatterer;
+  const BistaticGeometry& geometry;
+  const TracingSettings& settings;
+  std::span<const double> wavenumbers;  // of the patterns, at least one
+  const IlluminationByEdge& incoming;   // by the transmitter
+  const IlluminationByEdge& outgoing;   // by a wave from the receiver, the same object for one antenna
+  int threads = 1;
+};
+
 // Calls visit(chunk, contributions), chunk = 0..kEdgeChunks-1, with the contributions of each edge; those of a chunk
-// arrive in order from one thread. `incoming`: edge illumination by the transmitter at the same wavenumbers;
-// `outgoing`: edge illumination by a wave from the receiver, the same object for one antenna. Contributions rejected by
-// the filter of the settings are omitted. Chunks do not depend on `threads`; there are none when edge diffraction is
-// off.
+// arrive in order from one thread. Contributions rejected by the filter of the settings are omitted. Chunks do not
+// depend on the number of threads.
 inline constexpr std::size_t kEdgeChunks = 16;
-void edge_diffraction(const Scatterer& scatterer, const BistaticGeometry& geometry, const TracingSettings& settings,
-                      std::span<const double> wavenumbers, const IlluminationByEdge& incoming,
-                      const IlluminationByEdge& outgoing, int threads,
-                      const std::function<void(std::size_t, std::span<const EdgeContribution>)>& visit);
+void edge_diffraction(const EdgeDiffractionRequest& request,
+                      const std::function<void(std::size_t, std::span<const Contribution>)>& visit);
 
 }  // namespace seaglint

@@ -8,7 +8,7 @@
 
 #include "sim/core/numbers/smooth_step.h"
 #include "sim/scattering/coefficients/thick_edge.h"
-#include "sim/scattering/radiation/edge_contribution.h"
+#include "sim/scattering/coefficients/grazing_wave_amplitude.h"
 #include "sim/scattering/scatterer/sharp_edges.h"
 
 namespace seaglint {

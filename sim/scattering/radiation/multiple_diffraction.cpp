@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/smooth_step.h"
@@ -47,19 +48,17 @@ double one_minus_cosine(const Vec3& w, const Vec3& s) { return std::max(0.5 * (s
 
 class MultipleDiffractionTracer {
  public:
-  MultipleDiffractionTracer(const SharpEdges& edges, std::span<const Facet> facets, const Panels& panels,
-                            const BistaticGeometry& geometry, const IlluminationByEdge& outgoing,
-                            const MultipleDiffractionLimits& limits, bool backwards, std::vector<EdgeContribution>& out)
-      : edges_(edges),
-        facets_(facets),
-        panels_(panels),
-        geometry_(geometry),
-        outgoing_(outgoing),
-        limits_(limits),
-        reciprocal_(backwards),
+  MultipleDiffractionTracer(const GrazingWaves& scene, std::vector<Contribution>& out)
+      : edges_(scene.scatterer.edges()),
+        facets_(scene.scatterer.facets()),
+        panels_(scene.scatterer.panels()),
+        geometry_(scene.geometry),
+        wavenumbers_(scene.wavenumbers),
+        outgoing_(scene.outgoing),
+        limits_(scene.limits),
         out_(out) {
     for (std::size_t waves = 1; waves < spread_.size(); ++waves)
-      spread_[waves] = spread_[waves - 1] / std::sqrt(limits.k);
+      spread_[waves] = spread_[waves - 1] / std::sqrt(limits_.k);
   }
 
   void launch(const EdgeIllumination& illumination) {
@@ -184,8 +183,7 @@ class MultipleDiffractionTracer {
                int depth) {
     if (source.wall_reflections >= kMaxWallReflections || source.in.grazing_waves > 0) return;
     const Vec3 n = source.face.n.cross(foot.along());  // of the wall
-    if (source.wall_reflections == 0 && geometry_.monostatic && !reciprocal_)
-      add_wall_penumbra(source, facet, foot, n, strip);
+    if (source.wall_reflections == 0 && geometry_.monostatic) add_wall_penumbra(source, facet, foot, n, strip);
     const Mat3 reflection = householder(n);
     const Vec3 shift = 2 * n.dot(foot.a) * n;
     const GrazingSource image{source.in,
@@ -223,13 +221,9 @@ class MultipleDiffractionTracer {
         wall.height = std::max(wall.height, source.face.n.dot(x - foot.a));
     }
     if (wall.height < kCoincident) return;
-    EdgeContribution echo;  // of the wall, at its foot
-    echo.facet = foot.facet[0];
-    echo.part = facets_[foot.facet[0]].part;
-    echo.other_part = facets_[foot.facet[1]].part;
-    echo.bounces = 2;
-    echo.mechanism = Mechanism::kWallPenumbra;
-    append_wall_penumbra(wall, geometry_.transmit, echo, limits_.k, limits_.min_amplitude_m, out_);
+    const ContributionSource source_of_foot{foot.facet[0], facets_[foot.facet[0]].part, facets_[foot.facet[1]].part, 2,
+                                            Mechanism::kWallPenumbra};
+    append_wall_penumbra(wall, geometry_.transmit, source_of_foot, limits_, out_);
   }
 
   void diffract(const GrazingSource& source, int number, const RayStrip& strip) {
@@ -267,7 +261,7 @@ class MultipleDiffractionTracer {
     if (in.grazing_waves > 0)
       next.detour_m[in.grazing_waves - 1] = 2 * in.departure / std::pow(mean_inverse_sqrt_length(in.l), 2);
     for (int q = 0; q < 2; ++q) next.factor[q] = 0.5 * source.amplitude[q];  // half of the total field is incident
-    // Paths that end at a concave edge are traced from there (trace_diffraction_to_concave_edges).
+    // A path that ends at a concave edge is the reciprocal of one that starts there.
     if (wedge->N > 1) {
       for (const EdgeIllumination* departure : outgoing_.of(number))
         radiate_towards(next, *wedge, source.face, strip.w, *departure);
@@ -305,9 +299,10 @@ class MultipleDiffractionTracer {
     if (is_reflected(departure) || illuminated_wedge(edge, departure.direction) != &wedge) return;
     const std::array<double, 2> s{std::max(in.s[0], departure.s[0]), std::min(in.s[1], departure.s[1])};
     if (s[1] - s[0] < kCoincident) return;
-    const double weight = in.wall_reflections > 0 || (reciprocal_ && in.grazing_waves == 1)
-                              ? grazing_wave_weight(in.previous_direction, in.unfolding * -departure.direction)
-                              : 1.0;
+    const double tapered = grazing_wave_weight(in.previous_direction, in.unfolding * -departure.direction);
+    double weight = in.wall_reflections > 0 ? tapered : 1.0;
+    // For one antenna a wave that starts at a concave edge includes its reciprocal, which ends there.
+    if (in.met_concave_edge && in.grazing_waves == 1 && geometry_.monostatic) weight += tapered;
     if (weight <= 0) return;
     const Vec3& along = edge.along();
     const Vec3 out = -departure.direction;
@@ -315,78 +310,57 @@ class MultipleDiffractionTracer {
     const double rate =
         (in.psi[1] - in.psi[0]) / (in.s[1] - in.s[0]) + geometry_.receive.r.dot(departure.image_edge_direction);
     if (!is_significant(in, w, out, arrival, rate, s[1] - s[0])) return;
-    EdgeContribution contribution;
-    contribution.length = s[1] - s[0];
-    contribution.facet = edge.facet[0];
-    contribution.part = facets_[edge.facet[0]].part;
-    contribution.other_part = facets_[edge.facet[1]].part;
-    contribution.bounces = static_cast<std::uint8_t>(in.wall_reflections + in.grazing_waves + 1);
-    contribution.mechanism = in.met_concave_edge ? Mechanism::kConcaveEdge : Mechanism::kMultipleDiffraction;
+    EdgeInterval interval;
+    interval.length = s[1] - s[0];
     GrazingWaveAmplitude range;
     for (int end = 0; end < 2; ++end) {
       const double fraction = (s[end] - in.s[0]) / (in.s[1] - in.s[0]);
       const Vec3 Y = departure.image_start + s[end] * departure.image_edge_direction;
-      contribution.psi[end] = interpolate(in.psi, fraction) + geometry_.receive.r.dot(Y);
-      contribution.gradient[end].transmit = interpolate(in.X, fraction);
-      contribution.gradient[end].receive = Y;
+      interval.psi[end] = interpolate(in.psi, fraction) + geometry_.receive.r.dot(Y);
+      interval.gradient[end].transmit = interpolate(in.X, fraction);
+      interval.gradient[end].receive = Y;
       range.l[end] = interpolate(in.l, fraction);
     }
     range.launch_parameter = in.departure;
     range.exit_parameter = arrival;
     range.detour_m = in.detour_m;
     range.grazing_waves = in.grazing_waves;
-    contribution.amplitude = range;
+    interval.amplitude = range;
     const Vec3 J = weight * second_edge_current(wedge, face, along, w, out);
     const double h = departure.E_h.dot(J), v = departure.E_v.dot(J);
-    EdgePattern& pattern = contribution.pattern;
-    pattern.thin = {h * in.factor[0], h * in.factor[1], v * in.factor[0], v * in.factor[1]};
+    Pattern pattern{{h * in.factor[0], h * in.factor[1], v * in.factor[0], v * in.factor[1]}};
     const ThicknessChange thickness = with_edge(in.thickness, wedge, out);
-    pattern.thickness_m = thickness.thickness_m;
-    for (int i = 0; i < 4; ++i) {
-      pattern.thickness_linear[i] = pattern.thin[i] * thickness.change.constant;
-      pattern.thickness_log[i] = pattern.thin[i] * thickness.change.logarithm;
+    for (const double k : thickness.thickness_m > 0 ? wavenumbers_ : std::span<const double>()) {
+      const double kt = k * thickness.thickness_m;
+      const Complex change = 1.0 + kt * (thickness.change.constant + std::log(kt) * thickness.change.logarithm);
+      ScatteringMatrix& thick = pattern.at_node.emplace_back(pattern.value);
+      for (Complex& element : thick) element *= change;
     }
-    out_.push_back(contribution);
+    out_.push_back({std::move(pattern),
+                    {edge.facet[0], facets_[edge.facet[0]].part, facets_[edge.facet[1]].part,
+                     static_cast<std::uint8_t>(in.wall_reflections + in.grazing_waves + 1),
+                     in.met_concave_edge ? Mechanism::kConcaveEdge : Mechanism::kMultipleDiffraction},
+                    interval});
   }
 
   const SharpEdges& edges_;
   std::span<const Facet> facets_;
   const Panels& panels_;
   const BistaticGeometry& geometry_;
+  std::span<const double> wavenumbers_;
   const IlluminationByEdge& outgoing_;
   MultipleDiffractionLimits limits_;
-  bool reciprocal_;  // traced from concave edges, for paths that end there
-  std::vector<EdgeContribution>& out_;
+  std::vector<Contribution>& out_;
   std::array<double, kMaxGrazingWaves + 1> spread_{1.0};  // k^(-waves / 2), m^(waves / 2)
 };
 
 }  // namespace
 
-void trace_multiple_diffraction(const SharpEdges& edges, std::span<const Facet> facets, const Panels& panels,
-                                const BistaticGeometry& geometry, EdgeIlluminations incoming,
-                                const IlluminationByEdge& outgoing, const MultipleDiffractionLimits& limits,
-                                std::vector<EdgeContribution>& contributions) {
-  MultipleDiffractionTracer waves(edges, facets, panels, geometry, outgoing, limits, false, contributions);
+void trace_multiple_diffraction(const GrazingWaves& scene, EdgeIlluminations incoming,
+                                std::vector<Contribution>& contributions) {
+  MultipleDiffractionTracer waves(scene, contributions);
   for (const EdgeIllumination* in : incoming) {
     if (!is_reflected(*in)) waves.launch(*in);
-  }
-}
-
-void trace_diffraction_to_concave_edges(const SharpEdges& edges, std::span<const Facet> facets, const Panels& panels,
-                                        const BistaticGeometry& geometry, const IlluminationByEdge& incoming,
-                                        EdgeIlluminations outgoing, const MultipleDiffractionLimits& limits,
-                                        std::vector<EdgeContribution>& contributions) {
-  const BistaticGeometry exchanged{geometry.receive, geometry.transmit, geometry.monostatic};
-  std::vector<EdgeContribution> back;
-  MultipleDiffractionTracer waves(edges, facets, panels, exchanged, incoming, limits, true, back);
-  for (const EdgeIllumination* out : outgoing) {
-    const WedgeFrame* wedge = illuminated_wedge(edges.edges[out->edge], out->direction);
-    if (!is_reflected(*out) && wedge && wedge->N < 1) waves.launch(*out);
-  }
-  for (EdgeContribution& contribution : back) {
-    for (PathGradient& gradient : contribution.gradient) std::swap(gradient.transmit, gradient.receive);
-    contribution.pattern = transposed(contribution.pattern);
-    contributions.push_back(contribution);
   }
 }
 

@@ -10,8 +10,9 @@
 #include <span>
 #include <vector>
 
-#include "sim/scattering/radiation/single_diffraction.h"
-#include "sim/scattering/scatterer/panels.h"
+#include "sim/scattering/radiation/contribution.h"
+#include "sim/scattering/scatterer/scatterer.h"
+#include "sim/scattering/tracing/edge_illumination.h"
 
 namespace seaglint {
 
@@ -22,22 +23,23 @@ struct MultipleDiffractionLimits {
   double k = 1;                // 1/m
 };
 
+// Scene of the grazing waves of one observation.
+struct GrazingWaves {
+  const Scatterer& scatterer;
+  const BistaticGeometry& geometry;
+  std::span<const double> wavenumbers;  // of the patterns of thick sheets
+  const IlluminationByEdge& outgoing;   // intervals of last edges, by a wave from the receiver
+  MultipleDiffractionLimits limits;
+};
+
 // Appends the contributions transmitter - first edge - face - second edge (- face - third edge ...) - receiver, for all
-// intervals of first edges in `incoming` and of last edges in `outgoing`. The strip of grazing rays is followed across
+// intervals of first edges in `incoming` and of last edges in the scene. The strip of grazing rays is followed across
 // coplanar facets and via up to two perpendicular walls to the next edge; it ends at edges that are not sharp. Concave
 // edges launch and relaunch waves too, because PO has no transition region where a wave reflected by one wall grazes
-// the other; paths that end at a concave edge are in trace_diffraction_to_concave_edges(). Fields decay as 1/sqrt(k l)
-// with the distance l between two edges; at the later edge half of the field is the incident field.
-void trace_multiple_diffraction(const SharpEdges& edges, std::span<const Facet> facets, const Panels& panels,
-                                const BistaticGeometry& geometry, EdgeIlluminations incoming,
-                                const IlluminationByEdge& outgoing, const MultipleDiffractionLimits& limits,
-                                std::vector<EdgeContribution>& contributions);
-
-// The same for paths that end at a concave edge, transmitter - first edge - face - concave edge - receiver, with the
-// concave edges in `outgoing`; traced from there by reciprocity. Paths between two concave edges are in neither.
-void trace_diffraction_to_concave_edges(const SharpEdges& edges, std::span<const Facet> facets, const Panels& panels,
-                                        const BistaticGeometry& geometry, const IlluminationByEdge& incoming,
-                                        EdgeIlluminations outgoing, const MultipleDiffractionLimits& limits,
-                                        std::vector<EdgeContribution>& contributions);
+// the other; for one antenna such a double diffraction includes its reciprocal, which ends at the concave edge. Fields
+// decay as 1/sqrt(k l) with the distance l between two edges; at the later edge half of the field is the incident
+// field.
+void trace_multiple_diffraction(const GrazingWaves& scene, EdgeIlluminations incoming,
+                                std::vector<Contribution>& contributions);
 
 }  // namespace seaglint

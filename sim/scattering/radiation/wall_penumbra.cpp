@@ -19,18 +19,19 @@ constexpr double kMergedLimit = 9;
 // Phase of the derivative term per unit of sine: 0.1 rad for an aspect change of 1e-3 rad.
 constexpr double kChangePhase = 100;
 // hh, hv, vh, vv
-using Pattern = std::array<double, 4>;
+using ElementPattern = std::array<double, 4>;
 
 // Response of a wall per area and -jk / 2 pi to a wave along k_hat with fields E_h, E_v.
-Pattern wall_pattern(const Vec3& n, const RadarBasis& antenna, const Vec3& k_hat, const Vec3& E_h, const Vec3& E_v) {
+ElementPattern wall_pattern(const Vec3& n, const RadarBasis& antenna, const Vec3& k_hat, const Vec3& E_h, const Vec3& E_v) {
   const Vec3 J_h = n.cross(k_hat.cross(E_h)), J_v = n.cross(k_hat.cross(E_v));
   return {antenna.h.dot(J_h), antenna.h.dot(J_v), antenna.v.dot(J_h), antenna.v.dot(J_v)};
 }
 
 }  // namespace
 
-void append_wall_penumbra(const WallBehindEdge& wall, const RadarBasis& antenna, const EdgeContribution& foot_echo,
-                          double k, double min_amplitude_m, std::vector<EdgeContribution>& contributions) {
+void append_wall_penumbra(const WallBehindEdge& wall, const RadarBasis& antenna, const ContributionSource& source,
+                          const MultipleDiffractionLimits& limits, std::vector<Contribution>& contributions) {
+  const double k = limits.k;
   const Vec3 &along = wall.edge_direction, &n = wall.face_normal;
   const std::array<Vec3, 2>& foot = wall.foot;
   const double height = wall.height;
@@ -54,37 +55,38 @@ void append_wall_penumbra(const WallBehindEdge& wall, const RadarBasis& antenna,
 
   // For the direct wave and its image in the face: soft and hard are half of their difference and of their sum.
   const auto image = [&](const Vec3& x) { return reflect_direction(x, n); };
-  const Pattern direct = wall_pattern(wall.wall_normal, antenna, -r, antenna.h, antenna.v),
+  const ElementPattern direct = wall_pattern(wall.wall_normal, antenna, -r, antenna.h, antenna.v),
                 by_face = wall_pattern(wall.wall_normal, antenna, image(-r), -image(antenna.h), -image(antenna.v));
-  Pattern soft, hard;
+  ElementPattern soft, hard;
   for (int i = 0; i < 4; ++i) {
     soft[i] = 0.5 * (direct[i] - by_face[i]);
     hard[i] = 0.5 * (direct[i] + by_face[i]);
   }
 
   // `rise`: d psi / d sine of the grazing angle, m; a phase delay grows with the distance l.
-  const auto append = [&](const Pattern& pattern, const WallPenumbraTerm& range, double rise, double slope,
+  const auto append = [&](const ElementPattern& pattern, const WallPenumbraTerm& range, double rise, double slope,
                           double max_amplitude) {
-    EdgeContribution contribution = foot_echo;
-    contribution.length = length;
-    contribution.fresnel_wavenumber = 2 * mean_distance / (height * height);
-    contribution.amplitude = range;
-    for (int i = 0; i < 4; ++i) contribution.pattern.thin[i] = pattern[i];
+    EdgeInterval interval;
+    interval.length = length;
+    interval.fresnel_wavenumber = 2 * mean_distance / (height * height);
+    interval.amplitude = range;
+    ScatteringMatrix value;
+    for (int i = 0; i < 4; ++i) value[i] = pattern[i];
     for (int end = 0; end < 2; ++end) {
-      contribution.psi[end] = 2 * r.dot(foot[end]) - range.psi_decrement * l[end];
-      contribution.gradient[end] = {};
-      contribution.gradient[end].transmit = contribution.gradient[end].receive =
+      interval.psi[end] = 2 * r.dot(foot[end]) - range.psi_decrement * l[end];
+      interval.gradient[end] = {};
+      interval.gradient[end].transmit = interval.gradient[end].receive =
           foot[end] + 0.5 * (rise - l[end] * slope) * n - 0.5 * l[end] * range.psi_decrement * lengthens * turn;
     }
-    const double rate = (contribution.psi[1] - contribution.psi[0]) / length;
+    const double rate = (interval.psi[1] - interval.psi[0]) / length;
     for (int end = 0; end < 2; ++end) {
       if (!wall.ends_follow_edge[end]) continue;
-      contribution.gradient[end].transmit_slide = rate * slides * l[end] * turn;
-      contribution.gradient[end].transmit += contribution.gradient[end].transmit_slide;
+      interval.gradient[end].transmit_slide = rate * slides * l[end] * turn;
+      interval.gradient[end].transmit += interval.gradient[end].transmit_slide;
     }
     const double max = std::abs(*std::ranges::max_element(pattern, {}, [](double x) { return std::abs(x); }));
-    const double extent = length / std::max(0.5 * k * std::abs(contribution.psi[1] - contribution.psi[0]), 1.0);
-    if (max * max_amplitude * extent >= min_amplitude_m) contributions.push_back(contribution);
+    const double extent = length / std::max(0.5 * k * std::abs(interval.psi[1] - interval.psi[0]), 1.0);
+    if (max * max_amplitude * extent >= limits.min_amplitude_m) contributions.push_back({{value}, source, interval});
   };
 
   const PenumbraWeights weights = penumbra_weights(s);

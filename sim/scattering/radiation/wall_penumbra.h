@@ -34,7 +34,8 @@
 #include <array>
 #include <vector>
 
-#include "sim/scattering/radiation/edge_contribution.h"
+#include "sim/scattering/radiation/contribution.h"
+#include "sim/scattering/radiation/multiple_diffraction.h"
 
 namespace seaglint {
 
@@ -51,9 +52,9 @@ struct WallBehindEdge {
   std::array<bool, 2> ends_follow_edge{};
 };
 
-// Appends the penumbra terms for one antenna; facet, part and bounces are those of `foot_echo`. Terms below
-// min_amplitude_m at wavenumber k are omitted.
-void append_wall_penumbra(const WallBehindEdge& wall, const RadarBasis& antenna, const EdgeContribution& foot_echo,
-                          double k, double min_amplitude_m, std::vector<EdgeContribution>& contributions);
+// Appends the penumbra terms for one antenna. `source`: of the wall's foot. Terms below limits.min_amplitude_m at the
+// wavenumber limits.k are omitted.
+void append_wall_penumbra(const WallBehindEdge& wall, const RadarBasis& antenna, const ContributionSource& source,
+                          const MultipleDiffractionLimits& limits, std::vector<Contribution>& contributions);
 
 }  // namespace seaglint

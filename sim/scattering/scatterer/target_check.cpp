@@ -217,12 +217,4 @@ std::vector<std::string> check_bars(const Scatterer& scatterer, double lowest_hz
                   thin.total(), kThinBar, lowest_hz * 1e-9, thin.longest(part_names))};
 }
 
-void check_wavefront_range(double radius_m, double range_m) {
-  constexpr double kNearestRadii = 10;
-  if (range_m > 0 && range_m < kNearestRadii * radius_m) {
-    throw InputError(fmt::format("wavefront range {} m: must be at least ten times the target radius of {:.3g} m",
-                                 range_m, radius_m));
-  }
-}
-
 }  // namespace seaglint

@@ -32,8 +32,4 @@ std::vector<std::string> check_edges(const Scatterer& scatterer, bool followed, 
 std::vector<std::string> check_bars(const Scatterer& scatterer, double lowest_hz,
                                     std::span<const std::string> part_names = {});
 
-// Throws InputError where the wavefront range (m; 0: plane wave) is less than ten times the target's radius about its
-// origin: beyond that the third-order term of the wavefront is below a tenth of the second-order one.
-void check_wavefront_range(double radius_m, double range_m);
-
 }  // namespace seaglint

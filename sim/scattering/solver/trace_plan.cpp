@@ -28,13 +28,15 @@ struct TracePlan::Directions {
   std::span<const Vec3> of(bool by_sea) const { return by_sea ? to_image : to_radar; }
 };
 
-TracePlan::TracePlan(const Trajectory& trajectory, const IntervalSampling& sampling, const Vec3& r_hat, double range_m,
-                     std::span<const PropagationPath> paths, const TraceLimits& limits, const Vec3& centre)
-    : range_m_(range_m) {
+TracePlan::TracePlan(const ObservedMotion& motion, std::span<const PropagationPath> paths, const TraceLimits& limits)
+    : range_m_(motion.range_m) {
+  const IntervalSampling& sampling = motion.sampling;
+  const Vec3& r_hat = motion.r_hat;
+  const double range_m = motion.range_m;
   const double start = sampling.pulse_time_s.front(), length = sampling.pulse_time_s.back() - start;
   const auto pose_at = [&](double time_s) {
-    Pose pose = trajectory.pose(time_s);
-    pose.p += pose.R * centre;
+    Pose pose = motion.trajectory.pose(time_s);
+    pose.p += pose.R * motion.centre;
     return pose;
   };
   Directions seen;
@@ -87,14 +89,14 @@ PlannedTrace TracePlan::planned(std::size_t trace, const Pose& pose, const LineO
   if (plan.first > plan.last) return plan;
   const RadarBasis radar = body_basis(line_of_sight.radar, pose), image = body_basis(line_of_sight.image, pose);
   for (const PropagationPath& path : paths) {
-    const RadarBasis &transmit = path.outbound_via_sea ? image : radar, &receive = path.return_via_sea ? image : radar;
+    const BistaticGeometry antennas = antennas_on(path, radar, image);
     const auto own = [&](bool by_sea) {
       return seen.of(by_sea).subspan(static_cast<std::size_t>(plan.first),
                                      static_cast<std::size_t>(plan.last - plan.first + 1));
     };
-    plan.paths.push_back(
-        {path, path.outbound_via_sea == path.return_via_sea ? monostatic(transmit) : bistatic(transmit, receive),
-         look_direction_path(own(path.outbound_via_sea), own(path.return_via_sea), transmit.r, receive.r)});
+    plan.paths.push_back({path, antennas,
+                          look_direction_path(own(path.outbound_via_sea), own(path.return_via_sea),
+                                              antennas.transmit.r, antennas.receive.r)});
   }
   return plan;
 }

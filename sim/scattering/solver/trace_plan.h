@@ -10,7 +10,6 @@
 #include "sim/scattering/observation/frequency_response.h"
 #include "sim/scattering/observation/line_of_sight.h"
 #include "sim/scattering/observation/look_direction_path.h"
-#include "sim/scattering/solver/illumination.h"
 
 namespace seaglint {
 
@@ -26,6 +25,15 @@ struct PlannedTrace {
   std::vector<PlannedPath> paths;
 };
 
+// A moving body and a radar over an interval of one or more pulses.
+struct ObservedMotion {
+  const Trajectory& trajectory;  // covers the interval
+  const IntervalSampling& sampling;
+  Vec3 r_hat;                   // look direction, target frame
+  double range_m = 0;           // of the radar from the origin of the target frame; 0: far field
+  Vec3 centre = Vec3::Zero();   // the point of the body, body frame, about which it is traced
+};
+
 // Limits of the motion of a look direction under one trace, rad.
 struct TraceLimits {
   double aspect_change = 0;  // length of its path
@@ -36,10 +44,7 @@ struct TraceLimits {
 // interpolated linearly; before the first and after the last one the nearest response is used.
 class TracePlan {
  public:
-  // The trajectory must cover the interval of one or more pulses. r_hat in the target frame; the radar is at range_m
-  // from its origin, 0 = far field. centre: the point of the body, body frame, about which it is traced.
-  TracePlan(const Trajectory& trajectory, const IntervalSampling& sampling, const Vec3& r_hat, double range_m,
-            std::span<const PropagationPath> paths, const TraceLimits& limits, const Vec3& centre = Vec3::Zero());
+  TracePlan(const ObservedMotion& motion, std::span<const PropagationPath> paths, const TraceLimits& limits);
 
   std::span<const PlannedTrace> traces() const { return traces_; }
   // Weight of a trace at a pulse; the weights of all traces sum to one.

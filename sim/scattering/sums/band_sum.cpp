@@ -38,7 +38,7 @@ BandSum::Cell& BandSum::cell(std::int64_t place) {
   return cells_[static_cast<std::size_t>(number)];
 }
 
-void BandSum::add(const BandPoint& point, std::span<const std::array<Complex, 4>> patterns) {
+void BandSum::add(const Point& point) {
   const std::int64_t place = cell_m_ > 0 ? std::llround(point.psi / cell_m_) : 0;
   const double from_centre = point.psi - static_cast<double>(place) * cell_m_;
   Cell& sum = cell(place);
@@ -47,7 +47,7 @@ void BandSum::add(const BandPoint& point, std::span<const std::array<Complex, 4>
   const Complex step = small_phasor(band_.node_step() * from_centre);
   for (std::size_t n = 0; n < band_.nodes().size(); ++n, phase *= step) {
     const Complex value = point.amplitude[n] * phase;
-    const std::array<Complex, 4>& pattern = patterns.empty() ? point.pattern : patterns[n];
+    const ScatteringMatrix pattern = point.pattern_at(n);
     for (std::size_t i = 0; i < 4; ++i) {
       sum.values[n][2 * i] += value.real() * pattern[i].real() - value.imag() * pattern[i].imag();
       sum.values[n][2 * i + 1] += value.real() * pattern[i].imag() + value.imag() * pattern[i].real();
@@ -64,9 +64,9 @@ void BandSum::add(const BandSum& other) {
   }
 }
 
-std::array<Complex, 4> BandSum::at(double k) const {
+ScatteringMatrix BandSum::at(double k) const {
   const std::array<double, kBandNodes> weights = band_.weights(k);
-  std::array<Complex, 4> sum{};
+  ScatteringMatrix sum{};
   for (const Cell& cell : cells_) {
     std::array<double, 8> value{};
     for (std::size_t n = 0; n < kBandNodes; ++n) {

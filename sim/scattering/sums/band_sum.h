@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "sim/scattering/observation/frequency_band.h"
-#include "sim/scattering/points/point_contributions.h"
+#include "sim/scattering/points/point.h"
 
 namespace seaglint {
 
@@ -23,13 +23,13 @@ class BandSum {
  public:
   explicit BandSum(const FrequencyBand& band);
 
-  // `patterns` replaces the pattern of the point at every node; empty where the point's own holds.
-  void add(const BandPoint& point, std::span<const std::array<Complex, 4>> patterns = {});
+  // A point at the nodes of the band.
+  void add(const Point& point);
   // Adds a sum over the same band, cell by cell.
   void add(const BandSum& other);
 
   // hh, hv, vh, vv at a wavenumber of the band, m.
-  std::array<Complex, 4> at(double k) const;
+  ScatteringMatrix at(double k) const;
 
  private:
   // Values at the nodes of the points in one cell, relative to the phase of its centre: real and imaginary parts.

@@ -5,10 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/fourier.h"
 #include "sim/core/process/error.h"
+#include "sim/core/process/parallel.h"
 
 namespace seaglint {
 namespace {
@@ -242,6 +245,44 @@ void ResponseGrid::response(int first, double s, double cross_track, std::span<C
       out[begin + l] = weight * Complex(sum_re[l], sum_im[l]);
     }
   }
+}
+
+IntervalLimits interval_limits(const Scatterer& scatterer, double faint_m) {
+  return {faint_m, 8 * scatterer.radius(), std::numbers::sqrt2 * scatterer.radius()};
+}
+
+void IntervalSum::add(std::size_t chunk, std::span<const Contribution> contributions, const Observation& observation) {
+  auto& [grid_points, points] = chunks_[chunk];
+  for (const Contribution& contribution : contributions) {
+    points.clear();
+    decompose(contribution, observation, at_, points);
+    for (const Point& point : points) {
+      const Complex amplitude = point.amplitude[0] * point.pattern_at(0)[channel_];
+      if (std::norm(amplitude) < limits_.faint_m * limits_.faint_m) continue;
+      const double limit = std::min(1.0, limits_.slide_m / point.gradient.sum().norm());
+      grid_points.push_back({amplitude, point.psi, limit * path_.along_track.path_rate(point.gradient),
+                             limit * path_.cross_track.path_rate(point.gradient)});
+    }
+  }
+}
+
+ResponseGrid IntervalSum::grid(const WavenumberGrid& wavenumbers, int threads) const {
+  // Points are spread on this many grids for any number of threads, each for every fourth chunk; they are added in
+  // order.
+  constexpr std::size_t kGrids = 4;
+  double fastest = 0;
+  for (const Chunk& chunk : chunks_) {
+    for (const GridPoint& point : chunk.points) fastest = std::max(fastest, std::abs(point.u));
+  }
+  const GridLimits limits{fastest, path_.s_limit, limits_.cross_track_m, path_.q_limit};
+  std::vector<ResponseGrid> grids(kGrids, ResponseGrid(wavenumbers, limits));
+  parallel_for(kGrids, threads, [&](std::size_t g) {
+    for (std::size_t chunk = g; chunk < chunks_.size(); chunk += kGrids) grids[g].spread(chunks_[chunk].points);
+  });
+  ResponseGrid sum = std::move(grids[0]);
+  for (std::size_t g = 1; g < kGrids; ++g) sum.add(grids[g]);
+  sum.transform();
+  return sum;
 }
 
 }  // namespace seaglint

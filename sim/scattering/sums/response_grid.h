@@ -17,7 +17,8 @@
 #include <span>
 #include <vector>
 
-#include "sim/scattering/points/point_contributions.h"
+#include "sim/scattering/observation/look_direction_path.h"
+#include "sim/scattering/points/decomposition.h"
 
 namespace seaglint {
 
@@ -79,6 +80,46 @@ class ResponseGrid {
   int terms_;                           // of the series in q, 1..5
   std::vector<Complex> cells_;          // [term][u][psi], after transform() [term][u][frequency]
   std::vector<double> psi_correction_;  // 1 / phi^ per frequency
+};
+
+// Limits of what an interval's sum takes from a trace of a scatterer.
+struct IntervalLimits {
+  double faint_m = 0;  // half of all points, mostly tapered or cancelling end points, are weaker
+  // A shadow boundary at grazing incidence slides along its facet much faster than any point of the body. Its rate is
+  // limited to that of a point at four radii: such end points are weak and cross many velocity cells.
+  double slide_m = 0;
+  // Cross-track path rate of body-fixed points for a track tangent of unit length; contributions of shadow boundaries
+  // that exceed it are weak.
+  double cross_track_m = 0;
+};
+IntervalLimits interval_limits(const Scatterer& scatterer, double faint_m);
+
+// Sum of the contributions to one polarisation over the band and the look directions of an interval.
+class IntervalSum {
+ public:
+  // channel: index of the polarisation in a scattering matrix. The path must outlive the object.
+  IntervalSum(const LookDirectionPath& path, const PointBand& at, const IntervalLimits& limits, int channel,
+              std::size_t chunks)
+      : path_(path), at_(at), limits_(limits), channel_(static_cast<std::size_t>(channel)), chunks_(chunks) {}
+
+  // Adds to one chunk, which one thread fills.
+  void add(std::size_t chunk, std::span<const Contribution> contributions, const Observation& observation);
+
+  // The sum; bits do not depend on the number of threads.
+  ResponseGrid grid(const WavenumberGrid& wavenumbers, int threads) const;
+
+ private:
+  // Aligned to cache lines: threads fill neighbouring chunks concurrently.
+  struct alignas(64) Chunk {
+    std::vector<GridPoint> points;
+    std::vector<Point> of_contribution;  // work memory
+  };
+
+  const LookDirectionPath& path_;
+  PointBand at_;
+  IntervalLimits limits_;
+  std::size_t channel_;
+  std::vector<Chunk> chunks_;
 };
 
 }  // namespace seaglint

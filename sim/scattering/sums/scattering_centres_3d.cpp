@@ -13,10 +13,10 @@
 namespace seaglint {
 namespace {
 
-std::array<Complex, 4> echo_of(const PointContribution& c, double k) {
-  const Complex a = c.amplitude * std::polar(1.0, k * c.psi);
-  std::array<Complex, 4> s{};
-  for (int i = 0; i < 4; ++i) s[i] = a * Complex(c.pattern[i]);
+ScatteringMatrix echo_of(const Point& point, double k) {
+  ScatteringMatrix s = point.matrix(0);
+  const Complex phase = std::polar(1.0, k * point.psi);
+  for (Complex& element : s) element *= phase;
   return s;
 }
 
@@ -28,7 +28,7 @@ double ScatteringCentre3d::peak_rcs() const {
   return 4 * kPi * max;
 }
 
-std::vector<ScatteringCentre3d> cluster_centres(std::span<const PointContribution> contributions, double k,
+std::vector<ScatteringCentre3d> cluster_centres(std::span<const Point> points, double k,
                                                 double cell_m) {
   SEAGLINT_CHECK(cell_m > 0, fmt::format("cells of {} m", cell_m));
   using Key = std::array<std::int64_t, 7>;
@@ -38,9 +38,9 @@ std::vector<ScatteringCentre3d> cluster_centres(std::span<const PointContributio
   };
   const auto cell = [&](double x) { return static_cast<std::int64_t>(std::floor(x / (2 * cell_m))); };
   std::map<Key, Cell> cells;
-  for (const PointContribution& c : contributions) {
+  for (const Point& c : points) {
     const Vec3 g = c.gradient.sum();
-    Cell& at = cells[{c.part, c.bounces, static_cast<std::int64_t>(c.mechanism), cell(c.psi), cell(g.x()), cell(g.y()),
+    Cell& at = cells[{c.source.part, c.source.bounces, static_cast<std::int64_t>(c.source.mechanism), cell(c.psi), cell(g.x()), cell(g.y()),
                       cell(g.z())}];
     const auto s = echo_of(c, k);
     double weight = 1e-300;
@@ -48,9 +48,9 @@ std::vector<ScatteringCentre3d> cluster_centres(std::span<const PointContributio
       at.centre.amplitude[i] += s[i];
       weight = std::max(weight, std::abs(s[i]));
     }
-    at.centre.part = c.part;
-    at.centre.bounces = c.bounces;
-    at.centre.mechanism = c.mechanism;
+    at.centre.part = c.source.part;
+    at.centre.bounces = c.source.bounces;
+    at.centre.mechanism = c.source.mechanism;
     // Weighted running mean, inside the cell.
     at.weight += weight;
     at.centre.psi += (c.psi - at.centre.psi) * (weight / at.weight);
@@ -65,14 +65,14 @@ std::vector<ScatteringCentre3d> cluster_centres(std::span<const PointContributio
   return centres;
 }
 
-std::vector<std::array<Complex, 4>> facet_contributions(std::span<const PointContribution> contributions, double k,
+Matrices facet_contributions(std::span<const Point> points, double k,
                                                         std::size_t facets) {
-  std::vector<std::array<Complex, 4>> echoes(facets);
-  for (const PointContribution& c : contributions) {
-    SEAGLINT_CHECK(c.facet >= 0 && static_cast<std::size_t>(c.facet) < facets,
-                   fmt::format("facet {} of {}", c.facet, facets));
+  Matrices echoes(facets);
+  for (const Point& c : points) {
+    SEAGLINT_CHECK(c.source.facet >= 0 && static_cast<std::size_t>(c.source.facet) < facets,
+                   fmt::format("facet {} of {}", c.source.facet, facets));
     const auto s = echo_of(c, k);
-    for (int i = 0; i < 4; ++i) echoes[static_cast<std::size_t>(c.facet)][i] += s[i];
+    for (int i = 0; i < 4; ++i) echoes[static_cast<std::size_t>(c.source.facet)][i] += s[i];
   }
   return echoes;
 }

@@ -20,20 +20,19 @@ void add_to(ViewEstimate::Sums& sum, const ViewEstimate::Sums& other, const CoPo
 
 }  // namespace
 
-void ViewEstimate::add(const Footprint& footprint, const std::array<Complex, 4>& smooth,
-                       const std::array<Complex, 4>& flat) {
+void ViewEstimate::add(const Contribution& contribution, const ScatteringMatrix& smooth,
+                       const ScatteringMatrix& flat) {
+  const Footprint& footprint = *contribution.footprint();
+  const auto& [facet, part, other_part, bounces, mechanism] = contribution.source;
   // Polygons of one beam on one panel lie in one plane of image space.
-  if (beam_ &&
-      (beam_->facet != footprint.facet || beam_->psi0 != footprint.psi0 || beam_->bounces != footprint.bounces))
-    end_beam();
+  if (beam_ && (beam_->facet != facet || beam_->psi0 != footprint.psi0 || beam_->bounces != bounces)) end_beam();
   if (!beam_) {
     const double wavelength = 2 * kPi / k_, wall_distance = footprint.history.wall_distance;
     // A beam that is displaced on its last panel returns with the change of psi along that panel.
     const double phase_change = k_ * footprint.psi_slope * footprint.history.displacement * kVertexNoise * wavelength;
     const bool in_cavity =
-        footprint.bounces >= kCavityReflections && wall_distance > 0 && wall_distance < kCavityWavelengths * wavelength;
-    beam_ =
-        Beam{footprint.facet, footprint.psi0, footprint.bounces, footprint.part, phase_change, in_cavity, {}, {}, {}};
+        bounces >= kCavityReflections && wall_distance > 0 && wall_distance < kCavityWavelengths * wavelength;
+    beam_ = Beam{facet, footprint.psi0, bounces, part, phase_change, in_cavity, {}, {}, {}};
   }
   beam_->smooth[0] += smooth[0];
   beam_->smooth[1] += smooth[3];

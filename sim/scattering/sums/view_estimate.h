@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/scattering/radiation/footprint.h"
+#include "sim/scattering/radiation/contribution.h"
 
 namespace seaglint {
 
@@ -28,11 +28,14 @@ class ViewEstimate {
 
   double wavenumber() const { return k_; }
 
-  // Footprints that contribute to an estimate: curved ones, and those behind reflectors.
-  static bool concerns(const Footprint& footprint) { return footprint.curvature || footprint.bounces > 1; }
-  // Adds a footprint that an estimate concerns: its scattering matrix, and that of its flat facets with flat
-  // reflectors, m. Footprints of one beam on one panel count as one contribution if they follow each other.
-  void add(const Footprint& footprint, const std::array<Complex, 4>& smooth, const std::array<Complex, 4>& flat);
+  // Contributions to an estimate: of curved footprints, and of those behind reflectors.
+  static bool concerns(const Contribution& contribution) {
+    const Footprint* footprint = contribution.footprint();
+    return footprint && (footprint->curvature || contribution.source.bounces > 1);
+  }
+  // Adds a contribution that an estimate concerns: its scattering matrix, one way, and that of its flat facets with
+  // flat reflectors, m. Footprints of one beam on one panel count as one contribution if they follow each other.
+  void add(const Contribution& contribution, const ScatteringMatrix& smooth, const ScatteringMatrix& flat);
   void end_beam();  // the next footprint is of another beam
   // Adds those of another path with its hh and vv times the factor, hv and vh times `cross`.
   void add(const ViewEstimate& other, const CoPolar& factor = {1, 1}, const Complex& cross = 1);

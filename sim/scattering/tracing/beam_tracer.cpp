@@ -21,7 +21,7 @@ constexpr int kMaxHalvings = 6;
 
 class BeamTracer {
  public:
-  BeamTracer(const TracingContext& scene, const PanelSearch& search, BeamVisitor& visitor)
+  BeamTracer(const TracingContext& scene, const PanelSearch& search, InteractionVisitor& visitor)
       : scene_(scene),
         search_(search),
         facets_(scene.scatterer.facets()),
@@ -38,7 +38,7 @@ class BeamTracer {
     CandidatePanel candidate;
     candidate.projection.facet = facet;
     candidate.projection.plane = depth_plane(facets_[facet].normal, facets_[facet].offset, basis_);
-    candidate.illuminated.assign(scene_.visible_to_transmitter->pieces(facet));
+    candidate.illuminated.assign(scene_.visible.pieces(facet));
     visit_candidate(first, candidate, scratch_[0].visible);
     if (continues(first, candidate)) trace_segment(reflected_segment(first, candidate), candidate.illuminated);
   }
@@ -70,18 +70,19 @@ class BeamTracer {
 
   // Passes the illuminated polygons and, for every receiver, their visible parts to the visitor. `seen`: work memory.
   void visit_candidate(const BeamSegment& segment, const CandidatePanel& candidate, std::vector<MovingPolygon>& seen) {
-    visitor_.illuminated(segment, candidate);
+    const Interaction interaction{segment, candidate};
+    visitor_.illuminated(interaction);
     const Vec3 illuminated_side = illuminated_normal(segment, facets_[candidate.projection.facet]);
     for (std::size_t i = 0; i < scene_.receivers.size(); ++i) {
       const BistaticGeometry& geometry = scene_.receivers[i].geometry;
       // At the first bounce a monostatic receiver sees exactly the illuminated polygons.
       if (segment.bounce == 1 && geometry.monostatic) {
-        visitor_.visible(segment, candidate, i, candidate.illuminated.polygons());
+        visitor_.visible(interaction, i, candidate.illuminated.polygons());
         continue;
       }
       seen.clear();
       if (illuminated_side.dot(geometry.receive.r) > kEdgeOn) search_.find_visible(segment, candidate, i, seen);
-      visitor_.visible(segment, candidate, i, seen);
+      visitor_.visible(interaction, i, seen);
     }
   }
 
@@ -263,7 +264,7 @@ class BeamTracer {
   std::span<const Facet> facets_;
   CurvatureContext curvature_;
   const RadarBasis& basis_;  // of the projection plane: the transmitter's
-  BeamVisitor& visitor_;
+  InteractionVisitor& visitor_;
   std::vector<Scratch> scratch_;  // indexed by bounce number
   std::size_t segments_ = 0;
 };
@@ -271,7 +272,7 @@ class BeamTracer {
 }  // namespace
 
 std::size_t trace_beams(const TracingContext& scene, const PanelSearch& search, std::span<const int> facets,
-                        BeamVisitor& visitor, const std::function<void()>& after_each) {
+                        InteractionVisitor& visitor, const std::function<void()>& after_each) {
   BeamTracer tracer(scene, search, visitor);
   for (const int facet : facets) {
     tracer.trace_panel(facet);
@@ -281,7 +282,7 @@ std::size_t trace_beams(const TracingContext& scene, const PanelSearch& search, 
 }
 
 std::size_t trace_window(const TracingContext& scene, const PanelSearch& search, const PolygonSet& window, int path,
-                         BeamVisitor& visitor) {
+                         InteractionVisitor& visitor) {
   BeamTracer tracer(scene, search, visitor);
   tracer.trace_window(window, path);
   return tracer.segments();

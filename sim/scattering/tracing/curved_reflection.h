@@ -10,7 +10,7 @@
 
 #include "sim/scattering/geometry/ray_bundle.h"
 #include "sim/scattering/scatterer/smooth_surface.h"
-#include "sim/scattering/tracing/beam_segment.h"
+#include "sim/scattering/tracing/interaction.h"
 
 namespace seaglint {
 

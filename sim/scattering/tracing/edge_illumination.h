@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Illuminated intervals of sharp edges: collected per beam, queried per edge.
+// Interactions with sharp edges: the intervals of an edge that a wave illuminates, directly or after reflections.
+// Collected per beam, queried per edge.
 
 #include <array>
 #include <cstdint>
@@ -10,6 +11,7 @@
 
 #include "sim/core/numbers/linear.h"
 #include "sim/scattering/scatterer/sharp_edges.h"
+#include "sim/scattering/tracing/interaction.h"
 
 namespace seaglint {
 
@@ -25,6 +27,34 @@ struct EdgeIllumination {
   std::uint8_t reflections = 0;                // before the edge
   Vec3 first_reflector_normal = Vec3::Zero();  // unfolded to the edge, unit; zero without reflections
 };
+
+// Maximum number of reflections on the incident and the exit path together: the edges of corner reflectors need three.
+inline constexpr int kMaxEdgeReflections = 3;
+
+// A wave on a panel after reflections, as a beam segment carries it.
+struct FacetWave {
+  const RadarBasis& antenna;
+  const ImageTransform& image_transform;
+  const DepthPlane& plane;  // of the panel's image
+  Vec3 direction, E_h, E_v;
+  int bounce = 1;                              // 1-based number of the reflection at this panel
+  bool on_conductor = true;                    // the panel is a smooth perfect conductor
+  Vec3 first_reflector_normal = Vec3::Zero();  // as in EdgeIllumination
+};
+
+// Appends the intervals of the sharp edges of a panel (given by its representative facet) that bound the illuminated
+// part, `illuminated`: convex polygons in the projection plane.
+void find_edge_illumination(const SharpEdges& edges, int facet, const FacetWave& wave,
+                            std::span<const MovingPolygon> illuminated, std::vector<EdgeIllumination>& illuminations);
+
+// True when the waves of this beam segment are recorded at edges: at most kMaxEdgeReflections reflections before the
+// edge.
+bool records_edges(const TracingContext& scene, const BeamSegment& segment);
+
+// Appends the illumination of the panel's edges. Only perfectly conducting wedges are included, and waves that met only
+// perfect conductors before.
+void record_edges(const TracingContext& scene, const Interaction& interaction,
+                  std::vector<EdgeIllumination>& illuminations);
 
 using EdgeIlluminations = std::span<const EdgeIllumination* const>;
 

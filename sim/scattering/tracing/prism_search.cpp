@@ -24,13 +24,13 @@ void PrismSearch::find(const BeamSegment& segment, const PolygonSet& cross_secti
 
 void PrismSearch::find_visible(const BeamSegment& segment, const CandidatePanel& candidate, std::size_t receiver,
                                std::vector<MovingPolygon>& visible) const {
-  scene_.receivers[receiver].visible_to_receiver->visible_after_reflections(
+  scene_.receivers[receiver].visible.visible_after_reflections(
       candidate.projection.facet, segment.image_transform, candidate.illuminated.polygons(), scene_.transmit, visible);
 }
 
 bool PrismSearch::may_be_seen(int facet) const {
   return std::ranges::any_of(
-      scene_.receivers, [&](const Receiver& receiver) { return !receiver.visible_to_receiver->pieces(facet).empty(); });
+      scene_.receivers, [&](const Receiver& receiver) { return !receiver.visible.pieces(facet).empty(); });
 }
 
 Prism bounding_prism(std::span<const MovingPolygon> window, const BeamSegment& segment, const RadarBasis& basis,

@@ -7,8 +7,8 @@
 #include <limits>
 #include <span>
 
-#include "sim/scattering/tracing/panel_search.h"
-#include "sim/scattering/tracing/tracing_context.h"
+#include "sim/scattering/tracing/interaction.h"
+#include "sim/scattering/tracing/interaction.h"
 
 namespace seaglint {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "sim/scattering/geometry/polygon_set.h"
-#include "sim/scattering/observation/bistatic_geometry.h"
+#include "sim/scattering/observation/observation.h"
 #include "sim/scattering/scatterer/scatterer.h"
 
 namespace seaglint {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "sim/scattering/scatterer/embree_scene.h"
-#include "sim/scattering/tracing/tracing_context.h"
+#include "sim/scattering/tracing/interaction.h"
 
 namespace seaglint {
 

@@ -6,7 +6,7 @@
 
 #include <unordered_map>
 
-#include "sim/scattering/tracing/panel_search.h"
+#include "sim/scattering/tracing/interaction.h"
 #include "sim/scattering/tracing/ray_paths.h"
 
 namespace seaglint {

@@ -7,7 +7,7 @@
 namespace seaglint {
 
 std::size_t trace_rays(const TracingContext& scene, const RayLattice& lattice, std::size_t first, std::size_t last,
-                       BeamVisitor& visitor, const std::function<void()>& after_each) {
+                       InteractionVisitor& visitor, const std::function<void()>& after_each) {
   std::size_t segments = 0;
   RayPaths paths(scene);
   const RaySearch search(scene, paths);

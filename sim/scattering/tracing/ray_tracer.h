@@ -15,7 +15,7 @@ namespace seaglint {
 // Traces the tiles first <= i < last of the lattice, whose projection plane is that of the scene's transmitter, and
 // returns the number of segments of tubes. Calls after_each() when the tubes of one tile are complete.
 std::size_t trace_rays(
-    const TracingContext& scene, const RayLattice& lattice, std::size_t first, std::size_t last, BeamVisitor& visitor,
+    const TracingContext& scene, const RayLattice& lattice, std::size_t first, std::size_t last, InteractionVisitor& visitor,
     const std::function<void()>& after_each = [] {});
 
 }  // namespace seaglint

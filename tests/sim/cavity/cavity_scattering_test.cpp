@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/cavity/cavity_scattering.h"
-#include "sim/scattering/solver/scattering_matrix.h"
+#include "sim/scattering/solver/solve.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -13,7 +13,6 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
 #include "sim/geometry/files/mesh_io.h"
-#include "sim/scattering/solver/body_response.h"
 #include "tests/sim/cavity/guide.h"
 
 namespace seaglint {

@@ -8,7 +8,7 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/geometry/shapes/generators.h"
-#include "sim/scattering/radiation/footprint.h"
+#include "sim/scattering/radiation/contribution.h"
 
 namespace seaglint {
 namespace {

@@ -16,8 +16,8 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/random.h"
 #include "sim/geometry/shapes/generators.h"
-#include "sim/scattering/solver/body_response.h"
-#include "sim/scattering/solver/scattering_matrix.h"
+#include "tests/sim/scattering/solve_calls.h"
+#include "tests/sim/scattering/solve_calls.h"
 
 namespace seaglint::testing_echoes {
 

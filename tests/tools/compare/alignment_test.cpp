@@ -9,7 +9,7 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/random.h"
-#include "sim/scattering/observation/bistatic_geometry.h"
+#include "sim/scattering/observation/observation.h"
 
 namespace seaglint {
 namespace {

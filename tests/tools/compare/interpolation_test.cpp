@@ -12,7 +12,7 @@
 #include "sim/core/numbers/dbsm.h"
 #include "sim/core/numbers/random.h"
 #include "sim/core/process/error.h"
-#include "sim/scattering/observation/bistatic_geometry.h"
+#include "sim/scattering/observation/observation.h"
 
 namespace seaglint {
 namespace {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/scattering/observation/bistatic_geometry.h"
-#include "sim/scattering/solver/scattering_matrix.h"
+#include "sim/scattering/observation/observation.h"
+#include "tests/sim/scattering/solve_calls.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
 namespace seaglint {
@@ -21,7 +21,7 @@ constexpr double kWavenumber = 2 * kPi * 10e9 / kSpeedOfLight;
 
 FacetLevels levels_of(const Scatterer& plate, double elevation_deg, std::optional<std::size_t> element) {
   const RadarBasis basis = radar_basis(direction_to_radar(0, radians(elevation_deg)));
-  const auto view = aspect_contributions(plate, monostatic(basis), {kWavenumber, 1e-3}, {0, 8, false});
+  const auto view = points_of(plate, monostatic(basis), kWavenumber, 1e-3, {0, 8, false});
   return facet_levels(plate, view.points, kWavenumber, element);
 }
 

@@ -14,8 +14,7 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/shapes/generators.h"
-#include "sim/scattering/solver/body_response.h"
-#include "sim/scattering/solver/scattering_matrix.h"
+#include "sim/scattering/solver/solve.h"
 
 namespace seaglint {
 namespace {
@@ -90,14 +89,14 @@ TEST_F(ReflectorSweep, TracesAnExportedViewOnce) {
     request_.range_m = range_m;
     RcsRequest exported = with({10e9}, {7});
     const RcsResult without = result_of(exported);
-    EXPECT_TRUE(without.contributions.empty());
+    EXPECT_TRUE(without.points.empty());
     exported.exports.centres = "centres.csv";
     const RcsResult result = result_of(exported);
     EXPECT_EQ(result.sweep.models.back().matrices, without.sweep.models.back().matrices) << range_m;
     EXPECT_EQ(result.segments, without.segments);
 
     const double k = 2 * kPi * exported.frequency_hz[0] / kSpeedOfLight;
-    const auto sum = direct_sum(result.contributions, k, Vec3::Zero());
+    const auto sum = direct_sum(result.points, k, Vec3::Zero());
     const std::array<Complex, 4>& matrix = result.sweep.models.back().matrices[0][0];
     // Of the points, edge contributions enter by their end points where the matrix has the integral along the interval:
     // 3e-4 here. At a finite range amplitudes are frozen over radius / R, kMaxAmplitudeError of the strongest end

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Edges of sheets of finite thickness: against integral equations, reciprocity, continuity and symmetry.
 #include "sim/scattering/coefficients/thick_edge.h"
-#include "sim/scattering/solver/scattering_matrix.h"
+#include "tests/sim/scattering/solve_calls.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdio>
 
-#include "sim/scattering/points/point_contributions.h"
+#include "sim/scattering/points/decomposition.h"
 #include "tests/measured.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
@@ -186,7 +186,7 @@ TEST(ThickEdge, IsInTheContributionsOfAnAspect) {
   const RadarBasis basis = radar_basis(direction(33, 7));
   const TracingSettings settings{0, 8, true};
   const auto sum =
-      direct_sum(aspect_contributions(plate, monostatic(basis), {k, 1e-3}, settings, 1).points, k, Vec3::Zero());
+      direct_sum(points_of(plate, monostatic(basis), k, 1e-3, settings).points, k, Vec3::Zero());
   const auto matrix = echo(plate, basis, k, 0, 8, true), without = echo(thin, basis, k, 0, 8, true);
   for (const int channel : {kHhChannel, kVvChannel}) {
     EXPECT_LT(std::abs(sum[channel] - matrix[channel]), 1e-5 * largest(matrix));

@@ -10,8 +10,8 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/geometry/shapes/generators.h"
-#include "sim/scattering/observation/bistatic_geometry.h"
-#include "sim/scattering/solver/body_response.h"
+#include "sim/scattering/observation/observation.h"
+#include "tests/sim/scattering/solve_calls.h"
 #include "sim/scattering/solver/point_response.h"
 #include "tests/measured.h"
 
@@ -68,19 +68,19 @@ TEST(MovingRadar, PointsHaveTheRangeOfTheRadarsPath) {
   }
 }
 
-TEST(MovingRadar, BodyResponseMatchesPerPulseDirections) {
+TEST(MovingRadar, IntervalResultMatchesPerPulseDirections) {
   const Scatterer scatterer(make_icosahedral_reflector(1.0));
   const Trajectory at_rest = Trajectory::at_rest(Vec3(15, 30, 0.75));
   IntervalSampling sampling = interval();
   sampling.line_of_sight_rate *= 5;  // at 4 km
   const Vec3 r_hat = direction_to_radar(radians(70), radians(2));
-  const FrequencyResponse passing = body_response(scatterer, at_rest, r_hat, Polarisation::kVv, sampling, {}).response;
+  const FrequencyResponse passing = interval_response(scatterer, at_rest, r_hat, Polarisation::kVv, sampling, {}).response;
   double difference = 0, power = 0;
   for (const int n : {0, 7, 15}) {
     const IntervalSampling one = only_pulse(sampling, n);
     const double t = sampling.pulse_time_s[n] - sampling.pulse_time_s.front();
     const Vec3 direction = (r_hat + t * sampling.line_of_sight_rate).normalized();
-    const FrequencyResponse traced = body_response(scatterer, at_rest, direction, Polarisation::kVv, one, {}).response;
+    const FrequencyResponse traced = interval_response(scatterer, at_rest, direction, Polarisation::kVv, one, {}).response;
     for (int b = 0; b < sampling.frequencies_per_pulse; ++b) {
       difference += std::norm(passing.at(n, b) - traced.at(0, b));
       power += std::norm(traced.at(0, b));
@@ -136,7 +136,7 @@ TEST(MovingRadar, PointsOverTheSeaHaveFourPathsPerPulseDirection) {
   }
 }
 
-TEST(MovingRadar, BodyResponseOverTheSeaMatchesPerPulseDirections) {
+TEST(MovingRadar, IntervalResultOverTheSeaMatchesPerPulseDirections) {
   const Scatterer scatterer(make_icosahedral_reflector(1.0));
   // With a small rotation and heave, off the reference point.
   MotionSample first, last;
@@ -151,13 +151,13 @@ TEST(MovingRadar, BodyResponseOverTheSeaMatchesPerPulseDirections) {
   for (const Vec3& velocity : kVelocities) {
     const IntervalSampling sampling = over_the_sea(velocity);
     const FrequencyResponse passing =
-        body_response(scatterer, body, r_hat, Polarisation::kHh, sampling, {}, 2, &sea).response;
+        interval_response(scatterer, body, r_hat, Polarisation::kHh, sampling, {}, 2, &sea).response;
     double difference = 0, power = 0;
     for (const int n : {0, 7, 15}) {
       const IntervalSampling one = only_pulse(sampling, n);
       const Vec3 direction = direction_at(sampling, r_hat, static_cast<std::size_t>(n));
       const FrequencyResponse traced =
-          body_response(scatterer, body, direction, Polarisation::kHh, one, {}, 2, &sea).response;
+          interval_response(scatterer, body, direction, Polarisation::kHh, one, {}, 2, &sea).response;
       for (int b = 0; b < sampling.frequencies_per_pulse; ++b) {
         difference += std::norm(passing.at(n, b) - traced.at(0, b));
         power += std::norm(traced.at(0, b));

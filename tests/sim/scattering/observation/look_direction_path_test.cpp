@@ -6,7 +6,7 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/scattering/observation/look_direction_path.h"
-#include "sim/scattering/radiation/footprint.h"
+#include "sim/scattering/radiation/contribution.h"
 
 namespace seaglint {
 namespace {

@@ -4,15 +4,16 @@
 // infinite_prism_test.cpp.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/scattering/coefficients/transition.h"
-#include "sim/scattering/points/edge_decomposition.h"
+#include "sim/scattering/points/decomposition.h"
 #include "sim/scattering/points/phase_integral.h"
-#include "sim/scattering/points/point_contributions.h"
-#include "sim/scattering/solver/illumination.h"
+#include "sim/scattering/solver/aspect_trace.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
 namespace seaglint {
@@ -22,11 +23,11 @@ using namespace testing_echoes;
 
 constexpr Complex j(0, 1);
 
-std::vector<EdgeContribution> boundary_terms(const Scatterer& scatterer, const Vec3& r) {
-  std::vector<EdgeContribution> all;
+std::vector<Contribution> boundary_terms(const Scatterer& scatterer, const Vec3& r) {
+  std::vector<Contribution> all;
   Illumination(scatterer, monostatic(radar_basis(r)), {0, 8, true})
-      .trace_all(1, [&](std::size_t, std::size_t, const PanelContributions& contributions) {
-        all.insert(all.end(), contributions.boundary_terms.begin(), contributions.boundary_terms.end());
+      .trace(1, [&](std::size_t, std::size_t, std::span<const Contribution> contributions) {
+        std::ranges::copy_if(contributions, std::back_inserter(all), &Contribution::interval);
       });
   return all;
 }
@@ -85,9 +86,9 @@ TEST(DoubleKnifeEdge, CouplesEndPointsForASlopingPsi) {
 
 // Edges that meet in one point: the path between them grows from 0. The end-point contributions replace the integral
 // where the phase difference reaches ten cycles.
-TEST(DoubleKnifeEdge, EqualsItsEndPointContributionsOverManyCycles) {
+TEST(DoubleKnifeEdge, EqualsItsEndPointsOverManyCycles) {
   const double k = wavenumber(10e9);
-  EdgeContribution contribution;
+  EdgeInterval contribution;
   contribution.length = 0.4;
   contribution.amplitude = DoubleKnifeEdge{{0, 0.5}, {0, 1e-4}, 0};
   contribution.psi = {0, 59.9 / k};
@@ -108,8 +109,8 @@ TEST(DoubleKnifeEdge, VanishesWhereEdgesMeet) {
   const Scatterer reflector(read_mesh(SEAGLINT_SOURCE_DIR "/assets/icosahedral_reflector.glb"));
   int vertices = 0;
   for (double azimuth = 40; azimuth < 60; azimuth += 0.25) {
-    for (const EdgeContribution& contribution : boundary_terms(reflector, direction(azimuth, 20))) {
-      const auto* term = std::get_if<DoubleKnifeEdge>(&contribution.amplitude);
+    for (const Contribution& contribution : boundary_terms(reflector, direction(azimuth, 20))) {
+      const auto* term = std::get_if<DoubleKnifeEdge>(&contribution.interval()->amplitude);
       if (!term) continue;
       const DoubleKnifeEdge& knife_edges = *term;
       for (std::size_t end = 0; end < 2; ++end) {
@@ -133,16 +134,16 @@ TEST(DoubleKnifeEdge, MatchesIndependentTracesOverAnAspectChange) {
   const double k = wavenumber(16e9);
   for (const auto& [azimuth, elevation] : {std::pair{48.0, 20.0}, {70.0, 2.0}, {33.0, 20.0}}) {
     const Vec3 r = direction(azimuth, elevation);
-    std::vector<PointContribution> points;
-    for (const EdgeContribution& contribution : boundary_terms(reflector, r))
-      decompose(contribution, {k, radians(0.15)}, points);
+    std::vector<Point> points;
+    for (const Contribution& contribution : boundary_terms(reflector, r))
+      decompose(contribution, {monostatic(radar_basis(r))}, {FrequencyBand(k), 0, radians(0.15)}, points);
     double error = 0, power = 0;
     for (const double change : {-0.07, 0.07}) {
       const Vec3 changed = direction(azimuth + change, elevation + 0.7 * change);
       const auto frozen = direct_sum(points, k, changed - r);
       std::array<Complex, 4> independent{};
-      for (const EdgeContribution& footprint : boundary_terms(reflector, changed)) {
-        const auto s = scattered(footprint, k);
+      for (const Contribution& footprint : boundary_terms(reflector, changed)) {
+        const auto s = scattered(footprint, {monostatic(radar_basis(changed))}, k);
         for (int i = 0; i < 4; ++i) independent[i] += s[i];
       }
       for (int i = 0; i < 4; ++i) {

@@ -7,7 +7,7 @@
 #include "sim/geometry/shapes/generators.h"
 #include "sim/scattering/coefficients/reflection.h"
 #include "sim/scattering/scatterer/part_materials.h"
-#include "sim/scattering/solver/scattering_matrix.h"
+#include "tests/sim/scattering/solve_calls.h"
 #include "sim/scenario/material_file.h"
 #include "tests/measured.h"
 #include "tests/sim/scattering/solver_fixtures.h"
@@ -167,8 +167,8 @@ double band_error_db(const Scatterer& target, const Vec3& r) {
   sampling.count = sampling.frequencies_per_pulse = 41;
   sampling.pulse_first = {0};
   sampling.pulse_time_s = {0};
-  const BodyResponse body =
-      body_response(target, Trajectory::at_rest(Vec3::Zero()), r, Polarisation::kVv, sampling, SolverSpec{});
+  const IntervalResult body =
+      interval_response(target, Trajectory::at_rest(Vec3::Zero()), r, Polarisation::kVv, sampling, SolverSpec{});
   double error = 0, power = 0;
   for (int b = 0; b < sampling.count; ++b) {
     const Complex independent =

@@ -9,12 +9,11 @@
 #include <vector>
 
 #include "sim/geometry/shapes/generators.h"
-#include "sim/scattering/points/curved_integral.h"
 #include "sim/scattering/points/phase_integral.h"
-#include "sim/scattering/points/point_contributions.h"
+#include "sim/scattering/points/decomposition.h"
 #include "sim/scattering/radiation/curved_footprint.h"
 #include "sim/scattering/scatterer/smooth_surface.h"
-#include "sim/scattering/solver/scattering_matrix.h"
+#include "tests/sim/scattering/solve_calls.h"
 #include "tests/measured.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
@@ -325,7 +324,7 @@ TEST(SmoothSurface, KeepsALargeFaceFlatNextToAFillet) {
 
 // A flat strip seen at up to 1e-6 rad, whose end points may not replace it over the aspect change: cut across its
 // length on the panel, not across its image.
-TEST(PointContributions, OfAStripAreAsManyAsItIsLong) {
+TEST(Points, OfAStripAreAsManyAsItIsLong) {
   constexpr double kLength = 0.5, kWidth = 0.004, k = 63;
   const RadarBasis basis = radar_basis(Vec3::UnitX());
   for (const double steepness : {1.0, 1e2, 1e6}) {
@@ -337,8 +336,8 @@ TEST(PointContributions, OfAStripAreAsManyAsItIsLong) {
     strip.w = Vec2(1.5 * kLength / length, 0);
     for (const Vec2& p : {Vec2(0, 0), Vec2(length, 0), Vec2(length, kWidth), Vec2(0, kWidth)})
       strip.polygon.push_back({p, Vec2::Zero(), Vec2::Zero()});
-    std::vector<PointContribution> pieces;
-    decompose(strip, basis, {k, 0.05}, pieces);
+    std::vector<Point> pieces;
+    decompose({{}, {}, strip}, {monostatic(basis)}, {FrequencyBand(k), 0, 0.05}, pieces);
     EXPECT_GE(pieces.size(), k * 1.5 * kLength) << steepness;
     EXPECT_LE(pieces.size(), 2 * k * 1.5 * kLength) << steepness;
   }
@@ -361,11 +360,10 @@ TEST(CurvedSurface, PiecesOfAStripAreAsManyAsItIsLong) {
     beam.incident_shadow_distance.fill(1e9);
     beam.receiver_shadow_distance.fill(1e9);
     strip.curvature = std::make_shared<const CurvedFootprint>(beam);
-    std::vector<CurvedContribution> pieces;
-    curved_contributions(strip, FrequencyBand(k), 2 * kSlope, pieces);
+    const std::vector<CurvedTerm> pieces = curved_terms(strip, FrequencyBand(k), 2 * kSlope);
     EXPECT_LE(pieces.size(), 2 * (2 * k * kSlope * kLength + 2)) << steepness;
     Complex sum = 0;
-    for (const CurvedContribution& piece : pieces) sum += piece.integral[0] * std::polar(1.0, k * piece.psi);
+    for (const CurvedTerm& piece : pieces) sum += piece.integral[0] * std::polar(1.0, k * piece.psi);
     const double along = k * kSlope * kLength / 2, across = k * kAcross * kWidth / 2;
     const Complex exact =
         length * kWidth * std::sin(along) / along * std::sin(across) / across * std::polar(1.0, along + across);
@@ -383,7 +381,7 @@ TEST(CurvedSurface, IsValidOverAnAspectChangeAtAnyPosition) {
     const Scatterer sphere(transformed(make_sphere(1, 4), Mat3::Identity(), place));
     const Vec3 r = direction(0, 0);
     TracingSettings settings;
-    const auto points = aspect_contributions(sphere, monostatic(radar_basis(r)), {k, radians(0.075)}, settings).points;
+    const auto points = points_of(sphere, monostatic(radar_basis(r)), k, radians(0.075), settings).points;
     for (const double aspect_change_deg : {0.02, 0.05, 0.07}) {
       const Vec3 there = direction(aspect_change_deg, 0);
       const Complex independent = echo(sphere, radar_basis(there), k)[kVvChannel];

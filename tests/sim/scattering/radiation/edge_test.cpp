@@ -15,7 +15,7 @@
 #include "sim/geometry/shapes/generators.h"
 #include "sim/scattering/coefficients/transition.h"
 #include "sim/scattering/scatterer/sharp_edges.h"
-#include "sim/scattering/solver/scattering_matrix.h"
+#include "tests/sim/scattering/solve_calls.h"
 #include "tests/measured.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 

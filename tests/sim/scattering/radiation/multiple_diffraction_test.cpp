@@ -14,8 +14,8 @@
 #include "sim/scattering/coefficients/wedge_diffraction.h"
 #include "sim/scattering/points/phase_integral.h"
 #include "sim/scattering/radiation/edge_diffraction.h"
-#include "sim/scattering/solver/illumination.h"
-#include "sim/scattering/solver/scattering_matrix.h"
+#include "sim/scattering/solver/aspect_trace.h"
+#include "tests/sim/scattering/solve_calls.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
 namespace seaglint {
@@ -161,8 +161,8 @@ DoubleDiffractionSum double_diffraction_sum(const TriangleMesh& mesh, const Bist
   // Illuminations of edges on the floor that `wanted` selects.
   const auto reached = [&](const RadarBasis& basis, const auto& selected) {
     std::vector<EdgeIllumination> kept;
-    const TraceSummary all =
-        Illumination(scatterer, monostatic(basis), {0, 1, true}).trace_all(1, [](std::size_t, std::size_t, auto) {});
+    const Illumination::Summary all =
+        Illumination(scatterer, monostatic(basis), {0, 1, true}).trace(1, ignore_contributions);
     for (const EdgeIllumination* illumination : all.edge_illuminations.all()) {
       const double height =
           std::max(std::abs(edge(*illumination).a.z() + c.z()), std::abs(edge(*illumination).b.z() + c.z()));
@@ -173,15 +173,14 @@ DoubleDiffractionSum double_diffraction_sum(const TriangleMesh& mesh, const Bist
   const auto first = [&](const SharpEdge& e) { return std::max(e.a.x(), e.b.x()) + c.x() <= first_below + 1e-12; };
   const auto last = [&](const SharpEdge& e) { return std::min(e.a.x(), e.b.x()) + c.x() >= last_above - 1e-12; };
   const IlluminationByEdge incoming = reached(geometry.transmit, first), outgoing = reached(geometry.receive, last);
-  std::vector<EdgeContribution> contributions;
-  trace_multiple_diffraction(scatterer.edges(), scatterer.facets(), scatterer.panels(), geometry, incoming.all(),
-                             outgoing, {}, contributions);
+  std::vector<Contribution> contributions;
+  trace_multiple_diffraction({scatterer, geometry, {}, outgoing, {}}, incoming.all(), contributions);
   DoubleDiffractionSum sum;
-  for (const EdgeContribution& contribution : contributions) {
-    const auto* wave = std::get_if<GrazingWaveAmplitude>(&contribution.amplitude);
-    if (!wave || wave->grazing_waves != 1 || contribution.bounces != 2 + walls) continue;
-    const auto s = scattered(contribution, k);
-    for (int i = 0; i < 4; ++i) sum.S[i] += s[i] * origin_phase(scatterer, geometry, k);
+  for (const Contribution& contribution : contributions) {
+    const auto* wave = std::get_if<GrazingWaveAmplitude>(&contribution.interval()->amplitude);
+    if (!wave || wave->grazing_waves != 1 || contribution.source.bounces != 2 + walls) continue;
+    const auto s = scattered(contribution, observation_of(scatterer, geometry), k);
+    for (int i = 0; i < 4; ++i) sum.S[i] += s[i];
     ++sum.count;
   }
   return sum;
@@ -305,16 +304,15 @@ TEST(MultipleDiffraction, DropsOnlyWeakPaths) {
   for (const auto& [azimuth, elevation] : {std::pair{45.0, 35.0}, {20.0, 3.0}, {70.0, 60.0}, {1.0, 1.0}}) {
     const BistaticGeometry geometry = monostatic(radar_basis(direction(azimuth, elevation)));
     const auto illuminations = Illumination(corner, geometry, {0, 4, true})
-                                   .trace_all(1, [](std::size_t, std::size_t, auto) {})
+                                   .trace(1, ignore_contributions)
                                    .edge_illuminations;
     const auto significant = [&](double limit, std::size_t& count) {
-      std::vector<EdgeContribution> contributions;
-      trace_multiple_diffraction(corner.edges(), corner.facets(), corner.panels(), geometry, illuminations.all(),
-                                 illuminations, {0, 0, limit, k}, contributions);
+      std::vector<Contribution> contributions;
+      trace_multiple_diffraction({corner, geometry, {}, illuminations, {0, 0, limit, k}}, illuminations.all(), contributions);
       count += contributions.size();
-      return std::count_if(contributions.begin(), contributions.end(), [&](const EdgeContribution& f) {
-        const auto* wave = std::get_if<GrazingWaveAmplitude>(&f.amplitude);
-        return wave && wave->grazing_waves == 1 && largest(scattered(f, k)) >= min_amplitude;
+      return std::count_if(contributions.begin(), contributions.end(), [&](const Contribution& f) {
+        const auto* wave = std::get_if<GrazingWaveAmplitude>(&f.interval()->amplitude);
+        return wave && wave->grazing_waves == 1 && largest(scattered(f, geometry, k)) >= min_amplitude;
       });
     };
     const auto of_all = significant(0, all), of_kept = significant(min_amplitude, kept);
@@ -334,14 +332,13 @@ TEST(MultipleDiffraction, OfShortRunsIsNegligibleOnTheShip) {
   for (const double azimuth : {10.0, 90.0, 130.0}) {
     const BistaticGeometry geometry = monostatic(radar_basis(direction(azimuth, 2)));
     const auto illuminations =
-        Illumination(ship, geometry, settings).trace_all(2, [](std::size_t, std::size_t, auto) {}).edge_illuminations;
+        Illumination(ship, geometry, settings).trace(2, ignore_contributions).edge_illuminations;
     const auto waves = [&](const MultipleDiffractionLimits& limits) {
-      std::vector<EdgeContribution> contributions;
-      trace_multiple_diffraction(ship.edges(), ship.facets(), ship.panels(), geometry, illuminations.all(),
-                                 illuminations, limits, contributions);
+      std::vector<Contribution> contributions;
+      trace_multiple_diffraction({ship, geometry, {}, illuminations, limits}, illuminations.all(), contributions);
       std::array<Complex, 4> sum{};
-      for (const EdgeContribution& contribution : contributions) {
-        const auto s = scattered(contribution, k);
+      for (const Contribution& contribution : contributions) {
+        const auto s = scattered(contribution, geometry, k);
         for (int i = 0; i < 4; ++i) sum[i] += s[i];
       }
       return std::pair{sum, contributions.size()};
@@ -366,17 +363,17 @@ TEST(MultipleDiffraction, DoNotDependOnTriangulation) {
   double difference = 0, power = 0;
   for (double azimuth = 20; azimuth <= 85; azimuth += 2.5) {
     const RadarBasis basis = radar_basis(direction(azimuth, 13));
+    const BistaticGeometry geometry = monostatic(basis);
     const auto of_edges = [&](const Scatterer& plate, bool once) {
       const auto illuminations = Illumination(plate, monostatic(basis), {0, 1, true})
-                                     .trace_all(1, [](std::size_t, std::size_t, auto) {})
+                                     .trace(1, ignore_contributions)
                                      .edge_illuminations;
-      std::vector<EdgeContribution> contributions;
-      trace_multiple_diffraction(plate.edges(), plate.facets(), plate.panels(), monostatic(basis), illuminations.all(),
-                                 illuminations, {}, contributions);
+      std::vector<Contribution> contributions;
+      trace_multiple_diffraction({plate, geometry, {}, illuminations, {}}, illuminations.all(), contributions);
       std::array<Complex, 4> sum{};
-      for (const EdgeContribution& contribution : contributions) {
-        if (once && std::get<GrazingWaveAmplitude>(contribution.amplitude).grazing_waves > 1) continue;
-        const auto s = scattered(contribution, k);
+      for (const Contribution& contribution : contributions) {
+        if (once && std::get<GrazingWaveAmplitude>(contribution.interval()->amplitude).grazing_waves > 1) continue;
+        const auto s = scattered(contribution, monostatic(basis), k);
         for (int i = 0; i < 4; ++i) sum[i] += s[i];
       }
       return sum;

@@ -13,7 +13,7 @@
 #include "sim/scattering/coefficients/wedge_diffraction.h"
 #include "sim/scattering/radiation/multiple_diffraction.h"
 #include "sim/scattering/radiation/reflected_edge.h"
-#include "sim/scattering/solver/illumination.h"
+#include "sim/scattering/solver/aspect_trace.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
 namespace seaglint {
@@ -38,11 +38,11 @@ Field closed_form(double sine, double k, double height = 1000) {
                             height,
                             grazing_taper(radar.r, Vec3::UnitZ()),
                             {Vec3(-kWallDistance, -kWidth / 2, 0), Vec3(-kWallDistance, kWidth / 2, 0)}};
-  std::vector<EdgeContribution> contributions;
-  append_wall_penumbra(wall, radar, {}, k, 0, contributions);
+  std::vector<Contribution> contributions;
+  append_wall_penumbra(wall, radar, {}, {.k = k}, contributions);
   Field sum{};
-  for (const EdgeContribution& contribution : contributions) {
-    const auto s = scattered(contribution, k);
+  for (const Contribution& contribution : contributions) {
+    const auto s = scattered(contribution, monostatic(radar), k);
     // Phase from the foot.
     const Complex per_metre = std::polar(1 / kWidth, 2 * k * kWallDistance * std::sqrt(1 - sine * sine));
     sum.soft += per_metre * s[kHhChannel];
@@ -136,10 +136,10 @@ TEST(WallPenumbra, FootAndReflectedEdgeSumToOne) {
     const Vec3 r(std::sqrt(1 - sine * sine), 0, sine), normal = Vec3::UnitX();
     const WallBehindEdge wall{
         Vec3::Zero(), Vec3::UnitY(), Vec3::UnitZ(), normal, 1000, 0, {Vec3(-distance, -1, 0), Vec3(-distance, 1, 0)}};
-    std::vector<EdgeContribution> contributions;
-    append_wall_penumbra(wall, radar_basis(r), {}, k, 0, contributions);
+    std::vector<Contribution> contributions;
+    append_wall_penumbra(wall, radar_basis(r), {}, {.k = k}, contributions);
     ASSERT_FALSE(contributions.empty());
-    const double foot = std::get<WallPenumbraTerm>(contributions.front().amplitude).foot_weight;
+    const double foot = std::get<WallPenumbraTerm>(contributions.front().interval()->amplitude).foot_weight;
     EdgeIllumination in, out;
     in.direction = -r;
     out.direction = -(r - 2 * normal.dot(r) * normal);  // of the receiver's wave, after the wall
@@ -169,16 +169,15 @@ TEST(WallPenumbra, BelongsToTheWallAndItsFloor) {
   const Scatterer scatterer(corner);
   const BistaticGeometry geometry = monostatic(radar_basis(direction(30, 2)));
   const auto illuminations = Illumination(scatterer, geometry, {0, 4, true})
-                                 .trace_all(1, [](std::size_t, std::size_t, auto) {})
+                                 .trace(1, ignore_contributions)
                                  .edge_illuminations;
-  std::vector<EdgeContribution> contributions;
-  trace_multiple_diffraction(scatterer.edges(), scatterer.facets(), scatterer.panels(), geometry, illuminations.all(),
-                             illuminations, {}, contributions);
+  std::vector<Contribution> contributions;
+  trace_multiple_diffraction({scatterer, geometry, {}, illuminations, {}}, illuminations.all(), contributions);
   int walls = 0;
-  for (const EdgeContribution& contribution : contributions) {
-    if (!std::holds_alternative<WallPenumbraTerm>(contribution.amplitude)) continue;
+  for (const Contribution& contribution : contributions) {
+    if (!std::holds_alternative<WallPenumbraTerm>(contribution.interval()->amplitude)) continue;
     ++walls;
-    EXPECT_NE(contribution.part, contribution.other_part);
+    EXPECT_NE(contribution.source.part, contribution.source.other_part);
   }
   EXPECT_GT(walls, 0);
 }

@@ -12,9 +12,9 @@
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/shapes/generators.h"
 #include "sim/scattering/points/phase_integral.h"
-#include "sim/scattering/points/point_contributions.h"
-#include "sim/scattering/solver/illumination.h"
-#include "sim/scattering/solver/scattering_matrix.h"
+#include "sim/scattering/points/decomposition.h"
+#include "sim/scattering/solver/aspect_trace.h"
+#include "tests/sim/scattering/solve_calls.h"
 #include "sim/scattering/sums/response_grid.h"
 #include "tests/measured.h"
 #include "tests/sim/scattering/solver_fixtures.h"
@@ -46,7 +46,7 @@ Trajectory rocking(const Vec3& rates, double period_s, const Vec3& centre, const
 double error_against_independent_traces(const Scatterer& scatterer, const Trajectory& trajectory, const Vec3& r_hat,
                                         const SolverSpec& solver, int spots, std::uint64_t index) {
   const IntervalSampling sampling = paper_interval(0.3);
-  const BodyResponse body = body_response(scatterer, trajectory, r_hat, Polarisation::kVv, sampling, solver, 2);
+  const IntervalResult body = interval_response(scatterer, trajectory, r_hat, Polarisation::kVv, sampling, solver, 2);
   const RadarBasis world = radar_basis(r_hat);
   const double range_m = solver.wavefront_range_m;
   Random random({11, Stream::kTest, index});
@@ -61,8 +61,7 @@ double error_against_independent_traces(const Scatterer& scatterer, const Trajec
     const BistaticGeometry geometry =
         monostatic({R_BT * basis_at_body.r, R_BT * basis_at_body.h, R_BT * basis_at_body.v});
     const TracingSettings settings = tracing_settings(solver);
-    const Complex s = scattering_matrices(scatterer, geometry, std::array{k}, settings, 2, nullptr, nullptr,
-                                          {range_m})[0][kVvChannel];
+    const Complex s = scattering_matrices(scatterer, geometry, std::array{k}, settings, 2, {range_m})[0][kVvChannel];
     const Complex independent = s * std::polar(1.0, 2 * k * nearer_m);
     error += std::norm(body.response.at(n, b) - independent) / spots;
   }
@@ -77,18 +76,18 @@ TEST(Contributions, SumToTheClosedFormAtTheTracedAspect) {
   const Illumination illumination(reflector, monostatic(basis), {1.4e-3, 8});
   const double kc = wavenumber(16.1e9);
   for (const double aspect_change : {0.0, 1e-3, 1e-2}) {
-    std::vector<PointContribution> contributions;
+    std::vector<Point> points;
     std::array<Complex, 4> exact{};
-    TracedContributions traced;
-    for (const int facet : illumination.visible_panels()) illumination.trace_from(facet, traced);
-    for (const Footprint& footprint : traced.receivers[0].footprints) {
-      decompose(footprint, basis, {kc, aspect_change}, contributions);
-      const auto s = scattered(footprint, kc);
-      for (int i = 0; i < 4; ++i) exact[i] += s[i];
-    }
-    const auto sum = direct_sum(contributions, kc, Vec3::Zero());
-    // Patterns are stored in single precision: 6e-8 of each of a few hundred terms.
-    EXPECT_LT(std::abs(sum[kVvChannel] - exact[kVvChannel]), 1e-6 * std::abs(exact[kVvChannel])) << aspect_change;
+    illumination.trace(1, [&](std::size_t, std::size_t, std::span<const Contribution> contributions) {
+      for (const Contribution& contribution : contributions) {
+        decompose(contribution, {monostatic(basis)}, {FrequencyBand(kc), 0, aspect_change}, points);
+        const auto s = scattered(contribution, {monostatic(basis)}, kc);
+        for (int i = 0; i < 4; ++i) exact[i] += s[i];
+      }
+    });
+    const auto sum = direct_sum(points, kc);
+    // Rounding of phases of some 1e3 rad in a few hundred terms.
+    EXPECT_LT(std::abs(sum[kVvChannel] - exact[kVvChannel]), 1e-9 * std::abs(exact[kVvChannel])) << aspect_change;
   }
 }
 
@@ -147,7 +146,7 @@ TEST(IntervalResponse, OfABodyAtRestEqualsItsScatteringMatrix) {
   const Scatterer reflector(make_icosahedral_reflector());
   const Vec3 r_hat = direction(20, 2), rest(3, -40, 0.75);
   const IntervalSampling sampling = paper_interval(0);
-  const BodyResponse body = body_response(reflector, Trajectory::at_rest(rest), r_hat, Polarisation::kHh, sampling, {});
+  const IntervalResult body = interval_response(reflector, Trajectory::at_rest(rest), r_hat, Polarisation::kHh, sampling, {});
   EXPECT_EQ(body.traces, 1);
   for (const int n : {0, 100, 255}) {
     for (const int b : {0, 39}) {
@@ -270,34 +269,14 @@ TEST(IntervalResponse, OfATranslatedBodyHasThePhaseOfItsOrigin) {
   const IntervalSampling sampling = paper_interval(0.2);
   const Trajectory moving(0, 0.1, samples, Vec3::Zero(), Vec3::Zero());
   const auto still =
-      body_response(plate, Trajectory::at_rest(Vec3::Zero()), r_hat, Polarisation::kVv, sampling, {}).response;
-  const auto moved = body_response(plate, moving, r_hat, Polarisation::kVv, sampling, {}).response;
+      interval_response(plate, Trajectory::at_rest(Vec3::Zero()), r_hat, Polarisation::kVv, sampling, {}).response;
+  const auto moved = interval_response(plate, moving, r_hat, Polarisation::kVv, sampling, {}).response;
   for (const int n : {0, 77, 255}) {
     const double k = wavenumber(sampling.first_hz + sampling.pulse_first[n] * sampling.step_hz);
     const Vec3 p = Vec3(1, -0.5, 0.2) * sampling.pulse_time_s[n];
     const Complex expected = still.at(n, 0) * std::polar(1.0, 2 * k * r_hat.dot(p));
     EXPECT_LT(std::abs(moved.at(n, 0) - expected), 1e-9 * std::abs(expected));
   }
-}
-
-// With traces that intervals share, in low waves of Hs 0.1 m: as the faster ship above by traces of its own, -40 dB in
-// the median. In low waves own traces have -48 dB, as their directions are nearer.
-TEST(IntervalResponse, WithSharedTracesMatchesIndependentOnes) {
-  const Scatterer ship(read_mesh(SEAGLINT_SOURCE_DIR "/assets/combatant_144m.glb"));
-  SolverSpec solver;
-  solver.shared_traces = true;
-  std::vector<double> errors;
-  for (int i = 0; i < 7; ++i) {
-    errors.push_back(error_against_independent_traces(ship, rocking({7e-4, 3e-4, 1e-4}, 8, {0, 0, 1.7}),
-                                                      direction(10 + 25 * i, 2), solver, 6,
-                                                      static_cast<std::uint64_t>(2000 + i)));
-  }
-  std::ranges::sort(errors);
-  fmt::print("ship in low waves, shared traces: {:.1f} dB\n", fmt::join(errors, " "));
-  record_figure(errors[3], 1, "interval_shared_ship_median_db");
-  record_figure(errors.back(), 1, "interval_shared_ship_worst_db");
-  EXPECT_LT(errors[3], -33);
-  EXPECT_LT(errors.back(), -26);  // six spots: the mean of a few pulses
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/scattering/observation/bistatic_geometry.h"
+#include "sim/scattering/observation/observation.h"
 
 namespace seaglint {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "sim/core/process/error.h"
 #include "sim/geometry/shapes/generators.h"
-#include "sim/scattering/solver/scattering_matrix.h"
+#include "tests/sim/scattering/solve_calls.h"
 #include "tests/measured.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
@@ -19,8 +19,7 @@ namespace {
 using namespace testing_echoes;
 
 Complex at_range(const TriangleMesh& mesh, const Vec3& r, double k, double range_m) {
-  return scattering_matrices(Scatterer(mesh), monostatic(radar_basis(r)), std::array{k}, TracingSettings{}, 1, nullptr,
-                             nullptr, {range_m})[0][kVvChannel];
+  return scattering_matrices(Scatterer(mesh), monostatic(radar_basis(r)), std::array{k}, TracingSettings{}, 1, {range_m})[0][kVvChannel];
 }
 
 // Physical optics of a plate in x = 0, its phase summed over small cells: e^{2jk (r.x - |x_perp|^2 / 2R)}.
@@ -82,8 +81,7 @@ TEST(WavefrontCurvature, SlideOfAShadowEdgeHasNoSecondOrder) {
   settings.filter.included = {{ContributionSelector::Kind::kPart, 0}};
   const Vec3 r = direction(0, 0);
   const auto plate_at = [&](double range_m) {
-    return scattering_matrices(Scatterer(mesh), monostatic(radar_basis(r)), std::array{k}, settings, 1, nullptr,
-                               nullptr, {range_m})[0][kVvChannel];
+    return scattering_matrices(Scatterer(mesh), monostatic(radar_basis(r)), std::array{k}, settings, 1, {range_m})[0][kVvChannel];
   };
   const Complex far = plate_at(0), near = plate_at(10e3);
   // Half the plate reaches 1 m off the axis: k 1 / R = 6e-3 rad; amplitudes are frozen over 10 / R.
@@ -125,7 +123,7 @@ TEST(WavefrontCurvature, OfATrihedralIsThatOfItsAperture) {
   const RadarBasis axis = radar_basis(Vec3(1, 1, 1).normalized());
   for (const double range_m : {20.0, 40.0, 100.0}) {
     const auto s =
-        scattering_matrices(corner, monostatic(axis), std::array{k}, settings, 1, nullptr, nullptr, {range_m})[0];
+        scattering_matrices(corner, monostatic(axis), std::array{k}, settings, 1, {range_m})[0];
     // Twelve right triangles of height sqrt(3) side / 2 and angle 30 deg, in rings of equal distance from the apex.
     const int rings = 20000;
     const double height = std::numbers::sqrt3 / 2 * side;
@@ -145,12 +143,11 @@ TEST(WavefrontCurvature, OfATrihedralIsThatOfItsAperture) {
     SolverSpec solver;
     solver.edges = false;
     solver.wavefront_range_m = range_m;
-    const Complex at_rest = body_response(corner, Trajectory::at_rest(Vec3::Zero()), axis.r, Polarisation::kHh,
+    const Complex at_rest = interval_response(corner, Trajectory::at_rest(Vec3::Zero()), axis.r, Polarisation::kHh,
                                           {16e9, 1e6, 1, 1, {0}, {0.0}}, solver)
                                 .response.at(0, 0);
     const TracingSettings all{0, solver.max_bounces, false};
-    const Complex matrix = scattering_matrices(corner, monostatic(axis), std::array{k}, all, 1, nullptr, nullptr,
-                                               {range_m})[0][kHhChannel];
+    const Complex matrix = scattering_matrices(corner, monostatic(axis), std::array{k}, all, 1, {range_m})[0][kHhChannel];
     EXPECT_LT(std::abs(at_rest - matrix), 0.02 * expected) << range_m;
   }
 }
@@ -180,7 +177,7 @@ TEST(WavefrontCurvature, PlateOffTheReferencePointIsTheSumOfItsPointDistances) {
   for (const double azimuth : {0.0, 3.0, 3.44, 3.8, 6.0}) {  // its normal points to the radar near 3.44 deg
     const Vec3 r = direction(azimuth, 0.7);
     const Complex ours =
-        body_response(plate, Trajectory::at_rest(rest), r, Polarisation::kVv, sampling, solver).response.at(0, 0);
+        interval_response(plate, Trajectory::at_rest(rest), r, Polarisation::kVv, sampling, solver).response.at(0, 0);
     const double size = k * length * width / (2 * kPi), error = std::abs(ours - summed(r)) / size;
     fmt::print("plate 60 m off the reference point at {} m, {} deg: {:.4f} of the broadside echo\n", range_m, azimuth,
                error);

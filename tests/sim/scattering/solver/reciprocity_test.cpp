@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reciprocity of scattering matrices and of their contributions: one antenna, over the sea.
-#include "sim/scattering/sums/reciprocity.h"
+#include "sim/scattering/observation/observation.h"
 
 #include <gtest/gtest.h>
 
@@ -64,11 +64,11 @@ TEST(Reciprocity, ExchangedPairsAreFound) {
 TEST(Reciprocity, PointsOfAViewSumToItsMatrix) {
   const RadarBasis a = radar_basis(direction(33, 17)), b = radar_basis(direction(60, 8));
   for (const BistaticGeometry& geometry : {monostatic(a), bistatic(a, b)}) {
-    const AspectContributions view = aspect_contributions(turned_ship(), geometry, {kBand[1], 1e-3}, {});
+    const ViewResult view = points_of(turned_ship(), geometry, kBand[1], 1e-3, {});
     const auto matrix = scattering_matrices(turned_ship(), geometry, {&kBand[1], 1}, {})[0];
-    EXPECT_LT(distance(view.matrix, matrix), kRounding * largest(matrix));
+    EXPECT_LT(distance(view.matrices[0], matrix), kRounding * largest(matrix));
     const auto sum = direct_sum(view.points, kBand[1], Vec3::Zero());
-    EXPECT_LT(distance(sum, view.matrix), 1e-5 * largest(view.matrix));  // patterns of points are of single precision
+    EXPECT_LT(distance(sum, view.matrices[0]), kRounding * largest(view.matrices[0]));
   }
 }
 
@@ -125,19 +125,19 @@ TEST(Reciprocity, TheEstimateIsHalfOfTheDifferenceOfTheBeams) {
   const Scatterer body(groove(80));
   const TracingSettings settings{7e-5, 12, false};
   const std::array view{monostatic(radar_basis(direction(20, 15)))};
-  std::vector<ViewEstimate> estimates;
-  scattering_matrices(body, view, {&kBand[1], 1}, settings, 1, nullptr, nullptr, {}, &estimates);
+  const ViewEstimate estimate = *points_of(body, view[0], kBand[1], 0, settings).estimate;
   const auto s = one_way_matrices(body, view, {&kBand[1], 1}, settings)[0][0];
   EXPECT_GT(std::abs(s[kHvChannel] - s[kVhChannel]), 0.1);
-  EXPECT_LT(std::abs(estimates[0].all().non_reciprocal - 0.5 * (s[kHvChannel] - s[kVhChannel])), 1e-9);
+  EXPECT_LT(std::abs(estimate.all().non_reciprocal - 0.5 * (s[kHvChannel] - s[kVhChannel])), 1e-9);
 
   // Over a conducting sea hv and vh of the image have the factor -1, and the mixed paths do not count.
   SeaReflectionSpec spec;
   spec.surface = SeaSurface::kConductor;
   const double height = 2.3, k = kBand[1];
-  ViewEstimate over_sea(k);
-  scattering_matrices_over_sea(body, view[0].receive.r, height, SeaReflection(spec, 0), {&k, 1}, settings, 1, nullptr,
-                               nullptr, 0, &over_sea);
+  SolveRequest request =
+      over_sea_request(body, view[0].receive.r, {SeaReflection(spec, 0), height}, {&k, 1}, settings);
+  request.estimates = true;
+  const ViewEstimate over_sea = *solve(request).views[0].estimate;
   const std::array image{monostatic(image_basis(view[0].receive))};
   const auto of_image = one_way_matrices(body, image, {&k, 1}, settings)[0][0];
   const Complex detour = std::polar(1.0, -4 * k * height * view[0].receive.r.z());
@@ -151,7 +151,7 @@ TEST(Reciprocity, HoldsOverTheSea) {
   spec.enabled = true;
   const SeaReflection sea(spec, 0.3);
   for (const double azimuth : {12.0, 71.0}) {
-    const auto s = scattering_matrices_over_sea(Scatterer(block_ship()), direction(azimuth, 17), 1.5, sea, kBand, {});
+    const auto s = matrices_over_sea(Scatterer(block_ship()), direction(azimuth, 17), {sea, 1.5}, kBand, {});
     for (std::size_t q = 0; q < kBand.size(); ++q)
       EXPECT_LT(std::abs(s[q][kHvChannel] - s[q][kVhChannel]), kRounding * largest(s[q])) << azimuth;
   }

@@ -10,8 +10,8 @@
 #include "sim/scattering/observation/sea_reflection.h"
 #include "sim/scattering/scatterer/part_materials.h"
 #include "sim/scattering/solver/point_response.h"
-#include "sim/scattering/solver/scattering_matrix.h"
-#include "sim/scattering/sums/reciprocity.h"
+#include "tests/sim/scattering/solve_calls.h"
+#include "sim/scattering/observation/observation.h"
 #include "tests/measured.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
@@ -30,7 +30,7 @@ SeaReflection conductor() {
 
 std::array<Complex, 4> over_sea(const Scatterer& scatterer, const Vec3& r_hat, double height, const SeaReflection& sea,
                                 double k, double min_patch_m = 0) {
-  return scattering_matrices_over_sea(scatterer, r_hat, height, sea, std::array{k}, {min_patch_m, 8})[0];
+  return matrices_over_sea(scatterer, r_hat, {sea, height}, std::array{k}, {min_patch_m, 8})[0];
 }
 
 double largest(const std::array<Complex, 4>& s) {
@@ -62,8 +62,9 @@ TEST(SeaReflection, RefersTheRangeToTheWaterBelow) {
       }
     }
     sum *= std::polar(1.0, -2 * k * r.z() * height);  // phases are about the body's origin
-    const Complex ours = scattering_matrices_over_sea(sphere, r, height, conductor(), std::array{k}, TracingSettings{},
-                                                      1, nullptr, nullptr, range_m)[0][kHhChannel];
+    SolveRequest request = over_sea_request(sphere, r, {conductor(), height}, std::array{k}, {});
+    request.radar.range_m = range_m;
+    const Complex ours = matrices_of(request)[0][0][kHhChannel];
     // Of 4 |alone|, the sum of the four paths: 2 % for the echo of a sphere 10 deg off, and the third order of the
     // path, k X H^2 / R^2 = 0.01 rad at 5 km.
     EXPECT_LT(std::abs(ours - sum), 0.03 * 4 * std::abs(alone)) << range_m;
@@ -261,7 +262,7 @@ double error_against_independent_traces(const Scatterer& scatterer, const Trajec
   const IntervalSampling sampling = paper_interval(0.3);
   const RadarBasis radar = radar_basis(r), image = radar_basis(image_direction(r));
   const int element = static_cast<int>(polarisation);
-  const BodyResponse body = body_response(scatterer, trajectory, r, polarisation, sampling, SolverSpec{}, 2, &sea);
+  const IntervalResult body = interval_response(scatterer, trajectory, r, polarisation, sampling, SolverSpec{}, 2, &sea);
   Random random({8, Stream::kTest, 0});
   double error = 0, power = 0;
   for (int spot = 0; spot < spots; ++spot) {
@@ -346,8 +347,8 @@ TEST(SeaReflection, ResponseDoesNotDependOnThreads) {
   sampling.pulse_time_s = {0, 0.001};
   const SeaReflection sea(SeaReflectionSpec{}, 0.1);
   const Trajectory rest = Trajectory::at_rest({0, 0, 2});
-  const auto one = body_response(plate, rest, direction(5, 2), Polarisation::kVv, sampling, SolverSpec{}, 1, &sea),
-             two = body_response(plate, rest, direction(5, 2), Polarisation::kVv, sampling, SolverSpec{}, 2, &sea);
+  const auto one = interval_response(plate, rest, direction(5, 2), Polarisation::kVv, sampling, SolverSpec{}, 1, &sea),
+             two = interval_response(plate, rest, direction(5, 2), Polarisation::kVv, sampling, SolverSpec{}, 2, &sea);
   EXPECT_EQ(one.response.values, two.response.values);
 }
 

@@ -45,15 +45,14 @@ TEST(TracePlan, HasTheDirectionsOfABodyOffTheReferencePoint) {
   const Vec3 r = direction(30, 2), rest(-40, 45, 3), velocity(0, 10, 0);
   const double range_m = 1000;
   const IntervalSampling sampling = paper_interval(0.2);
-  const TracePlan plan(Trajectory::at_rest(rest).with_drift(velocity, 0.2), sampling, r, range_m, kDirect,
-                       {1e-4, 1e-6});
+  const TracePlan plan({Trajectory::at_rest(rest).with_drift(velocity, 0.2), sampling, r, range_m}, kDirect, {1e-4, 1e-6});
   EXPECT_GT(plan.traces().size(), 1u);
   for (const int pulse : {0, 100, 255}) {
     const Vec3 x = rest + (sampling.pulse_time_s[static_cast<std::size_t>(pulse)] - 0.2) * velocity;
     EXPECT_NEAR(plan.path_advance(kDirect[0], pulse), 2 * (range_m - (range_m * r - x).norm()), 1e-12 * range_m);
   }
   const Vec3 middle = rest + 0.5 * (sampling.pulse_time_s.back() - 0.2) * velocity;
-  const TracePlan still(Trajectory::at_rest(middle), sampling, r, range_m, kDirect, {1, 1});
+  const TracePlan still({Trajectory::at_rest(middle), sampling, r, range_m}, kDirect, {1, 1});
   const RadarBasis& traced = still.traces()[0].paths[0].geometry.transmit;
   EXPECT_LT((traced.r - (range_m * r - middle).normalized()).norm(), 1e-12);
   EXPECT_NEAR(traced.h.dot(traced.r), 0, 1e-12);
@@ -61,8 +60,7 @@ TEST(TracePlan, HasTheDirectionsOfABodyOffTheReferencePoint) {
 }
 
 TEST(TracePlan, OfABodyAtRestIsOneTrace) {
-  const TracePlan plan(Trajectory::at_rest(Vec3(1, 2, 3)), paper_interval(0.2), direction(30, 2), 0, kDirect,
-                       {1e-3, 1e-6});
+  const TracePlan plan({Trajectory::at_rest(Vec3(1, 2, 3)), paper_interval(0.2), direction(30, 2), 0}, kDirect, {1e-3, 1e-6});
   ASSERT_EQ(plan.traces().size(), 1u);
   EXPECT_EQ(plan.traces()[0].last, 255);
   EXPECT_DOUBLE_EQ(plan.path_advance(kDirect[0], 255), 2 * direction(30, 2).dot(Vec3(1, 2, 3)));
@@ -73,7 +71,7 @@ TEST(TracePlan, OfOnePulseIsOneTrace) {
   IntervalSampling sampling = paper_interval(0.2);
   sampling.pulse_first.resize(1);
   sampling.pulse_time_s.resize(1);
-  const TracePlan plan(circling(0.01, 1), sampling, Vec3::UnitX(), 0, kDirect, {1e-3, 1e-9});
+  const TracePlan plan({circling(0.01, 1), sampling, Vec3::UnitX(), 0}, kDirect, {1e-3, 1e-9});
   ASSERT_EQ(plan.traces().size(), 1u);
   expect_weights_sum_to_one(plan, 1);
 }
@@ -82,8 +80,7 @@ TEST(TracePlan, HasTheNumberOfTracesOfTheAspectChange) {
   // 64 ms of 2 pi 0.01 rad/s: 4.0 mrad.
   const double aspect_change = 2 * kPi * 0.01 * 255 * 250e-6;
   for (const int count : {1, 2, 5}) {
-    const TracePlan plan(circling(0.01, 1), paper_interval(0.2), Vec3::UnitX(), 0, kDirect,
-                         {aspect_change / (count - 0.5), 1});
+    const TracePlan plan({circling(0.01, 1), paper_interval(0.2), Vec3::UnitX(), 0}, kDirect, {aspect_change / (count - 0.5), 1});
     EXPECT_EQ(plan.traces().size(), static_cast<std::size_t>(count));
     expect_weights_sum_to_one(plan, 256);
   }
@@ -95,7 +92,7 @@ TEST(TracePlan, HasMoreTracesForACurvedPath) {
   const Trajectory trajectory = circling(radius, 4 * 255 * 250e-6);
   std::size_t before = 1;
   for (const double cross_track_limit : {1.0, 0.1 * radius, 0.01 * radius}) {
-    const TracePlan plan(trajectory, paper_interval(0.2), Vec3::UnitX(), 0, kDirect, {1, cross_track_limit});
+    const TracePlan plan({trajectory, paper_interval(0.2), Vec3::UnitX(), 0}, kDirect, {1, cross_track_limit});
     EXPECT_GE(plan.traces().size(), before) << cross_track_limit;
     before = plan.traces().size();
     for (const PlannedTrace& trace : plan.traces()) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Decomposition of the echo at one aspect: selected, clustered into centres, summed by facet.
 #include "sim/scattering/sums/scattering_centres_3d.h"
-#include "sim/scattering/solver/scattering_matrix.h"
+#include "tests/sim/scattering/solve_calls.h"
 
 #include <gtest/gtest.h>
 
@@ -28,10 +28,9 @@ class AspectDecomposition : public testing::Test {
  protected:
   const Scatterer scatterer_{make_icosahedral_reflector()};
   const RadarBasis radar_ = radar_basis(direction(25, 8));
-  std::vector<PointContribution> contributions(const TracingSettings& settings = {}) const {
-    return aspect_contributions(scatterer_, monostatic(radar_), {k16, default_aspect_change(scatterer_, 2 * kPi / k16)},
-                                settings)
-        .points;
+  std::vector<Point> contributions(const TracingSettings& settings = {}) const {
+    const double aspect_change = default_aspect_change(scatterer_, 2 * kPi / k16);
+    return points_of(scatterer_, monostatic(radar_), k16, aspect_change, settings).points;
   }
   std::array<Complex, 4> matrix(double k, const TracingSettings& settings = {}) const {
     return scattering_matrices(scatterer_, monostatic(radar_), std::array{k}, settings)[0];
@@ -62,10 +61,10 @@ TEST_F(AspectDecomposition, ErrorOffTheAspectIsBoundedByTheCellSize) {
   const double dk = wavenumber(100e6), k = k16 + dk;
   const auto exact = direct_sum(all, k, aspect_change);
   double amplitudes = 0;
-  for (const PointContribution& c : all) {
+  for (const Point& c : all) {
     double max = 0;
-    for (const auto& p : c.pattern) max = std::max(max, static_cast<double>(std::abs(p)));
-    amplitudes += std::abs(c.amplitude) * max;
+    for (const Complex& s : c.matrix(0)) max = std::max(max, std::abs(s));
+    amplitudes += max;
   }
   double coarser = 0;
   for (const double cell : {0.04, 0.01, 0.0025}) {
@@ -98,15 +97,15 @@ TEST_F(AspectDecomposition, SelectionAndComplementSumToAll) {
   EXPECT_GT(size(with), 0.3 * size(s));
   // The same by contributions.
   EXPECT_LT(distance(direct_sum(contributions(only), k16, Vec3::Zero()), with), kRounding * size(s));
-  for (const PointContribution& c : contributions(only)) EXPECT_EQ(c.bounces, 3);
+  for (const Point& c : contributions(only)) EXPECT_EQ(c.source.bounces, 3);
   // Selectors of one kind are alternatives, of two kinds conditions.
   several.filter.included = {{ContributionSelector::Kind::kBounces, 1},
                              {ContributionSelector::Kind::kBounces, 2},
                              {ContributionSelector::Kind::kPart, 4}};
   std::size_t count = 0;
-  for (const PointContribution& c : contributions(several)) {
-    EXPECT_LE(c.bounces, 2);
-    EXPECT_EQ(c.part, 4);
+  for (const Point& c : contributions(several)) {
+    EXPECT_LE(c.source.bounces, 2);
+    EXPECT_EQ(c.source.part, 4);
     ++count;
   }
   EXPECT_GT(count, 0u);
@@ -119,7 +118,7 @@ TEST(ScatteringCentres3d, OfATrihedralsThreeBouncesAreAtItsApex) {
   settings.filter.included = {{ContributionSelector::Kind::kBounces, 3}};
   const RadarBasis radar = radar_basis(direction(40, 30));
   const auto centres =
-      cluster_centres(aspect_contributions(corner, monostatic(radar), {k16, 1e-4}, settings).points, k16, 0.02);
+      cluster_centres(points_of(corner, monostatic(radar), k16, 1e-4, settings).points, k16, 0.02);
   ASSERT_FALSE(centres.empty());
   EXPECT_LT((centres.front().position() - Vec3(1, 2, 0.5)).norm(), 1e-6);
   EXPECT_NEAR(centres.front().psi, 2 * radar.r.dot(Vec3(1, 2, 0.5)), 1e-6);

@@ -20,7 +20,6 @@ namespace seaglint {
 namespace {
 
 using namespace testing_echoes;
-using Matrices = std::vector<std::array<Complex, 4>>;
 using Sweep = std::function<Matrices(std::span<const double>)>;
 
 // Interpolation over cells of path length and over amplitudes (kCellHalfPhase), of every contribution; weak
@@ -65,7 +64,7 @@ void expect_equal_alone_and_in_a_sweep(const char* name, const Sweep& sweep) {
 
 Sweep monostatic_sweep(const Scatterer& scatterer, const Vec3& r, bool edges, double range_m = 0) {
   return [&scatterer, r, edges, range_m](std::span<const double> k) {
-    return scattering_matrices(scatterer, monostatic(radar_basis(r)), k, {0, 8, edges}, 1, nullptr, nullptr, {range_m});
+    return scattering_matrices(scatterer, monostatic(radar_basis(r)), k, {0, 8, edges}, 1, {range_m});
   };
 }
 
@@ -79,9 +78,9 @@ TriangleMesh ball_and_corner() {
 TEST(BandSum, OfPointsIsTheirDirectSumAtEveryFrequency) {
   Random random({3, Stream::kTest, 0});
   const FrequencyBand band(wavenumber(9.3e9), wavenumber(9.5e9));
-  std::vector<BandPoint> points(300);
+  std::vector<Point> points(300);
   BandSum sum(band);
-  for (BandPoint& point : points) {
+  for (Point& point : points) {
     point.psi = 80 * (random.uniform() - 0.5);
     for (Complex& element : point.pattern) element = std::polar(random.uniform(), 2 * kPi * random.uniform());
     for (std::size_t n = 0; n < kBandNodes; ++n) point.amplitude[n] = 1 / band.nodes()[n];
@@ -93,7 +92,7 @@ TEST(BandSum, OfPointsIsTheirDirectSumAtEveryFrequency) {
     for (int i = 0; i < 4; ++i) {
       Complex direct = 0;
       double size = 0;
-      for (const BandPoint& point : points) {
+      for (const Point& point : points) {
         direct += std::polar(1 / k, k * point.psi) * point.pattern[i];
         size += std::abs(point.pattern[i]) / k;
       }
@@ -135,7 +134,7 @@ TEST(Sweep, HasTheEchoOfEveryFrequencyAlone) {
   });
   const SeaReflection sea({}, 0.2);
   expect_equal_alone_and_in_a_sweep("over_the_sea", [&](std::span<const double> k) {
-    return scattering_matrices_over_sea(curved, direction(38, 4), 2, sea, k, {0, 8, true});
+    return matrices_over_sea(curved, direction(38, 4), {sea, 2}, k, {0, 8, true});
   });
 }
 

@@ -29,10 +29,10 @@ struct Estimated {
 Estimated estimate(const Scatterer& scatterer, const Vec3& r, std::span<const double> wavenumbers,
                    const TracingSettings& settings, int threads = 1, double range_m = 0) {
   const BistaticGeometry geometry = monostatic(radar_basis(r));
-  std::vector<ViewEstimate> estimates;
-  auto matrices = scattering_matrices(scatterer, std::span(&geometry, 1), wavenumbers, settings, threads, nullptr,
-                                      nullptr, {range_m}, &estimates);
-  return {matrices.front(), estimates.front()};
+  SolveRequest request = views_request(scatterer, std::span(&geometry, 1), wavenumbers, settings, threads, {range_m});
+  request.estimates = true;
+  const ViewResult view = solve(request).views.front();
+  return {view.matrices, *view.estimate};
 }
 
 // A triangle of about 0.1 m at the origin that reflects a wave from azimuth 0 upwards to an oblique wall.

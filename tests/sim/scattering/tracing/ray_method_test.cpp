@@ -163,7 +163,7 @@ TEST(Rays, TwoAntennasCoatingsAndAFiniteRangeGiveTheEchoOfBeams) {
   // (points/finite_range.h), and tiles divide footprints: 0.018 at 40 m, in proportion to 1 / range.
   for (const double range_m : {0.0, 400.0}) {
     const auto of = [&](const TracingSettings& settings) {
-      return scattering_matrices(target, pair, std::array{k}, settings, 1, nullptr, nullptr, {range_m})[0];
+      return scattering_matrices(target, pair, std::array{k}, settings, 1, {range_m})[0];
     };
     EXPECT_LT(relative_difference(of(kByRays), of(kByBeams)), range_m > 0 ? 3e-3 : 3e-5) << range_m;
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/scattering/tracing/ray_paths.h"
+#include "sim/scattering/tracing/transmitted_wave.h"
 
 #include <gtest/gtest.h>
 
@@ -18,8 +19,9 @@ struct Scene {
   Scatterer target;
   RadarBasis basis;
   TracingSettings settings{0, 8, false, {}, SolverMethod::kRays};
-  std::vector<Receiver> receivers{{monostatic(basis), nullptr}};
-  TracingContext context{target, basis, receivers, settings, nullptr, {}, SmallestAreas(target, settings)};
+  Aspect aspect{target, basis, settings, 1};
+  std::vector<Receiver> receivers{{monostatic(basis), aspect.visible}};
+  TracingContext context{target, basis, receivers, settings, aspect.visible, {}, SmallestAreas(target, settings)};
 
   Scene(const TriangleMesh& mesh, const Vec3& r_hat) : target(mesh), basis(radar_basis(r_hat)) {}
   Scene(const Scene&) = delete;

@@ -13,7 +13,6 @@
 
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/mesh/mesh_diagnostics.h"
-#include "sim/scattering/points/curved_integral.h"
 #include "sim/scattering/points/phase_integral.h"
 #include "sim/scattering/radiation/curved_footprint.h"
 #include "sim/scattering/solver/aspect_trace.h"
@@ -26,29 +25,29 @@ namespace {
 using namespace testing_echoes;
 
 // Largest element of the pattern over the footprint.
-double largest_pattern(const Footprint& footprint) {
-  double pattern = largest(footprint.pattern);
-  if (footprint.curvature) {
-    for (const auto& at_vertex : footprint.curvature->pattern) pattern = std::max(pattern, largest(at_vertex));
+double largest_pattern(const Contribution& contribution) {
+  double pattern = largest(contribution.pattern.value);
+  if (const auto& curvature = contribution.footprint()->curvature) {
+    for (const auto& at_vertex : curvature->pattern) pattern = std::max(pattern, largest(at_vertex));
   }
   return pattern;
 }
 
 // Area of the panel in the projection plane, m^2.
-double projected_panel_area(const Scatterer& scatterer, const Footprint& footprint) {
-  const std::span<const Vec3> outline = scatterer.panels().outline(footprint.facet);
+double projected_panel_area(const Scatterer& scatterer, const Contribution& contribution) {
+  const std::span<const Vec3> outline = scatterer.panels().outline(contribution.source.facet);
   Vec3 twice = Vec3::Zero();
   for (std::size_t i = 1; i + 1 < outline.size(); ++i)
     twice += (outline[i] - outline[0]).cross(outline[i + 1] - outline[0]);
-  return 0.5 * twice.norm() / std::sqrt(1 + footprint.plane.slope.squaredNorm());
+  return 0.5 * twice.norm() / std::sqrt(1 + contribution.footprint()->plane.slope.squaredNorm());
 }
 
 // Area that bent rays illuminate, m^2 in the projection plane, that illuminate `area` where the reflectors are flat: no
 // ray moves by more than half the width of the cross-section (a triangle widened so has 5.5 times its area), or all
 // stay on the panel (arriving_rays()).
-double largest_area(const Scatterer& scatterer, const Footprint& footprint, double area) {
+double largest_area(const Scatterer& scatterer, const Contribution& contribution, double area) {
   constexpr double kWidened = 5.5;
-  return std::max(kWidened * area, projected_panel_area(scatterer, footprint));
+  return std::max(kWidened * area, projected_panel_area(scatterer, contribution));
 }
 
 // Error of the contour form of an integral over a curved facet.
@@ -87,17 +86,18 @@ ContourError contour_error(const Footprint& footprint, double k, double of_sides
 // Bound of |S|. Physical optics of unit field on an area A is at most k A pattern / (2 pi). Curved reflectors spread
 // the power of a beam over an area A': the integral of the field is at most sqrt(A A') (Cauchy and Schwarz); a caustic
 // has A' = 0. The obliquity of rays that they tilt is limited to 2 (CurvedFootprint::divergence_factor()).
-double bound(const Scatterer& scatterer, const Footprint& footprint, double k, double of_sides) {
+double bound(const Scatterer& scatterer, const Contribution& contribution, double k, double of_sides) {
+  const Footprint& footprint = *contribution.footprint();
   constexpr double kMaxObliquity = 2, kRounding = 1e-6;
   const double area = std::abs(signed_area(footprint.polygon));
   double integral = (1 + kRounding) * area;
   if (footprint.curvature) {
     const ContourError error = contour_error(footprint, k, of_sides);
     if (footprint.curvature->has_bundle)
-      integral = std::sqrt(kMaxObliquity * area * largest_area(scatterer, footprint, area));
+      integral = std::sqrt(kMaxObliquity * area * largest_area(scatterer, contribution, area));
     integral = (1 + error.relative) * integral + error.ends;
   }
-  return k / (2 * kPi) * largest_pattern(footprint) * integral;
+  return k / (2 * kPi) * largest_pattern(contribution) * integral;
 }
 
 // Part of its sides' terms that the contour of a facet may leave: the change of the slope across and along a side, at
@@ -115,21 +115,17 @@ Excess largest_excess(const Scatterer& scatterer, double frequency_hz, std::span
   const TracingSettings settings{min_patch_m, kDefaultBounces, false};
   Excess excess;
   for (const Vec3& r_hat : views) {
-    const std::array pair{monostatic(radar_basis(r_hat))};
-    const AspectTrace trace(scatterer, pair, settings, k, 1);
-    trace.run({[&](std::size_t, std::size_t, std::span<const Footprint> footprints) {
-                 for (const Footprint& footprint : footprints) {
-                   const double ratio =
-                       largest(scattered(footprint, k[0])) / bound(scatterer, footprint, k[0], of_sides);
-                   double& of_kind = !footprint.curvature              ? excess.flat
-                                     : footprint.curvature->has_bundle ? excess.bent
-                                                                       : excess.curved;
-                   of_kind = std::max(of_kind, ratio);
-                   ++excess.count;
-                 }
-               },
-               [](std::size_t, std::size_t, std::span<const EdgeContribution>) {},
-               {}});
+    const BistaticGeometry pair = monostatic(radar_basis(r_hat));
+    Illumination(scatterer, pair, settings, 1, k)
+        .trace(1, [&](std::size_t, std::size_t, std::span<const Contribution> contributions) {
+          for (const Contribution& contribution : contributions) {
+            const auto& curvature = contribution.footprint()->curvature;
+            double& of_kind = !curvature ? excess.flat : curvature->has_bundle ? excess.bent : excess.curved;
+            of_kind = std::max(of_kind, largest(scattered(contribution, pair, k[0])) /
+                                            bound(scatterer, contribution, k[0], of_sides));
+            ++excess.count;
+          }
+        });
   }
   return excess;
 }

@@ -36,19 +36,20 @@ constexpr double kBothSenses = 2;
 constexpr double kPenumbraTerms = 4;
 
 // Bound of |S| of an edge contribution per metre of its length.
-double bound(const EdgeContribution& contribution, double k) {
+double bound(const Contribution& contribution, double k) {
+  const AmplitudeLaw& amplitude = contribution.interval()->amplitude;
   // Width times k of the transition region of a half-plane over 2 pi, at distances up to `distance`.
   const auto transition = [&](double distance) { return std::sqrt(k * distance / (2 * kPi)) / (2 * kPi); };
-  switch (contribution.mechanism) {
+  switch (contribution.source.mechanism) {
     case Mechanism::kSingleDiffraction: return kFringe;
     case Mechanism::kReflectedEdge: return kBothSenses * kEndPoint;
     case Mechanism::kShadowBoundary: {
-      const auto* knives = std::get_if<DoubleKnifeEdge>(&contribution.amplitude);
+      const auto* knives = std::get_if<DoubleKnifeEdge>(&amplitude);
       return kEndPoint + (knives ? transition(std::ranges::max(knives->separation)) / kGrazingWindow[1] : 0.0);
     }
     case Mechanism::kWallPenumbra:
       return kPenumbraTerms * std::sqrt(2.0) *
-             transition(std::ranges::max(std::get<WallPenumbraTerm>(contribution.amplitude).l));
+             transition(std::ranges::max(std::get<WallPenumbraTerm>(amplitude).l));
     // Each grazing wave is at most the field at the edge that launches it; at the last edge it radiates the fringe
     // current and the end of the current of the edge before.
     default: return kFringe + kEndPoint;
@@ -65,16 +66,15 @@ Excess largest_excess(const Scatterer& scatterer, double frequency_hz, std::span
   Excess excess{};
   for (const Vec3& r_hat : views) {
     const std::array pair{monostatic(radar_basis(r_hat))};
-    const AspectTrace trace(scatterer, pair, settings, k, 1);
-    trace.run({[](std::size_t, std::size_t, std::span<const Footprint>) {},
-               [&](std::size_t, std::size_t, std::span<const EdgeContribution> contributions) {
-                 for (const EdgeContribution& contribution : contributions) {
-                   double& of_kind = excess[static_cast<std::size_t>(contribution.mechanism)];
-                   of_kind = std::max(of_kind, largest(scattered(contribution, k[0])) /
-                                                   (bound(contribution, k[0]) * contribution.length));
-                 }
-               },
-               {}});
+    const AspectTrace trace(scatterer, pair, settings, k, Reciprocity::kNone, 1);
+    trace.run([&](const PairContributions& from) {
+      for (const Contribution& contribution : from.contributions) {
+        if (!contribution.interval()) continue;
+        double& of_kind = excess[static_cast<std::size_t>(contribution.source.mechanism)];
+        of_kind = std::max(of_kind, largest(scattered(contribution, pair[0], k[0])) /
+                                        (bound(contribution, k[0]) * contribution.interval()->length));
+      }
+    });
   }
   return excess;
 }

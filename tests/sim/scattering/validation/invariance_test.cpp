@@ -5,7 +5,7 @@
 
 #include "sim/core/numbers/random.h"
 #include "sim/geometry/shapes/generators.h"
-#include "sim/scattering/solver/scattering_matrix.h"
+#include "tests/sim/scattering/solve_calls.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
 namespace seaglint {

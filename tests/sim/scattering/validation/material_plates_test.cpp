@@ -9,7 +9,7 @@
 
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/scattering/scatterer/part_materials.h"
-#include "sim/scattering/solver/scattering_matrix.h"
+#include "tests/sim/scattering/solve_calls.h"
 #include "sim/scenario/material_file.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "sim/geometry/files/mesh_io.h"
-#include "sim/scattering/solver/scattering_matrix.h"
+#include "tests/sim/scattering/solve_calls.h"
 #include "tests/measured.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 #include "tests/sim/scattering/validation/reference_bodies.h"
@@ -28,12 +28,12 @@ struct ByMechanism {
 };
 ByMechanism parts_of(const Scatterer& target, const BistaticGeometry& geometry, double k,
                      const TracingSettings& settings) {
-  const AspectContributions all = aspect_contributions(target, geometry, {k, 0}, settings, 2);
-  ByMechanism result{all.matrix, {}};
-  for (const PointContribution& point : all.points) {
-    const Complex s = point.amplitude * std::polar(1.0, k * point.psi);
+  const ViewResult all = points_of(target, geometry, k, 0, settings, 2);
+  ByMechanism result{all.matrices[0], {}};
+  for (const Point& point : all.points) {
+    const Complex phase = std::polar(1.0, k * point.psi);
     for (std::size_t i = 0; i < 4; ++i)
-      result.parts[static_cast<std::size_t>(point.mechanism)][i] += s * Complex(point.pattern[i]);
+      result.parts[static_cast<std::size_t>(point.source.mechanism)][i] += phase * point.matrix(0)[i];
   }
   return result;
 }

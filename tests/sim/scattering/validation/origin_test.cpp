@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "sim/geometry/shapes/generators.h"
-#include "sim/scattering/solver/body_response.h"
-#include "sim/scattering/solver/scattering_matrix.h"
+#include "tests/sim/scattering/solve_calls.h"
+#include "sim/scattering/solver/solve.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
 namespace seaglint {
@@ -64,7 +64,7 @@ TEST(Origin, AtAKilometreIsKeptWhereTheLookDirectionIsPerturbed) {
 TEST(Origin, IsNotThePointThatARangeRefersTo) {
   const BistaticGeometry geometry = monostatic(radar_basis(direction(38, 27)));
   const auto at = [&](const Scatterer& target, const Vec3& origin) {
-    return scattering_matrices(target, geometry, std::array{k10}, {0, 8, true}, 1, nullptr, nullptr, {30, origin})[0];
+    return scattering_matrices(target, geometry, std::array{k10}, {0, 8, true}, 1, {30, origin})[0];
   };
   const auto far = turned_back(at(moved(stepped_corner(), kStep), -kStep), 2 * geometry.transmit.r);
   EXPECT_LT(relative_difference(at(Scatterer(stepped_corner()), Vec3::Zero()), far), kRounding);
@@ -74,11 +74,11 @@ TEST(Origin, BelongsToThePointsOfAnAspect) {
   const BistaticGeometry geometry = monostatic(radar_basis(direction(38, 27)));
   const Vec3 turn = 1e-4 * geometry.transmit.h;
   const auto at = [&](const Scatterer& target) {
-    return aspect_contributions(target, geometry, {k10, 1e-3}, {0, 8, true});
+    return points_of(target, geometry, k10, 1e-3, {0, 8, true});
   };
-  const AspectContributions near = at(Scatterer(stepped_corner())), far = at(moved(stepped_corner(), kStep));
+  const ViewResult near = at(Scatterer(stepped_corner())), far = at(moved(stepped_corner(), kStep));
   ASSERT_EQ(near.points.size(), far.points.size());
-  EXPECT_LT(relative_difference(near.matrix, turned_back(far.matrix, 2 * geometry.transmit.r)), kRounding);
+  EXPECT_LT(relative_difference(near.matrices[0], turned_back(far.matrices[0], 2 * geometry.transmit.r)), kRounding);
   // The turn changes the look direction of either path.
   EXPECT_LT(relative_difference(direct_sum(near.points, k10, turn),
                                 turned_back(direct_sum(far.points, k10, turn), 2 * (geometry.transmit.r + turn))),
@@ -105,10 +105,10 @@ TEST(Origin, DoesNotMatterInAnInterval) {
     SolverSpec solver;
     solver.wavefront_range_m = range_m;
     const auto at = [&](const Vec3& step) {
-      return body_response(moved(stepped_corner(), step), rolling(step), direction(38, 27), Polarisation::kVv, sampling,
+      return interval_response(moved(stepped_corner(), step), rolling(step), direction(38, 27), Polarisation::kVv, sampling,
                            solver);
     };
-    const BodyResponse near = at(Vec3::Zero()), far = at(kStep);
+    const IntervalResult near = at(Vec3::Zero()), far = at(kStep);
     EXPECT_EQ(near.traces, far.traces);
     double difference = 0, size = 0;
     for (std::size_t i = 0; i < near.response.values.size(); ++i) {

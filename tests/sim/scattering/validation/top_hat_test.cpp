@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "sim/scattering/points/curved_integral.h"
+#include "sim/scattering/points/phase_integral.h"
 #include "tests/measured.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 

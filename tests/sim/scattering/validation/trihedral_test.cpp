@@ -10,7 +10,7 @@
 #include <functional>
 
 #include "sim/geometry/shapes/generators.h"
-#include "sim/scattering/solver/scattering_matrix.h"
+#include "tests/sim/scattering/solve_calls.h"
 #include "tests/measured.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 

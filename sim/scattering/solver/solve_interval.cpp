@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "sim/core/numbers/constants.h"
+#include "sim/core/process/error.h"
+#include "sim/scattering/solver/aspect_trace.h"
+#include "sim/scattering/solver/solve.h"
+#include "sim/scattering/solver/trace_plan.h"
+#include "sim/scattering/sums/response_grid.h"
+
+namespace seaglint {
+namespace {
+
+// Response of the body over the propagation paths of one trace. The motion of the body's centre is not in it.
+std::vector<ResponseGrid> trace_to_grids(const IntervalRequest& request, std::span<const PlannedPath> paths,
+                                         const WavenumberGrid& wavenumbers, int threads) {
+  const Scatterer& scatterer = request.scatterer;
+  const double kc = wavenumbers.at(wavenumbers.centre_index());
+  // Patterns are evaluated at the centre of the band and at equal distances on either side, the lower end among them.
+  const double half_band = kc - wavenumbers.first;
+  const std::array band{kc - half_band, kc, kc + half_band};
+  const TracingSettings settings = tracing_settings(request.solver);
+  const RadarRange radar{request.solver.wavefront_range_m};
+  const int channel = static_cast<int>(request.polarisation);
+  std::vector<BistaticGeometry> pairs;
+  for (const PlannedPath& path : paths) pairs.push_back(path.geometry);
+  // The two paths that meet the sea once are reciprocal: the cross-polarised response of each is the mean over both.
+  const bool is_cross_polarised =
+      request.polarisation == Polarisation::kHv || request.polarisation == Polarisation::kVh;
+  const AspectTrace trace(scatterer, pairs, settings, band,
+                          is_cross_polarised ? Reciprocity::kAllPairs : Reciprocity::kOneAntenna, threads);
+  const IntervalLimits limits = interval_limits(scatterer, min_amplitude(scatterer, settings, kc));
+  std::vector<Observation> observations;
+  std::vector<IntervalSum> sums;
+  for (std::size_t path = 0; path < paths.size(); ++path) {
+    const LookDirectionPath& look = paths[path].look_path;
+    observations.push_back({pairs[path], radar, direction_spread(scatterer, radar)});
+    sums.emplace_back(look, PointBand{FrequencyBand(kc), 1, look.max_change, half_band}, limits, channel,
+                      trace.chunk_count(path));
+  }
+  trace.run(
+      [&](const PairContributions& from) {
+        sums[from.pair].add(from.chunk, from.contributions, from.observed(observations[from.source]));
+      },
+      {}, request.stop);
+  std::vector<ResponseGrid> grids;
+  for (const IntervalSum& sum : sums) grids.push_back(sum.grid(wavenumbers, threads));
+  return grids;
+}
+
+// Sea reflection coefficients per pulse and frequency of a moving radar, whose elevation changes; per frequency of a
+// fixed one.
+class SeaReflectionOverPulses {
+ public:
+  SeaReflectionOverPulses(const SeaReflection& sea, const TracePlan& plan, const IntervalSampling& sampling,
+                          const WavenumberGrid& wavenumbers)
+      : sampling_(sampling), moves_(!sampling.line_of_sight_rate.isZero(0)) {
+    const int rows = moves_ ? static_cast<int>(sampling.pulse_first.size()) : 1;
+    for (int n = 0; n < rows; ++n) {
+      for (int b = 0; b < (moves_ ? sampling.frequencies_per_pulse : wavenumbers.count); ++b) {
+        const double k = wavenumbers.at(moves_ ? sampling.pulse_first[n] + b : b);
+        coefficients_.push_back(sea.at(k, plan.sight(n).radar.r.z()));
+      }
+    }
+  }
+
+  const SeaReflectionCoefficients& at(int pulse, int b) const {
+    return coefficients_[static_cast<std::size_t>(moves_ ? pulse * sampling_.frequencies_per_pulse + b
+                                                         : sampling_.pulse_first[pulse] + b)];
+  }
+
+ private:
+  const IntervalSampling& sampling_;
+  bool moves_;
+  std::vector<SeaReflectionCoefficients> coefficients_;
+};
+
+}  // namespace
+
+double default_aspect_change(const Scatterer& scatterer, double wavelength) {
+  return std::min(radians(0.15), 3 * wavelength / scatterer.radius());
+}
+
+IntervalResult solve(const IntervalRequest& request) {
+  const IntervalSampling& sampling = request.sampling;
+  const int pulses = static_cast<int>(sampling.pulse_time_s.size());
+  SEAGLINT_CHECK(pulses > 0 && sampling.pulse_first.size() == sampling.pulse_time_s.size(),
+                 fmt::format("{} pulse times, {} bands", pulses, sampling.pulse_first.size()));
+  constexpr double kToWavenumber = 2 * kPi / kSpeedOfLight;
+  const WavenumberGrid wavenumbers{kToWavenumber * sampling.first_hz, kToWavenumber * sampling.step_hz, sampling.count};
+  const double k_last = wavenumbers.at(wavenumbers.count - 1), kc = wavenumbers.at(wavenumbers.centre_index());
+  const double served = request.solver.max_aspect_change_deg > 0
+                            ? radians(request.solver.max_aspect_change_deg)
+                            : default_aspect_change(request.scatterer, 2 * kPi / kc);
+  const IntervalLimits limits = interval_limits(request.scatterer, 0);
+  const std::vector<PropagationPath> paths = propagation_paths(request.sea);
+  const TracePlan plan({request.trajectory, sampling, request.r_hat, request.solver.wavefront_range_m,
+                        request.scatterer.centre()},
+                       paths, {served, kMaxCrossTrackPhase / (k_last * limits.cross_track_m)});
+
+  // Traces in parallel before facets in parallel, which needs fewer synchronisations.
+  const int threads = std::max(1, request.threads);
+  const auto traces = plan.traces();
+  const int side_by_side = std::min(threads, static_cast<int>(traces.size()));
+  std::vector<std::vector<ResponseGrid>> returns(traces.size());  // [trace][propagation path]
+  parallel_for(
+      traces.size(), side_by_side,
+      [&](std::size_t i) {
+        returns[i] = trace_to_grids(request, traces[i].paths, wavenumbers, std::max(1, threads / side_by_side));
+      },
+      request.stop);
+
+  IntervalResult result;
+  result.response.pulses = pulses;
+  result.response.frequencies_per_pulse = sampling.frequencies_per_pulse;
+  result.response.values.assign(static_cast<std::size_t>(pulses) * sampling.frequencies_per_pulse, 0.0);
+  std::optional<SeaReflectionOverPulses> reflection;
+  if (request.sea != nullptr) reflection.emplace(*request.sea, plan, sampling, wavenumbers);
+  std::vector<Complex> values(static_cast<std::size_t>(sampling.frequencies_per_pulse));
+  for (std::size_t i = 0; i < traces.size(); ++i) {
+    for (std::size_t w = 0; w < traces[i].paths.size(); ++w) {
+      const auto& [path, geometry, moves] = traces[i].paths[w];
+      ++result.traces;
+      for (int n = traces[i].first; n <= traces[i].last; ++n) {
+        const auto at = static_cast<std::size_t>(n - traces[i].first);
+        returns[i][w].response(sampling.pulse_first[n], moves.s[at], moves.q[at], values);
+        // Motion of the body's centre: e^{jk (a + b).p} with the look directions a and b of the two paths, or by the
+        // distances to a radar at a finite range; exact for every pulse and frequency.
+        const double origin_path = plan.path_advance(path, n);
+        for (int b = 0; b < sampling.frequencies_per_pulse; ++b) {
+          const int q = sampling.pulse_first[n] + b;
+          const Complex by_sea =
+              path.is_multipath()
+                  ? SeaReflection::path_factor(path, reflection->at(n, b), static_cast<int>(request.polarisation))
+                  : 1.0;
+          result.response.at(n, b) +=
+              plan.interpolation_weight(i, n) * by_sea * std::polar(1.0, wavenumbers.at(q) * origin_path) * values[b];
+        }
+      }
+    }
+  }
+  return result;
+}
+
+}  // namespace seaglint
