@@ -14,7 +14,6 @@
 #include "sim/core/numbers/reproducible_functions.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
-#include "sim/core/process/input_errors.h"
 #include "sim/core/process/utf8.h"
 #include "sim/core/text/named_file.h"
 #include "sim/scenario/contradictions.h"

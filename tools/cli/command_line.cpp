@@ -14,7 +14,6 @@
 
 #include "seaglint_version.h"
 #include "sim/core/process/error.h"
-#include "sim/core/process/input_errors.h"
 #include "sim/core/process/printable.h"
 #include "sim/core/process/standard_error.h"
 #include "sim/core/process/standard_output.h"

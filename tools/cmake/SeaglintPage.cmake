@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Files of HTML pages, compiled into the library of the tools (tools/page/page_files.h).
+# Files of HTML pages, compiled into the library of the tools (tools/page/html.h).
 find_file(SEAGLINT_PLOTLY plotly.js PATHS /usr/share/python3-plotly NO_DEFAULT_PATH REQUIRED)
 set(style ${CMAKE_SOURCE_DIR}/tools/page/style.css)
 set(script ${CMAKE_SOURCE_DIR}/tools/page/page.js)

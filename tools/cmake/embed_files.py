@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""embed_files.py OUT.cpp FUNCTION=FILE...: a source of C++ with the files of HTML pages as functions of tools/page/page_files.h.
+"""embed_files.py OUT.cpp FUNCTION=FILE...: a source of C++ with the files of HTML pages as functions of tools/page/html.h.
 
 A FILE is text as it stands; FUNCTION=gzip:FILE gives it compressed by gzip, in Base64. The bytes depend on the files alone.
 """
@@ -21,7 +21,7 @@ def literal(name, file):
 
 def main(out, *arguments):
     parts = [literal(*argument.split("=", 1)) for argument in arguments]
-    pathlib.Path(out).write_text("// Made by tools/cmake/embed_files.py.\n#include \"tools/page/page_files.h\"\n"
+    pathlib.Path(out).write_text("// Made by tools/cmake/embed_files.py.\n#include \"tools/page/html.h\"\n"
                                  "#pragma GCC diagnostic ignored \"-Woverlength-strings\"\nnamespace seaglint {\n" + "\n".join(parts) + "}  // namespace seaglint\n", encoding="utf-8")
 
 

@@ -6,9 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <set>
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -16,16 +19,43 @@
 #include "sim/core/numbers/dbsm.h"
 #include "sim/core/numbers/quantile.h"
 #include "sim/core/process/error.h"
+#include "sim/core/process/parallel.h"
 #include "tools/compare/cut_angles.h"
-#include "tools/compare/main_contribution.h"
 #include "tools/compare/suggestions.h"
 #include "tools/compare/table_sweeps.h"
 #include "tools/compare/view_groups.h"
+#include "tools/cross_check/contribution_groups.h"
+#include "tools/rcs/paired_cut.h"
+#include "tools/rcs/rcs_request.h"
+#include "tools/rcs/rcs_target.h"
 #include "tools/rcs/rcs_views.h"
 #include "tools/rcs/sweep_files.h"
 
 namespace seaglint {
 namespace {
+
+// The part, number of bounces and mechanism whose contributions have the largest sum in this quantity, with its level:
+// "part hull, 2 bounces, po, 12.3 dBsm". Monostatic; empty where nothing contributes, and with cavities.
+std::string main_contribution(const RcsRequest& request, const RcsTarget& target, const PairedCut::Place& place,
+                              std::size_t quantity, const StopFlag& stop) {
+  if (!request.cavities.parts.empty()) return "";
+  RcsRequest monostatic = request;
+  monostatic.transmitter.reset();
+  const RcsView view{place.azimuth_deg, place.elevation_deg, place.frequency_hz};
+  const GroupSums sums = group_sums(view_contributions(monostatic, target, view, 1, &stop).views[0].points,
+                                    2 * kPi * place.frequency_hz / kSpeedOfLight);
+  const Polarisation element = element_of_quantity(quantity);
+  const auto size = [&](const auto& group) {
+    const auto power = [&](Polarisation e) { return std::norm(group.second[static_cast<std::size_t>(e)]); };
+    return is_total(quantity)
+               ? power(element_of(false, transmits_v(element))) + power(element_of(true, transmits_v(element)))
+               : power(element);
+  };
+  const auto most = std::ranges::max_element(sums, {}, size);
+  if (most == sums.end() || size(*most) == 0) return "";
+  return fmt::format("{}, {:.1f} dBsm", text_of(most->first, target.prepared.mesh.part_names),
+                     dbsm_of_area(4 * kPi * size(*most)));
+}
 
 // Cuts of one transmitter are solved together.
 using TransmitterKey = std::tuple<bool, double, double>;

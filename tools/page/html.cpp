@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "sim/core/process/file.h"
-#include "tools/page/page_files.h"
 
 namespace seaglint {
 

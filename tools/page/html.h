@@ -28,4 +28,11 @@ std::string script_json(std::string text);
 // no network.
 std::string html_page(std::string_view title, std::string_view body, std::string_view script = {});
 
+// Files that pages contain, embedded when the program is built (tools/cmake/embed_files.py).
+std::string_view page_style();        // style.css
+std::string_view page_script();       // page.js: unpacks plotly, draws the plots of a page
+std::string_view report_script();     // report.js: maps and features of a report
+std::string_view hot_spots_script();  // hot_spots.js: targets of a report
+std::string_view plotly_gzip();       // plotly.js (MIT licence) of Debian's python3-plotly, minified, gzip in Base64
+
 }  // namespace seaglint

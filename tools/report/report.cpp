@@ -17,7 +17,6 @@
 #include "sim/core/text/json_problem.h"
 #include "sim/scenario/writer.h"
 #include "tools/page/html.h"
-#include "tools/page/page_files.h"
 #include "tools/pipeline/metrics.h"
 #include "tools/pipeline/scene.h"
 #include "tools/pipeline/train.h"

@@ -9,8 +9,8 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
-#include "sim/geometry/mesh/waterline.h"
 #include "sim/geometry/placement/mesh_placement.h"
+#include "sim/geometry/placement/waterline.h"
 #include "sim/motion/target_motion.h"
 #include "sim/scenario/writer.h"
 

@@ -6,18 +6,48 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <new>
+#include <string>
+#include <string_view>
 #include <utility>
 
-#include "classify/dataset/format/claimed_extent.h"
-#include "classify/dataset/format/hdf5_text.h"
+#include "classify/dataset/format/array_type.h"
 #include "sim/core/process/error.h"
 
 namespace seaglint {
 
 namespace {
+
+// The system error in the description of an HDF5 error, ": No space left on device"; "" if it has none.
+std::string system_reason(std::string_view description) {
+  constexpr std::string_view kBefore = "error message = '";
+  const std::size_t begin = description.find(kBefore);
+  if (begin == std::string_view::npos) return "";
+  const std::size_t from = begin + kBefore.size();
+  return fmt::format(": {}", description.substr(from, description.find('\'', from) - from));
+}
+
+bool says_no_memory(std::string_view description) {
+  for (const std::string_view known : {"memory allocation failed", "unable to allocate memory"}) {
+    if (description.find(known) != std::string_view::npos) return true;
+  }
+  return false;
+}
+
+// Replaces every `from` by `to` in a name: HDF5 interprets %b in a name as a block number, %% as a percent sign.
+std::string with_percents(const std::string& name, std::string_view from, std::string_view to) {
+  std::string result;
+  std::size_t begin = 0;
+  for (std::size_t i = name.find(from); i != std::string::npos; i = name.find(from, begin)) {
+    result.append(name, begin, i - begin).append(to);
+    begin = i + from.size();
+  }
+  return result.append(name, begin);
+}
 
 // Throws WorkError with the system error in HDF5's error stack, "WHAT: No space left on device", or without one if no
 // system call failed; std::bad_alloc when HDF5 had no memory.
@@ -31,6 +61,28 @@ namespace {
   };
   if (H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, look, &reason) > 0) throw std::bad_alloc();
   throw WorkError(what + reason);
+}
+
+// The number of elements that an array claims, checked before anything is allocated for them; it must have `rank`
+// dimensions. Throws WorkError naming the array, as the two checks below.
+std::size_t claimed_count(const std::string& path, const Dimensions& extent, ArrayType element, std::size_t rank) {
+  if (extent.size() != rank) throw WorkError(fmt::format("{} has not {} dimensions", path, rank));
+  constexpr double kMaxBytes = 1e15;  // reached only by a virtual array, whose extent nothing else limits
+  if (chunked_bytes(extent, extent, element_bytes(element), 0) > kMaxBytes)
+    throw WorkError(fmt::format("{} claims more bytes than it has", path));
+  return element_count(extent);
+}
+
+// Rows `first` to `first + count - 1` must exist in an array of one dimension.
+void require_rows(const std::string& path, const Dimensions& extent, std::uint64_t first, std::uint64_t count) {
+  if (extent.size() != 1 || first > extent[0] || count > extent[0] - first)
+    throw WorkError(fmt::format("{} has no rows {} to {}", path, first, first + count));
+}
+
+// Chunks must have the bytes that their array needs, in a file that has as many.
+void require_chunk_bytes(const std::string& path, double claimed, double needed, double file_bytes) {
+  if (claimed < needed) throw WorkError(fmt::format("{} is incomplete", path));
+  if (claimed > needed || needed > file_bytes) throw WorkError(fmt::format("{} claims more bytes than it has", path));
 }
 
 // HDF5 identifier, closed by its destructor. `what` is the message if the call that created it failed.

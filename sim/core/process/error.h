@@ -5,6 +5,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace seaglint {
 
@@ -13,6 +14,22 @@ class InputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
+
+// Several mistakes in one input, reported together. what(): all messages, each on a line of its own.
+class SeveralInputErrors : public InputError {
+ public:
+  explicit SeveralInputErrors(std::vector<std::string> messages);  // at least one
+  const std::vector<std::string>& messages() const { return messages_; }
+
+ private:
+  std::vector<std::string> messages_;
+};
+
+// The messages of an error: those of SeveralInputErrors, else the one that it is.
+std::vector<std::string> messages_of(const InputError& error);
+
+// Throws an InputError with these messages, with SeveralInputErrors for more than one; at least one.
+[[noreturn]] void throw_input_errors(std::vector<std::string> messages);
 
 // The work failed on valid input (disk full, no permission); exit code 1.
 class WorkError : public std::runtime_error {

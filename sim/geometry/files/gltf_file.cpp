@@ -5,6 +5,7 @@
 #include <tiny_gltf.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstring>
 #include <optional>
 #include <span>
@@ -16,9 +17,9 @@
 #include "sim/geometry/files/gltf_check.h"
 #include "sim/geometry/files/gltf_elements.h"
 #include "sim/geometry/files/gltf_folder.h"
-#include "sim/geometry/files/gltf_normals.h"
 #include "sim/geometry/files/gltf_pieces.h"
 #include "sim/geometry/mesh/mesh_builder.h"
+#include "sim/geometry/mesh/triangle_mesh.h"
 
 namespace seaglint {
 namespace {
@@ -38,6 +39,23 @@ std::string one_line(std::string text) {
   while (!text.empty() && text.back() == '\n') text.pop_back();
   std::replace(text.begin(), text.end(), '\n', ' ');
   return text;
+}
+
+// Triangles of primitives without normals, and with normals of 8 bits.
+struct GltfFlatTriangles {
+  std::vector<std::size_t> without_normals, byte_normals;
+};
+
+// Gives triangles of primitives without normals flat ones (glTF 2.0, section 3.7.2.1) where others of the mesh have
+// theirs, and those whose normals of 8 bits do not differ from their own by more than rounding.
+void flatten_normals(TriangleMesh& mesh, const GltfFlatTriangles& triangles) {
+  if (mesh.corner_normals.empty()) return;
+  const auto flatten = [&](std::size_t t) { mesh.corner_normals[t].fill(unit_normal(area_vector(mesh, t))); };
+  for (const std::size_t t : triangles.without_normals) flatten(t);
+  constexpr double kRounding = 0.87 / 127;  // rad: half a step of three components
+  for (const std::size_t t : triangles.byte_normals) {
+    if (normal_deviation(mesh, t) <= kRounding) flatten(t);
+  }
 }
 
 struct Loaded {

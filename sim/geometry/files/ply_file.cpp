@@ -7,10 +7,15 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <map>
+#include <numeric>
 #include <span>
+#include <tuple>
 #include <unordered_set>
 #include <utility>
+#include <vector>
 
 #include "sim/core/process/error.h"
 #include "sim/core/text/number.h"
@@ -19,11 +24,46 @@
 #include "sim/geometry/files/ply_number.h"
 #include "sim/geometry/files/polygons/coordinate.h"
 #include "sim/geometry/files/polygons/triangulate_polygon.h"
-#include "sim/geometry/files/split_vertices.h"
 #include "sim/geometry/mesh/mesh_builder.h"
+#include "sim/geometry/mesh/triangle_mesh.h"
 
 namespace seaglint {
 namespace {
+
+// One vertex for each position and normal that occur together, as PLY has one normal per vertex. Welding restores the
+// mesh.
+struct SplitVertices {
+  std::vector<std::uint32_t> vertex;  // of the mesh
+  std::vector<Vec3> normal;           // empty for a mesh without normals
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+// In order of first use; the mesh as it is where it has no normals.
+SplitVertices split_by_normal(const TriangleMesh& mesh) {
+  SplitVertices split;
+  if (mesh.corner_normals.empty()) {
+    split.vertex.resize(mesh.vertices.size());
+    std::iota(split.vertex.begin(), split.vertex.end(), 0U);
+    split.triangles = mesh.triangles;
+    return split;
+  }
+  std::map<std::tuple<std::uint32_t, double, double, double>, std::uint32_t> number;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    std::array<std::uint32_t, 3>& triangle = split.triangles.emplace_back();
+    for (int i = 0; i < 3; ++i) {
+      const std::uint32_t v = mesh.triangles[t][i];
+      const Vec3& n = mesh.corner_normals[t][i];
+      const auto [place, is_new] =
+          number.try_emplace({v, n.x(), n.y(), n.z()}, static_cast<std::uint32_t>(split.vertex.size()));
+      if (is_new) {
+        split.vertex.push_back(v);
+        split.normal.push_back(n);
+      }
+      triangle[i] = place->second;
+    }
+  }
+  return split;
+}
 
 struct Property {
   std::string name;

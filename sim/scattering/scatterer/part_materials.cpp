@@ -7,7 +7,7 @@
 
 #include "sim/core/process/error.h"
 #include "sim/core/text/suggestion.h"
-#include "sim/geometry/mesh/waterline.h"
+#include "sim/geometry/placement/waterline.h"
 
 namespace seaglint {
 

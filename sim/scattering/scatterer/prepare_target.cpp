@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "sim/core/process/error.h"
-#include "sim/core/process/input_errors.h"
 #include "sim/geometry/mesh/mesh_diagnostics.h"
 #include "sim/geometry/placement/mesh_placement.h"
 #include "sim/scattering/scatterer/part_materials.h"

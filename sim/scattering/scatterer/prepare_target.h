@@ -11,7 +11,7 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/geometry/mesh/triangle_mesh.h"
-#include "sim/geometry/placement/above_water.h"
+#include "sim/geometry/placement/waterline.h"
 #include "sim/scattering/scatterer/scatterer.h"
 #include "sim/scenario/material_spec.h"
 #include "sim/scenario/target_spec.h"

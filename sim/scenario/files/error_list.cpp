@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "sim/core/process/input_errors.h"
+#include "sim/core/process/error.h"
 
 namespace seaglint {
 

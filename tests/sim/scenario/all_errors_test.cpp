@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/core/process/input_errors.h"
+#include "sim/core/process/error.h"
 #include "sim/scenario/files/error_list.h"
 #include "sim/scenario/material_file.h"
 #include "tests/sim/scenario/parsing.h"

@@ -9,7 +9,7 @@
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/mesh/crease_normals.h"
 #include "sim/geometry/mesh/mesh_diagnostics.h"
-#include "sim/geometry/mesh/waterline.h"
+#include "sim/geometry/placement/waterline.h"
 #include "sim/geometry/shapes/generators.h"
 #include "tests/sim/geometry/mesh_file.h"
 
