@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -20,10 +21,9 @@ namespace seaglint {
 
 namespace {
 
-constexpr std::uint32_t kFormat = 0x53474e32;           // "SGN2", two classes
-constexpr std::uint32_t kFormatOfClasses = 0x53474e33;  // "SGN3", more
-constexpr std::uint32_t kFormatOfMaps = 0x53474e31;     // "SGN1", whose input was the map itself
+constexpr std::uint32_t kFormat = 0x53474e34;  // "SGN4"
 constexpr std::uint32_t kMostClasses = 10;
+using Head = std::array<std::uint32_t, 5>;  // of the file
 
 // He's initialisation (He et al. 2015): normal of variance 2 / fan-in; biases zero, normalisation one.
 void initialise(Layers& layers, const RandomKey& key) {
@@ -224,47 +224,39 @@ std::size_t Network::classes() const { return state_->classes; }
 
 const TrainingHistory& Network::history() const { return state_->history; }
 
-// The file: kFormat, embedding size (uint32), floor in dB (float32), number of weights (uint32), the weights (float32)
-// in the order of the layers; of more than two classes kFormatOfClasses, and their number (uint32) before the weights.
-// The library's own archive would contain time stamps.
+// The file: kFormat, embedding size (uint32), floor in dB (float32), number of weights (uint32), number of classes
+// (uint32), the weights (float32) in the order of the layers. The library's own archive would contain time stamps.
 void Network::save(const std::filesystem::path& file) const {
   const std::vector<float> weights = weights_of(*state_->layers);
-  std::vector<std::uint32_t> head{
-      state_->classes == 2 ? kFormat : kFormatOfClasses, static_cast<std::uint32_t>(state_->embedding_size),
-      std::bit_cast<std::uint32_t>(state_->floor_db), static_cast<std::uint32_t>(weights.size())};
-  if (state_->classes > 2) head.push_back(static_cast<std::uint32_t>(state_->classes));
-  const std::size_t head_bytes = head.size() * sizeof(std::uint32_t);
-  std::string bytes(head_bytes + weights.size() * sizeof(float), '\0');
-  std::memcpy(bytes.data(), head.data(), head_bytes);
-  std::memcpy(bytes.data() + head_bytes, weights.data(), weights.size() * sizeof(float));
+  const Head head{kFormat, static_cast<std::uint32_t>(state_->embedding_size),
+                  std::bit_cast<std::uint32_t>(state_->floor_db), static_cast<std::uint32_t>(weights.size()),
+                  static_cast<std::uint32_t>(state_->classes)};
+  std::string bytes(sizeof head + weights.size() * sizeof(float), '\0');
+  std::memcpy(bytes.data(), head.data(), sizeof head);
+  std::memcpy(bytes.data() + sizeof head, weights.data(), weights.size() * sizeof(float));
   write_file(file, bytes);
 }
 
 Network Network::load(const std::filesystem::path& file) {
   const std::string bytes = read_file(file, std::size_t{64} << 20);
-  std::uint32_t head[5] = {};
+  Head head{};
   const auto fail = [&](const char* why) {
     throw InputError(fmt::format("{}: not a seaglint network: {}", file.string(), why));
   };
-  std::size_t head_bytes = 4 * sizeof(std::uint32_t);
   if (bytes.size() < sizeof head) fail("too short");
-  std::memcpy(head, bytes.data(), sizeof head);
-  if (head[0] == kFormatOfMaps) fail("it is of an earlier version; train it again");
-  if (head[0] != kFormat && head[0] != kFormatOfClasses) fail("it begins otherwise");
-  std::size_t classes = 2;
-  if (head[0] == kFormatOfClasses) {
-    head_bytes = sizeof head;
-    if (head[4] < 3 || head[4] > kMostClasses) fail("its head is damaged");
-    classes = head[4];
-  }
-  const auto floor_db = std::bit_cast<float>(head[2]);
-  if (head[1] < 1 || head[1] > 512 || !(floor_db >= -120 && floor_db < 0)) fail("its head is damaged");
-  auto state = std::make_shared<State>(static_cast<int>(head[1]), floor_db, classes);
+  std::memcpy(head.data(), bytes.data(), sizeof head);
+  const auto [format, embedding_size, floor, weight_count, classes] = head;
+  if (format != kFormat) fail("it begins otherwise, or is of another version");
+  const auto floor_db = std::bit_cast<float>(floor);
+  if (embedding_size < 1 || embedding_size > 512 || !(floor_db >= -120 && floor_db < 0) || classes < 2 ||
+      classes > kMostClasses)
+    fail("its head is damaged");
+  auto state = std::make_shared<State>(static_cast<int>(embedding_size), floor_db, classes);
   Network network(state);
-  if (head[3] != network.parameter_count() || bytes.size() != head_bytes + head[3] * sizeof(float))
+  if (weight_count != network.parameter_count() || bytes.size() != sizeof head + weight_count * sizeof(float))
     fail("it is truncated or has a tail");
-  std::vector<float> weights(head[3]);
-  std::memcpy(weights.data(), bytes.data() + head_bytes, weights.size() * sizeof(float));
+  std::vector<float> weights(weight_count);
+  std::memcpy(weights.data(), bytes.data() + sizeof head, weights.size() * sizeof(float));
   if (!std::ranges::all_of(weights, [](float weight) { return std::isfinite(weight); })) fail("a weight is not finite");
   set_weights(*state->layers, weights);
   return network;

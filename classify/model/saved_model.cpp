@@ -34,8 +34,7 @@ std::vector<std::string> checked_files() {
 SavedModel SavedModel::load(const fs::path& directory, const std::string& program_version) {
   const fs::path file = directory / kModelFile;
   if (fs::is_directory(directory) && !fs::exists(file)) {
-    throw InputError(fmt::format("{}: no {}: not the model of `seaglint train`, or of an earlier version",
-                                 directory.string(), kModelFile));
+    throw InputError(fmt::format("{}: no {}: not the model of `seaglint train`", directory.string(), kModelFile));
   }
   ModelCard card = read_model_card(file, program_version);
   for (const std::string& name : checked_files()) {

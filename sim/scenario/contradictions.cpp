@@ -113,7 +113,8 @@ void check_clutter(const Scenario& scenario, const std::vector<SeaState>& states
   }
 }
 
-// Keys that state one quantity: at most one of them.
+// Keys that state one quantity: at most one of them. find_scatter_diagram() refuses what stands beside a diagram, whose
+// drawn values do.
 void check_alternatives(const ScenarioDocument& document) {
   for (const Alternatives& group : kAlternatives) {
     const YamlNode* section = &document.root;
@@ -123,7 +124,7 @@ void check_alternatives(const ScenarioDocument& document) {
     if (section == nullptr) continue;
     std::string_view first;
     for (const std::string_view key : group.keys) {
-      if (key.empty() || section->find(key) == nullptr) continue;
+      if (key.empty() || key == kScatterDiagram || section->find(key) == nullptr) continue;
       if (first.empty()) {
         first = key;
         continue;
@@ -307,7 +308,7 @@ void check_solver(const TargetSpec& target, const ScenarioDocument& document) {
   const std::string path = fmt::format("targets.{}.solver", target.name);
   if (target.solver.method == SolverMethod::kBeams && target.solver.ray_spacing_m != 0 &&
       !document.draws(path + ".method")) {
-    document.fail_at(path + ".ray_spacing_m", "valid only with method: rays or auto; beams have min_patch_m");
+    document.fail_at(path + ".ray_spacing_m", "valid only with method: rays; beams have min_patch_m");
   }
 }
 

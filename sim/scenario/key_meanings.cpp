@@ -212,10 +212,9 @@ constexpr Meaning kMeanings[] = {
      "Time step of integration and of samples, s; at most an eighth of the shortest natural period."},
     {"targets.NAME.motion.spin_up_s", "Time simulated before t = 0, s."},
     {"targets.NAME.solver.method",
-     "How the reflectors of every path are found: beams, exact on flat panels; rays, shooting and bouncing; auto, that "
-     "of the two which costs less."},
+     "How the reflectors of every path are found: beams, exact on flat panels; rays, shooting and bouncing."},
     {"targets.NAME.solver.ray_spacing_m",
-     "Distance between rays, m, for method: rays or auto; 0: from the size of the target."},
+     "Distance between rays, m, for method: rays; 0: from the size of the target."},
     {"targets.NAME.solver.min_patch_m",
      "Side of the smallest illuminated patch that is kept, m; 0: from the size of each body."},
     {"targets.NAME.solver.max_bounces", "Largest number of bounces."},

@@ -4,25 +4,53 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <initializer_list>
 #include <optional>
 #include <set>
 #include <span>
+#include <string>
 
 #include "sim/core/process/error.h"
 #include "sim/core/text/number.h"
 #include "sim/core/text/shown.h"
 #include "sim/core/text/suggestion.h"
 #include "sim/scenario/fields.h"
+#include "sim/scenario/files/document.h"
 #include "sim/scenario/files/error_list.h"
-#include "sim/scenario/files/node_values.h"
-#include "sim/scenario/renamed_keys.h"
 
 namespace seaglint {
 
 namespace {
 
 constexpr std::size_t kMaxSweepValues = 10000;
+
+// A value as shown in error messages: "value 'x'", "a list".
+std::string value_text(const YamlNode& node) {
+  switch (node.kind) {
+    case YamlNode::Kind::kNull: return "no value";
+    case YamlNode::Kind::kList: return "a list";
+    case YamlNode::Kind::kMap: return "a map";
+    case YamlNode::Kind::kScalar: break;
+  }
+  std::string text = node.text;
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
+  return "value " + in_quotes(text);
+}
+
+// A scalar without quotes.
+bool is_plain(const YamlNode& node) { return node.kind == YamlNode::Kind::kScalar && !node.quoted; }
+
+// The whole number of a plain scalar; nothing for any other node.
+std::optional<std::int64_t> integer_of(const YamlNode& node) {
+  return is_plain(node) ? parse_integer(node.text) : std::nullopt;
+}
+
+// Letters, digits, '_' and '-' of ASCII.
+bool is_name_character(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+}
 
 // The keys a map may have.
 class KeyCollector : public FieldVisitor {
@@ -123,12 +151,10 @@ class Reader : public FieldVisitor {
   void choice(const char* key, std::size_t& index, Names names) override {
     const bool is_read = read_value(key, [&](const YamlNode& node) {
       const auto found = std::find(names.begin(), names.end(), std::string_view(node.text));
-      if (node.kind != YamlNode::Kind::kScalar || found == names.end()) {
-        refuse_renamed(node, path_of(key));
+      if (node.kind != YamlNode::Kind::kScalar || found == names.end())
         fail(node, path_of(key),
              fmt::format("must be {}{}", names.size() > 2 ? "one of " : "",
                          fmt::join(names, names.size() > 2 ? ", " : " or ")));
-      }
       index = static_cast<std::size_t>(found - names.begin());
     });
     if (!is_read) needs_are_known_ = false;
@@ -169,7 +195,6 @@ class Reader : public FieldVisitor {
         values.clear();
         return;
       }
-      refuse_renamed(node, path_of(key));
       Sweep read = node.kind == YamlNode::Kind::kList ? list_sweep(node, path_of(key), bound)
                                                       : scalar_sweep(node, path_of(key), bound, words);
       Sweep sorted = read;
@@ -277,7 +302,8 @@ class Reader : public FieldVisitor {
   const ScenarioDocument& document() const { return source_.document; }
   ErrorList& errors() const { return source_.errors; }
 
-  // Calls read(node) for the value of a key, and records its error. False where there is one, of earlier or of now.
+  // Calls read(node) for the value of a key, and records its error. False for a value with an error, now or recorded
+  // before.
   template <typename Read>
   bool read_value(const char* key, const Read& read) {
     const YamlNode* node = map_.find(key);
@@ -295,12 +321,6 @@ class Reader : public FieldVisitor {
   [[noreturn]] void fail(const YamlNode& node, const std::string& path, const std::string& bound) const {
     const std::string note = node.kind == YamlNode::Kind::kScalar ? lookalike_note(node.text) : "";
     document().fail(node.location, path, fmt::format("{}: {}{}", value_text(node), bound, note));
-  }
-
-  // A value of an earlier version is refused by its new name.
-  void refuse_renamed(const YamlNode& node, const std::string& path) const {
-    if (node.kind != YamlNode::Kind::kScalar) return;
-    if (const auto now = renamed_value(path, node.text)) fail(node, path, fmt::format("renamed to '{}'", *now));
   }
 
   void expect_map(const YamlNode& node, const std::string& path) const {
@@ -367,7 +387,6 @@ class Reader : public FieldVisitor {
     const std::string path = path_of(entry.key);
     KeyCollector allowed;
     fields(allowed);
-    if (const auto renamed = renamed_key(path, entry.value.text)) document().fail(entry.location, path, *renamed);
     const std::string lookalike = lookalike_in(entry.key);
     document().fail(
         entry.location, path,

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "sim/core/numbers/constants.h"
@@ -13,6 +14,7 @@
 #include "sim/core/text/named_file.h"
 #include "sim/scenario/cases.h"
 #include "sim/scenario/files/error_list.h"
+#include "sim/scenario/files/override.h"
 #include "sim/scenario/files/scenario_document.h"
 #include "sim/scenario/reader.h"
 
@@ -22,7 +24,7 @@ namespace fs = std::filesystem;
 
 std::shared_ptr<ScatterDiagram> find_scatter_diagram(const ScenarioDocument& document, ErrorList& errors) {
   const YamlNode* sea = document.root.find("sea");
-  const YamlNode* node = sea == nullptr ? nullptr : sea->find("scatter_diagram");
+  const YamlNode* node = sea == nullptr ? nullptr : sea->find(kScatterDiagram);
   if (node == nullptr || node->kind != YamlNode::Kind::kScalar) return nullptr;  // the reader refuses lists and maps
   std::shared_ptr<ScatterDiagram> diagram;
   errors.check({kScatterKey}, [&] {
@@ -30,15 +32,16 @@ std::shared_ptr<ScatterDiagram> find_scatter_diagram(const ScenarioDocument& doc
     diagram = std::make_shared<ScatterDiagram>(
         read_scatter_diagram(find_file(node->text, folder, document.place_of(kScatterKey))));
   });
-  std::vector<std::string> others = scatter_period_keys();
-  others.insert(others.end(), {"significant_wave_height_m", "steepness"});
-  for (const std::string& key : others) {
-    const bool is_alone = errors.attempt({kScatterKey}, [&] {
-      if (sea->find(key) != nullptr)
+  for (const Alternatives& group : kAlternatives) {
+    if (std::ranges::find(group.keys, kScatterDiagram) == std::end(group.keys)) continue;
+    for (const std::string_view key : group.keys) {
+      if (key.empty() || key == kScatterDiagram || sea->find(key) == nullptr) continue;
+      errors.attempt({kScatterKey}, [&] {
         document.fail_at(fmt::format("sea.{}", key),
                          "not allowed here: sea.scatter_diagram gives wave heights and periods");
-    });
-    if (!is_alone) diagram = nullptr;
+      });
+      diagram = nullptr;
+    }
   }
   return diagram;
 }

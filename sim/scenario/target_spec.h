@@ -93,10 +93,9 @@ struct PointSpec {
 // (tests/README.md, "High-order bounces").
 inline constexpr int kDefaultBounces = 40, kMaxBounces = 200;
 
-// How the reflectors of every path are found: by beams (sim/scattering/tracing), by shooting and bouncing rays
-// (sim/scattering/tracing), or by that of the two which costs less for the target.
-enum class SolverMethod : std::uint8_t { kBeams, kRays, kAuto };
-inline constexpr const char* kSolverMethodNames[] = {"beams", "rays", "auto"};
+// How the reflectors of every path are found: by beams, or by shooting and bouncing rays (sim/scattering/tracing).
+enum class SolverMethod : std::uint8_t { kBeams, kRays };
+inline constexpr const char* kSolverMethodNames[] = {"beams", "rays"};
 
 // (auto): zero means derived from the size of the mesh (sim/scattering/README.md).
 struct SolverSpec {

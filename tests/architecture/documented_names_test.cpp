@@ -140,7 +140,7 @@ TEST(DocumentedNames, FiltersCommandsAndScriptsExist) {
   EXPECT_GT(runnable().test_programs.size(), 10u);
   Faults faults;
   for (const SourceFile& file : source_files()) {
-    // The changelog contains names of earlier versions; sources contain filters of the programs that they start.
+    // The changelog contains names that were removed; sources contain filters of the programs that they start.
     if (file.path == "CHANGELOG.md" || file.path.ends_with(".cpp") || file.is_below("tests/architecture")) continue;
     for (const std::string& fault : faults_in(file)) faults.push_back(fault);
   }

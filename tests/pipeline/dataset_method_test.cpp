@@ -67,7 +67,8 @@ TEST_F(DataSetOfRays, IsNotContinuedByAnotherMethodOrSpacing) {
 
 // A scenario that states another method than the one that made the maps is found by its checksum.
 TEST_F(DataSetOfRays, WithAnotherMethodInItsScenarioIsRefused) {
-  change("method: rays", "method: auto");
+  change("method: rays", "method: beams");
+  change("ray_spacing_m: 0.02", "ray_spacing_m: 0");
   const ProgramResult verified = run_program({"verify", directory_});
   EXPECT_EQ(verified.code, 2);
   EXPECT_THAT(verified.out, HasSubstr("scenario.yaml"));

@@ -245,8 +245,7 @@ EchoFile read_echo_file(const fs::path& file) {
   }
   for (const char* name : {"time_s", "pulse_time_s", "carrier_hz", "hop_code"})
     if (!archive.has_array(name)) archive.fail(fmt::format("array {}: is missing", name));
-  if (!echo.is_measured && !archive.has_array("frequency_hz"))
-    archive.fail("array frequency_hz: is missing: of an earlier version; `seaglint echo` writes it");
+  if (!echo.is_measured && !archive.has_array("frequency_hz")) archive.fail("array frequency_hz: is missing");
 
   echo.scenario = parse_scenario(read_npz_text(file, kScenario), file.string() + "/" + kScenario);
   read_columns(archive, echo);

@@ -7,15 +7,43 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "sim/core/text/number.h"
-#include "tools/options/option_numbers.h"
-#include "tools/options/unknown_word.h"
+#include "sim/core/text/suggestion.h"
 
 namespace seaglint {
 namespace {
+
+std::string shown(const std::string& text) { return text.empty() ? "''" : text; }
+
+// For integers and for those of 0 or more; replace a valid text by the shortest decimal digits of the same value. These
+// functions return the error text of an option's value, "" if it is valid.
+template <class Whole>
+std::string rewrite_whole(std::string& text, const std::optional<Whole>& value, const char* bound) {
+  if (!value) return fmt::format("value {}: must be a whole number{}", shown(text), bound);
+  text = fmt::format("{}", *value);
+  return "";
+}
+
+std::string number_error(const std::string& text) {
+  return parse_number(text) ? "" : fmt::format("value {}: must be a number", shown(text));
+}
+
+std::string number_error(const std::string& text, double lowest, double highest) {
+  const std::optional<double> value = parse_number(text);
+  const bool inside = value && *value >= lowest && *value <= highest;
+  return inside ? "" : fmt::format("value {}: must be within {} and {}", shown(text), lowest, highest);
+}
+
+std::string rewrite_integer(std::string& text) { return rewrite_whole(text, parse_integer(text), ""); }
+std::string rewrite_natural_number(std::string& text) {
+  return rewrite_whole(text, parse_natural(text), ", 0 or more");
+}
 
 std::vector<CLI::App*> subcommands(CLI::App& command) {
   return command.get_subcommands([](const CLI::App*) { return true; });
@@ -33,6 +61,31 @@ void require_decimal_numbers(CLI::App& command) {
     }
   }
   for (CLI::App* subcommand : subcommands(command)) require_decimal_numbers(*subcommand);
+}
+
+// A command after a failed parse.
+struct CommandWords {
+  std::string command;                         // "mesh make ship"; "" = the program
+  std::vector<std::string> options, commands;  // that it has: "--output"; "ship"
+  std::vector<std::string> rest;               // words of the command line that are none of these and no value
+};
+
+// The list of all options is long: --help has it.
+std::string unknown_option(const CommandWords& words, const std::string& word) {
+  const std::string name = word.substr(0, word.find('='));
+  const std::optional<std::string> meant = near_suggestion(name, words.options);
+  return fmt::format("unknown option '{}'{}", name, meant ? ": " + *meant : "");
+}
+
+// A message that names the first word that is no option or subcommand of the command, with the closest valid word;
+// nothing if every word is valid. CLI11 itself reports missing arguments before unknown words.
+std::optional<std::string> unknown_word(const CommandWords& words) {
+  for (const std::string& word : words.rest) {
+    if (word.starts_with('-')) return unknown_option(words, word);
+    if (words.commands.empty()) continue;
+    return fmt::format("unknown command '{}': {}", word, suggestion(word, words.commands));
+  }
+  return std::nullopt;
 }
 
 // The words of a command below the program's name: "mesh make ship"; "" of the program.

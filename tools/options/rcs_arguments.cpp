@@ -10,7 +10,6 @@
 #include "sim/core/process/error.h"
 #include "sim/core/text/named_file.h"
 #include "sim/core/text/number.h"
-#include "tools/options/renamed_words.h"
 #include "tools/rcs/like_program.h"
 #include "tools/rcs/rcs_target.h"
 #include "tools/rcs/sweep_files.h"
@@ -83,7 +82,6 @@ void add_sea_options(CommandOptions& command, RcsArguments& arguments) {
       .show_default()
       .needs(sea);
   command.add_option("--sea-paths", arguments.sea_paths, "all, direct_only or multipath_only")
-      .check([](const std::string& value) { return renamed_value_error("--sea-paths", value); })
       .one_of({"all", "direct_only", "multipath_only"})
       .show_default()
       .needs(sea);
@@ -204,15 +202,12 @@ void RcsArguments::add_detail_to(CommandOptions& command) {
                   "Side of the smallest illuminated patch kept; 0 = 0.7e-4 of the radius of each body, the coarsest")
       .number_within(0.0, 1e6);
   command
-      .add_option(
-          "--method", method,
-          "How paths are found: beams, exact on flat panels; rays, shooting and bouncing; auto, that of the two "
-          "which costs less")
+      .add_option("--method", method, "How paths are found: beams, exact on flat panels; rays, shooting and bouncing")
       .one_of({std::begin(kSolverMethodNames), std::end(kSolverMethodNames)})
       .show_default();
   command
       .add_option("--ray-spacing-m", request.ray_spacing_m,
-                  "Distance between rays, with --method rays or auto; 0 = 1.5e-4 of the target's radius")
+                  "Distance between rays, with --method rays; 0 = 1.5e-4 of the target's radius")
       .number_within(0.0, 1e6);
   command
       .add_option(

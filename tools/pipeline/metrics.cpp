@@ -62,8 +62,7 @@ double probe_accuracy(const ordered_json& metrics, const std::string& name) {
 }
 
 DivisionWords division_words(const ordered_json& metrics) {
-  std::string column = "sea";
-  if (metrics.contains("learning")) column = metrics.at("learning").value("split.by", column);
+  const auto column = metrics.at("learning").at("split.by").get<std::string>();
   DivisionWords words;
   words.by_sea = column == "sea";
   words.by = "by " + column;

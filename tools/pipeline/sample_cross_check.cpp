@@ -20,14 +20,6 @@ SolverMethod other_than(SolverMethod method) {
   return method == SolverMethod::kBeams ? SolverMethod::kRays : SolverMethod::kBeams;
 }
 
-// `auto` may be either: it is replaced by beams.
-Scenario by_a_stated_method(Scenario scenario) {
-  for (TargetSpec& target : scenario.targets) {
-    if (target.solver.method == SolverMethod::kAuto) target.solver.method = SolverMethod::kBeams;
-  }
-  return scenario;
-}
-
 Scenario by_the_other_method(Scenario scenario) {
   for (TargetSpec& target : scenario.targets) target.solver.method = other_than(target.solver.method);
   return scenario;
@@ -75,7 +67,7 @@ std::vector<std::size_t> evenly_spread(std::size_t count, std::size_t size) {
 
 SampleCrossCheck cross_check_samples(const Scenario& scenario, std::span<const std::size_t> samples, int threads,
                                      const StopFlag* stop) {
-  const Pipeline pipeline(by_a_stated_method(scenario)), other(by_the_other_method(pipeline.scenario()));
+  const Pipeline pipeline(scenario), other(by_the_other_method(pipeline.scenario()));
   std::vector<std::optional<SampleDifference>> found(samples.size());
   Progress progress("cross-check", samples.size(), "samples");
   parallel_for(

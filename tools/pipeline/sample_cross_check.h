@@ -14,7 +14,7 @@
 
 namespace seaglint {
 
-// A sample by the method of its scenario (`auto`: by beams) and by the other one of beams and rays.
+// A sample by the method of its scenario and by the other one of beams and rays.
 struct SampleDifference {
   std::size_t sample = 0;
   std::string target;

@@ -91,9 +91,6 @@ ConvergedSweep converge_rcs(const RcsRequest& request, const RcsTarget& target, 
                             const StopFlag* stop, const std::function<void(const std::string&)>& say) {
   if (!target.cavities.empty())
     throw InputError("--converge halves the patches of beams; cavities have --cavity-patches-per-wavelength");
-  if (request.method == SolverMethod::kAuto)
-    throw InputError(
-        "--converge halves the patches of beams or the distance between rays: needs --method beams or rays");
   ConvergedSweep converged;
   RcsRequest step = plain(request);
   const auto forecast = [&](const std::string& line) { say(line + "\n"); };

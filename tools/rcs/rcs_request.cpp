@@ -38,9 +38,8 @@ void check_sea(const RcsRequest& request) {
 // Throws InputError for settings that the request's method does not have.
 void check_method(const RcsRequest& request) {
   if (request.method == SolverMethod::kBeams && request.ray_spacing_m != 0)
-    throw InputError(
-        fmt::format("--ray-spacing-m: value {}: valid only with --method rays or auto; beams have --min-patch-m",
-                    request.ray_spacing_m));
+    throw InputError(fmt::format("--ray-spacing-m: value {}: valid only with --method rays; beams have --min-patch-m",
+                                 request.ray_spacing_m));
   if (request.method == SolverMethod::kRays && !request.cavities.parts.empty())
     throw InputError("--cavity does not support --method rays: only beams end at the walls of cavities");
 }
@@ -50,7 +49,7 @@ void check_method(const RcsRequest& request) {
 SolverMethod solver_method_of(std::string_view name) {
   const auto* const found = std::find(std::begin(kSolverMethodNames), std::end(kSolverMethodNames), name);
   if (found == std::end(kSolverMethodNames))
-    throw InputError(fmt::format("method: value '{}': must be one of {}", name, fmt::join(kSolverMethodNames, ", ")));
+    throw InputError(fmt::format("method: value '{}': must be {}", name, fmt::join(kSolverMethodNames, " or ")));
   return static_cast<SolverMethod>(found - std::begin(kSolverMethodNames));
 }
 

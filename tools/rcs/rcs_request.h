@@ -63,7 +63,7 @@ struct RcsRequest : MeshPlacement {
   int max_bounces = kDefaultBounces;
   SolverMethod method = SolverMethod::kBeams;
   double min_patch_m = 0;            // 0: default_min_patch()
-  double ray_spacing_m = 0;          // of methods rays and auto; 0: default_ray_spacing()
+  double ray_spacing_m = 0;          // of method rays; 0: default_ray_spacing()
   std::optional<double> crease_deg;  // absent: as the mesh's normals or its shape say
   double sheet_thickness_mm = 0;
   std::string like;  // program whose settings were taken (like_program.h); empty: none

@@ -58,11 +58,7 @@ std::string warning_lines(std::span<const std::string> warnings) {
 std::string method_text(const RcsRequest& request, const Scatterer& scatterer) {
   const TracingSettings settings = settings_of(request, request.edges);
   if (settings.method == SolverMethod::kBeams) return "";
-  const SolverMethod used = method_for(settings);
-  const std::string name = kSolverMethodNames[static_cast<int>(used)];
-  const std::string method = settings.method == used ? name : "auto: " + name;
-  if (used == SolverMethod::kBeams) return ", method " + method;
-  return fmt::format(", method {}, ray_spacing_m {:.6g}", method, ray_spacing(scatterer, settings));
+  return fmt::format(", method rays, ray_spacing_m {:.6g}", ray_spacing(scatterer, settings));
 }
 
 std::string rcs_heading(const RcsRequest& request, const Scatterer& scatterer, const std::string& made_by,

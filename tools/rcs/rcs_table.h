@@ -10,7 +10,7 @@
 
 namespace seaglint {
 
-// ", method rays, ray_spacing_m 0.01" or ", method auto: beams" for the head of a table; empty for the method of beams.
+// ", method rays, ray_spacing_m 0.01" for the head of a table; empty for the method of beams.
 std::string method_text(const RcsRequest& request, const Scatterer& scatterer);
 
 // The `#` lines of a table that a command made: version, target, settings and the warnings, a sentence each.

@@ -190,8 +190,7 @@ RadarBasis basis_at(double azimuth_deg, double elevation_deg) {
 }
 
 TracingSettings settings_of(const RcsRequest& request, bool edge_diffraction) {
-  const SolverMethod method = request.cavities.parts.empty() ? request.method : SolverMethod::kBeams;
-  return {request.min_patch_m, request.max_bounces, edge_diffraction, {}, method, request.ray_spacing_m};
+  return {request.min_patch_m, request.max_bounces, edge_diffraction, {}, request.method, request.ray_spacing_m};
 }
 
 TracingSettings settings_of(const RcsRequest& request, const RcsTarget& target, bool edge_diffraction) {

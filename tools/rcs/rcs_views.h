@@ -23,7 +23,7 @@ namespace seaglint {
 RadarBasis basis_at(double azimuth_deg, double elevation_deg);
 
 // Tracing settings of the request, with or without edge diffraction: for all contributions, or those that its target
-// selects. With cavities, `auto` is the method of beams.
+// selects.
 TracingSettings settings_of(const RcsRequest& request, bool edge_diffraction);
 TracingSettings settings_of(const RcsRequest& request, const RcsTarget& target, bool edge_diffraction);
 

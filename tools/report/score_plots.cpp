@@ -136,14 +136,12 @@ std::optional<LinePlot> roc_by_wave_height_plot(const nlohmann::ordered_json& me
   return plot;
 }
 
-std::optional<LinePlot> roc_plot(const nlohmann::ordered_json& metrics, const std::string& protocol) {
-  const auto& fused = metrics.at("fused").at(protocol);
-  if (fused.contains("roc") && !fused.at("roc").contains("detections"))
-    return rest_roc_plot(fused.at("roc"), split_name(metrics, protocol));
+LinePlot roc_plot(const nlohmann::ordered_json& metrics, const std::string& protocol) {
+  const auto& fused = metrics.at("fused").at(protocol).at("roc");
+  if (!fused.contains("detections")) return rest_roc_plot(fused, split_name(metrics, protocol));
   LinePlot plot = empty_roc_plot("ROC, " + split_name(metrics, protocol));
   for (const auto& [group, label] : kGroups) {
     const auto& scores = metrics.at(group).at(protocol);
-    if (!scores.contains("roc")) return std::nullopt;
     Series series;
     series.name = fmt::format("{}, AUC {:.3f}", label, value_or_nan(scores.at("auc")));
     add_curve(series, scores.at("roc"));

@@ -23,7 +23,7 @@ std::vector<std::pair<std::string, LinePlot>> drawn_accuracy_plots(const nlohman
 // height; none of more than two classes, and with one bin.
 std::optional<LinePlot> roc_by_wave_height_plot(const nlohmann::ordered_json& metrics);
 
-// Detections over false alarms, %; none for the metrics of an earlier version, which have no curves.
-std::optional<LinePlot> roc_plot(const nlohmann::ordered_json& metrics, const std::string& protocol);
+// Detections over false alarms, %.
+LinePlot roc_plot(const nlohmann::ordered_json& metrics, const std::string& protocol);
 
 }  // namespace seaglint

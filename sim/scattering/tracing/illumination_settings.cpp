@@ -28,10 +28,6 @@ TracingSettings tracing_settings(const SolverSpec& solver) {
   return {solver.min_patch_m, solver.max_bounces, solver.edges, {}, solver.method, solver.ray_spacing_m};
 }
 
-SolverMethod method_for(const TracingSettings& settings) {
-  return settings.method == SolverMethod::kRays ? SolverMethod::kRays : SolverMethod::kBeams;
-}
-
 double default_ray_spacing(const Scatterer& scatterer) { return kRaySpacing * scatterer.radius(); }
 
 double ray_spacing(const Scatterer& scatterer, const TracingSettings& settings) {

@@ -27,10 +27,6 @@ struct TracingSettings {
 // Tracing settings of a target of a scenario.
 TracingSettings tracing_settings(const SolverSpec& solver);
 
-// The method of the settings; for auto the one that costs less at the same error: beams, on the targets measured
-// (tracing/README.md, "Cost").
-SolverMethod method_for(const TracingSettings& settings);
-
 // Distance between rays by default, m: 1.5e-4 of the radius of the target's bounding sphere, 11 mm on the 144 m ship.
 double default_ray_spacing(const Scatterer& scatterer);
 double ray_spacing(const Scatterer& scatterer, const TracingSettings& settings);  // of the settings, or the default

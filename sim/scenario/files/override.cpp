@@ -41,18 +41,11 @@ void mark_as_override(YamlNode& node, int index) {
 void remove_alternatives(YamlNode& section, const std::string& section_path, const std::string& key) {
   for (const Alternatives& group : kAlternatives) {
     const auto is_of_group = [&](const std::string& name) {
-      return std::find(std::begin(group.keys), std::end(group.keys), name) != std::end(group.keys);
+      return std::ranges::find(group.keys, name) != std::end(group.keys);
     };
     if (section_path != group.section || !is_of_group(key)) continue;
     std::erase_if(section.entries, [&](const YamlEntry& entry) { return entry.key != key && is_of_group(entry.key); });
   }
-  if (section_path != "sea") return;
-  const auto is_of_diagram = [](const std::string& name) {
-    return std::ranges::find(kOfScatterDiagram, name) != std::end(kOfScatterDiagram);
-  };
-  std::erase_if(section.entries, [&](const YamlEntry& entry) {
-    return (key == kScatterDiagram && is_of_diagram(entry.key)) || (is_of_diagram(key) && entry.key == kScatterDiagram);
-  });
 }
 
 }  // namespace

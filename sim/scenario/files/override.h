@@ -13,19 +13,16 @@ struct ScenarioDocument;
 // Keys of a section that state one quantity, of which at most one is given. --set of one replaces another.
 struct Alternatives {
   const char* section;
-  std::string_view keys[4];  // empty: fewer
+  std::string_view keys[5];  // empty: fewer
 };
+inline constexpr std::string_view kScatterDiagram = "scatter_diagram";  // gives heights and periods
 inline constexpr Alternatives kAlternatives[] = {
-    {"sea", {"peak_period_s", "energy_period_s", "zero_crossing_period_s", "steepness"}},
+    {"sea", {"peak_period_s", "energy_period_s", "zero_crossing_period_s", "steepness", kScatterDiagram}},
+    {"sea", {"significant_wave_height_m", kScatterDiagram}},
     {"sea", {"propagation_deg", "coming_from_deg"}},
     {"sea.swell", {"peak_period_s", "energy_period_s", "zero_crossing_period_s"}},
     {"sea.swell", {"propagation_deg", "coming_from_deg"}},
 };
-
-// Keys of `sea` of which a scatter diagram has the values: --set of one replaces the diagram, which replaces them.
-inline constexpr const char* kScatterDiagram = "scatter_diagram";
-inline constexpr std::string_view kOfScatterDiagram[] = {"significant_wave_height_m", "peak_period_s",
-                                                         "energy_period_s", "zero_crossing_period_s", "steepness"};
 
 // `key.path=value` of --set; the value is YAML and is checked like the file.
 struct Override {

@@ -290,12 +290,6 @@ ScatterDiagram diagram_of(const TextSource& source) {
 
 }  // namespace
 
-std::vector<std::string> scatter_period_keys() {
-  std::vector<std::string> keys;
-  for (const PeriodName& name : kPeriods) keys.emplace_back(name.key);
-  return keys;
-}
-
 double ScatterDiagram::count() const {
   double sum = 0;
   for (const ScatterCell& cell : cells) sum += cell.count;

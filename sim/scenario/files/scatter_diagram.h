@@ -38,9 +38,6 @@ struct ScatterDiagram {
   SeaPair likeliest() const;
 };
 
-// Keys of `sea` that the periods of a diagram can be.
-std::vector<std::string> scatter_period_keys();
-
 // Removes the cells of numbers i with is_excluded[i].
 void exclude_cells(ScatterDiagram& diagram, const std::vector<bool>& is_excluded);
 

@@ -154,7 +154,7 @@ TEST(Network, ReloadsFromItsFileAndRejectsBrokenOnes) {
   const std::string nan("\0\0\xc0\x7f", 4);
   for (const std::string& broken :
        {std::string(), std::string("text that is long enough"), bytes.substr(0, bytes.size() - 1), bytes + "x",
-        bytes.substr(0, 8) + nan + bytes.substr(12), "1NGS" + bytes.substr(4),
+        bytes.substr(0, 8) + nan + bytes.substr(12), "3NGS" + bytes.substr(4),
         bytes.substr(0, bytes.size() - 4) + nan}) {
     write_file(file, broken);
     EXPECT_THROW(Network::load(file), InputError) << broken.size() << " bytes";

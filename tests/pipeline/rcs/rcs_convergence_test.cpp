@@ -74,12 +74,6 @@ TEST_F(Convergence, OfRaysHalvesTheDistanceBetweenThem) {
   for (const std::vector<double>& row : swept.rows) EXPECT_LE(std::abs(row[13]), 0.01);
 }
 
-TEST_F(Convergence, OfAMethodThatIsLeftOpenIsRefused) {
-  const ProgramResult result = rcs("rcs.csv", {"--converge", "0.1", "--method", "auto"});
-  EXPECT_EQ(result.code, 2);
-  EXPECT_THAT(result.err, HasSubstr("needs --method beams or rays"));
-}
-
 TEST_F(Convergence, OfACavityIsRefused) {
   const ProgramResult result = rcs("rcs.csv", {"--converge", "0.1", "--cavity", "duct"});
   EXPECT_EQ(result.code, 2);

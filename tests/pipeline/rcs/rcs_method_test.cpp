@@ -45,15 +45,6 @@ TEST_F(RcsMethod, APlateHasItsClosedFormByEachOfThem) {
   EXPECT_THAT(read_file(table()), HasSubstr(", method rays, ray_spacing_m 0.01\n"));
 }
 
-TEST_F(RcsMethod, AutoIsOneOfTheTwo) {
-  const auto rows_of = [&](const char* method) {
-    const ProgramResult result = rcs({"--frequency-ghz", "10", "--azimuth-deg", "20", "--method", method});
-    EXPECT_EQ(result.code, 0) << result.err;
-    return read_table(table()).rows;
-  };
-  EXPECT_THAT(rows_of("auto"), testing::AnyOf(rows_of("beams"), rows_of("rays")));
-}
-
 TEST_F(RcsMethod, HeadsTheScatteringCentresToo) {
   const std::string centres = folder_.path() / "centres.csv";
   ASSERT_EQ(at_normal_incidence({"--export-scattering-centres", centres}).code, 0);
@@ -65,12 +56,11 @@ TEST_F(RcsMethod, HeadsTheScatteringCentresToo) {
 }
 
 TEST_F(RcsMethod, OfAnotherNameIsRefusedWithThoseThatExist) {
-  expect_refusal({"--method", "sbr"}, "--method: sbr not in {beams,rays,auto}");
+  expect_refusal({"--method", "sbr"}, "--method: sbr not in {beams,rays}");
 }
 
 TEST_F(RcsMethod, OfBeamsHasNoDistanceBetweenRays) {
-  const std::string message =
-      "--ray-spacing-m: value 0.01: valid only with --method rays or auto; beams have --min-patch-m";
+  const std::string message = "--ray-spacing-m: value 0.01: valid only with --method rays; beams have --min-patch-m";
   expect_refusal({"--ray-spacing-m", "0.01"}, message);
   expect_refusal({"--method", "beams", "--ray-spacing-m", "0.01"}, message);
   expect_refusal({"--method", "rays", "--ray-spacing-m", "-1"}, "--ray-spacing-m: value -1: must be within");

@@ -21,7 +21,6 @@ SolverSpec solver_of(const std::string& yaml) { return parse(yaml).targets[0].so
 TEST(SolverMethodKeys, AreReadAndWrittenWithTheirDefaults) {
   EXPECT_EQ(solver_of(kShort).method, SolverMethod::kBeams);
   EXPECT_EQ(solver_of(kShort).ray_spacing_m, 0);
-  EXPECT_EQ(solver_of(with_solver("method: auto")).method, SolverMethod::kAuto);
   const Scenario scenario = parse(with_solver("method: rays, ray_spacing_m: 0.013"));
   const SolverSpec again = solver_of(effective_yaml(scenario));
   EXPECT_EQ(again.method, SolverMethod::kRays);
@@ -31,7 +30,7 @@ TEST(SolverMethodKeys, AreReadAndWrittenWithTheirDefaults) {
 
 TEST(SolverMethodKeys, AreRefusedOutsideOfTheirBounds) {
   EXPECT_THAT(complaint_about(with_solver("method: sbr")),
-              HasSubstr("6:22: targets.a.solver.method: value 'sbr': must be one of beams, rays, auto"));
+              HasSubstr("6:22: targets.a.solver.method: value 'sbr': must be beams or rays"));
   for (const char* spacing : {"9e-6", "1.01", "-0.1"})
     EXPECT_THAT(complaint_about(with_solver(std::string("method: rays, ray_spacing_m: ") + spacing)),
                 HasSubstr("targets.a.solver.ray_spacing_m: value '" + std::string(spacing) + "': must be"));
@@ -40,11 +39,10 @@ TEST(SolverMethodKeys, AreRefusedOutsideOfTheirBounds) {
 }
 
 TEST(SolverMethodKeys, OfBeamsHaveNoDistanceBetweenRays) {
-  const std::string rule = "valid only with method: rays or auto; beams have min_patch_m";
+  const std::string rule = "valid only with method: rays; beams have min_patch_m";
   EXPECT_EQ(complaint_about(with_solver("ray_spacing_m: 0.01")),
             "folder/file.yaml:6:29: targets.a.solver.ray_spacing_m: value '0.01': " + rule);
   EXPECT_EQ(complaint_about(with_solver("method: beams, ray_spacing_m: 0")), "none");
-  EXPECT_EQ(complaint_about(with_solver("method: auto, ray_spacing_m: 0.01")), "none");
   const std::string rays = with_solver("method: rays, ray_spacing_m: 0.01");
   EXPECT_THAT(complaint_about(rays, {{"targets.a.solver.method", "beams"}}), HasSubstr("value '0.01': " + rule));
   EXPECT_THAT(complaint_about(kShort, {{"targets.a.solver.ray_spacing_m", "0.01"}}),

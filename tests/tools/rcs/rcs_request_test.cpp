@@ -130,14 +130,10 @@ TEST_F(PlateRequest, IsRefusedWhenContradictory) {
 
 TEST_F(PlateRequest, IsRefusedWithWhatItsMethodDoesNotHave) {
   request_.ray_spacing_m = 0.01;
-  EXPECT_EQ(refusal(), "--ray-spacing-m: value 0.01: valid only with --method rays or auto; beams have --min-patch-m");
-  for (const SolverMethod method : {SolverMethod::kRays, SolverMethod::kAuto}) {
-    request_.method = method;
-    EXPECT_EQ(refusal(), "");
-  }
-  request_.cavities.parts = {"duct"};
-  EXPECT_THAT(refusal(), HasSubstr("no such part"));  // auto is then the method of beams
+  EXPECT_EQ(refusal(), "--ray-spacing-m: value 0.01: valid only with --method rays; beams have --min-patch-m");
   request_.method = SolverMethod::kRays;
+  EXPECT_EQ(refusal(), "");
+  request_.cavities.parts = {"duct"};
   EXPECT_EQ(refusal(), "--cavity does not support --method rays: only beams end at the walls of cavities");
   EXPECT_THROW(solver_method_of("ray"), InputError);
   EXPECT_EQ(solver_method_of("rays"), SolverMethod::kRays);
@@ -150,13 +146,8 @@ TEST_F(PlateRequest, IsTracedWithItsMethod) {
   const TracingSettings settings = settings_of(request_, target, true);
   EXPECT_EQ(settings.method, SolverMethod::kRays);
   EXPECT_EQ(settings.ray_spacing_m, 0.01);
-  request_.method = SolverMethod::kAuto;
-  EXPECT_EQ(settings_of(request_, target, true).method, SolverMethod::kAuto);
-  request_.cavities.parts = {"duct"};  // beams end at its walls
-  EXPECT_EQ(settings_of(request_, target, true).method, SolverMethod::kBeams);
 }
 
-// Tables of beams have the head that they had before there were two methods.
 TEST_F(PlateRequest, HeadsItsTableWithAMethodOtherThanBeams) {
   const RcsTarget target = prepare_rcs_target(request_);
   const RcsSweep sweep = compute_rcs(request_, target, 1).sweep;
@@ -165,9 +156,6 @@ TEST_F(PlateRequest, HeadsItsTableWithAMethodOtherThanBeams) {
   request_.method = SolverMethod::kRays;
   EXPECT_THAT(head(), HasSubstr(", min_patch_m 2.04083e-05, method rays, ray_spacing_m 4.37321e-05\n"));
   EXPECT_EQ(read_again(sweep, *target.prepared.scatterer).values.size(), 1u);
-  request_.method = SolverMethod::kAuto;
-  request_.ray_spacing_m = 0.002;
-  EXPECT_THAT(head(), HasSubstr(", method auto: beams\n"));
 }
 
 TEST_F(PlateRequest, WarnsOfReceiversBehindTheTarget) {

@@ -74,7 +74,7 @@ TEST(ProbesTable, CallsAccuraciesBelowGuessingChance) {
 
 // A probe of each kind that separates the classes.
 ordered_json telling_probes() {
-  ordered_json metrics{{"split_repeats", 1}, {"probes", ordered_json::array()}};
+  ordered_json metrics{{"split_repeats", 1}, {"learning", {{"split.by", "sea"}}}, {"probes", ordered_json::array()}};
   const ordered_json right = scores(150, 145, 145);
   for (const auto& [name, kind] :
        {std::pair{"total power", "scale"}, {"signal to clutter and noise", "ratio"}, {"sigma_v alone", "feature"}})
@@ -129,7 +129,7 @@ TEST(AccuracyTables, LabelPredictionsOfPooledSplits) {
                      {"train_rows", 28},
                      {"by_wave_height", ordered_json::array()}});
   const ordered_json both{{"random", evaluation}, {"group", evaluation}};
-  ordered_json metrics{{"split_repeats", 3}};
+  ordered_json metrics{{"split_repeats", 3}, {"learning", {{"split.by", "sea"}}}};
   for (const char* group : {"handmade", "cnn", "fused"}) {
     metrics[group] = both;
     metrics[group].update({{"fusion", "split"}, {"fewer_rows", both}, {"in_sample", both}});
@@ -184,20 +184,17 @@ TEST(ClassNames, AreThoseOfTheTargets) {
   EXPECT_EQ(class_names(scenario)[1], "label 1");
 }
 
-// An earlier version's metrics.json has no curve.
 TEST(RocPlot, ShowsEveryGroupWithItsAreaBesideChance) {
   ordered_json scores{{"auc", 0.75}, {"roc", {{"false_alarms", {0, 0.5, 1}}, {"detections", {0, 1, 1}}}}};
   ordered_json metrics;
+  metrics["learning"]["split.by"] = "sea";
   for (const char* group : {"handmade", "cnn", "fused"}) metrics[group]["group"] = scores;
-  const std::optional<LinePlot> plot = roc_plot(metrics, "group");
-  ASSERT_TRUE(plot);
-  ASSERT_EQ(plot->series.size(), 4u);
-  EXPECT_EQ(plot->series[2].name, "fused, AUC 0.750");
-  EXPECT_EQ(plot->series[2].x, (std::vector<double>{0, 50, 100}));
-  EXPECT_EQ(plot->series[2].y, (std::vector<double>{0, 100, 100}));
-  EXPECT_EQ(plot->series[3].name, "chance");
-  metrics["cnn"]["group"].erase("roc");
-  EXPECT_FALSE(roc_plot(metrics, "group"));
+  const LinePlot plot = roc_plot(metrics, "group");
+  ASSERT_EQ(plot.series.size(), 4u);
+  EXPECT_EQ(plot.series[2].name, "fused, AUC 0.750");
+  EXPECT_EQ(plot.series[2].x, (std::vector<double>{0, 50, 100}));
+  EXPECT_EQ(plot.series[2].y, (std::vector<double>{0, 100, 100}));
+  EXPECT_EQ(plot.series[3].name, "chance");
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ def _request(placement, materials, crease_deg, edges, max_bounces, min_patch_m, 
     request.min_patch_m, request.sheet_thickness_mm = number("min_patch_m", min_patch_m, 0, 1e6), number("sheet_thickness_mm", sheet_thickness_mm, 0, 1000)
     request.method, request.ray_spacing_m = _word("method", method), number("ray_spacing_m", ray_spacing_m, 0, 1e6)
     if method == "beams" and request.ray_spacing_m != 0:
-        raise InputError(f"ray_spacing_m: value {ray_spacing_m}: valid only with method 'rays' or 'auto'; beams have min_patch_m")
+        raise InputError(f"ray_spacing_m: value {ray_spacing_m}: valid only with method 'rays'; beams have min_patch_m")
     chosen = {"": materials} if isinstance(materials, str) else dict(materials or {})
     request.set_materials(sorted((str(part), str(material)) for part, material in chosen.items()))
     if like is not None:
@@ -59,7 +59,7 @@ def rcs(target: Mesh | str | os.PathLike, frequencies_hz: ArrayLike, azimuth_deg
     0 = all facets flat. edges: edge diffraction; None: on. max_bounces: None: 40. like: "hfss", "feko" or "cst": crease_deg,
     edges and max_bounces that are None are those of that program. transmitter_deg: (azimuth, elevation) of a fixed
     transmitter; the angles are then those of the receiver. only, without: contributions, "part=hull", "bounces=2", "mechanism=edge". method: how paths are found,
-    "beams", "rays" (ray_spacing_m apart; 0: from the size of the target) or "auto", that of the two which costs less.
+    "beams", or "rays" (ray_spacing_m apart; 0: from the size of the target).
     The other settings are the options of `seaglint rcs`.
     """
     request = _request((unit, forward, up, scale, offset_m), materials, crease_deg, edges, max_bounces, min_patch_m, sheet_thickness_mm, method, ray_spacing_m, like)

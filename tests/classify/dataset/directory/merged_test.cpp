@@ -155,15 +155,15 @@ TEST_F(MergedDataSet, FailsTheAuditWhenItIsOfAnotherManifestOrDamaged) {
   EXPECT_THAT(audit(directory_).faults, ElementsAre(HasSubstr("dataset.h5: is of another manifest; merge again")));
 }
 
-// A file of an earlier format has columns of other names. It is found by the audit and may be overwritten.
-TEST_F(MergedDataSet, FailsTheAuditWhenItIsOfAnEarlierFormat) {
+// It may be overwritten.
+TEST_F(MergedDataSet, FailsTheAuditWhenItIsOfAnotherFormat) {
   merge();
   const std::string good = read_file(file());
   fs::remove(file());
-  Hdf5Writer earlier(file(), Hdf5Version::k110);
-  earlier.attribute("format", "seaglint merged 1");
-  earlier.attribute("manifest_sha256", sha256_file(directory_ / kManifestFile));
-  earlier.close();
+  Hdf5Writer other(file(), Hdf5Version::k110);
+  other.attribute("format", "seaglint merged 1");
+  other.attribute("manifest_sha256", sha256_file(directory_ / kManifestFile));
+  other.close();
   EXPECT_THAT(
       audit(directory_).faults,
       ElementsAre(HasSubstr("dataset.h5: format \"seaglint merged 1\"; this program reads \"seaglint merged 2\"; "
