@@ -75,7 +75,7 @@ VelocityMoments clutter_velocity_moments(const ClutterSpec& spec, const ClutterS
 }
 
 double platform_doppler_spread_mps(const ClutterScene& scene) {
-  const Vec3 velocity = Vec3(scene.radar.platform.velocity_mps.data()) + scene.target_velocity_mps;
+  const Vec3 velocity = Vec3(scene.radar.platform.velocity_mps) + scene.target_velocity_mps;
   const Vec3 sideways = Vec3::UnitZ().cross(scene.r_hat);
   const double level = sideways.norm();
   return level > 0 ? std::abs(velocity.dot(sideways)) / level * beam_deviation_rad(scene.radar) : 0;
@@ -88,7 +88,7 @@ FloatingScatterers floating_scatterers(const ClutterScene& scene, const std::vec
   const double cos_grazing = std::hypot(scene.r_hat.x(), scene.r_hat.y());
   const Vec2 away = -Vec2(scene.r_hat.x(), scene.r_hat.y()) / cos_grazing, across(-away.y(), away.x());
   const double deviation_m = scene.radar.range_km * 1e3 * beam_deviation_rad(scene.radar);
-  const Vec2 sailed_m = scene.start_s * scene.target_velocity_mps.head<2>();  // position of the target in the waves
+  const Vec2 sailed_m = scene.start_s * scene.target_velocity_mps.xy();  // position of the target in the waves
   const Vec2 mean = mean_at_the_surface(*scene.waves);
   FloatingScatterers floating;
   for (const double range : range_m) {

@@ -63,7 +63,7 @@ std::vector<Complex> white_noise(std::size_t size, std::uint64_t seed, std::uint
 // |R_0 r^ + u t|.
 void add_own_motion(std::vector<Complex>& echo, const PulseTrain& train, const ClutterScene& scene) {
   const PlatformSpec& platform = scene.radar.platform;
-  const Vec3 velocity(platform.velocity_mps.data());
+  const Vec3 velocity(platform.velocity_mps);
   if (platform.motion_compensated || velocity.isZero(0)) return;
   const double start_m = scene.radar.range_km * 1e3;
   for (std::size_t n = 0; n < train.pulses(); ++n) {

@@ -147,9 +147,12 @@ WallCurrents::WallCurrents(std::span<const WallPatch> walls, double k, int threa
   for (std::size_t i = 0; i < walls.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);
     area_(at) = static_cast<float>(walls[i].area);
-    centre_.row(at) = (walls[i].centre - middle).cast<float>().transpose();
-    normal_.row(at) = walls[i].normal.cast<float>().transpose();
-    for (int t = 0; t < 2; ++t) tangent_[t].row(at) = walls[i].tangent[t].cast<float>().transpose();
+    const Vec3 centre = walls[i].centre - middle;
+    for (int axis = 0; axis < 3; ++axis) {
+      centre_(at, axis) = static_cast<float>(centre[axis]);
+      normal_(at, axis) = static_cast<float>(walls[i].normal[axis]);
+      for (int t = 0; t < 2; ++t) tangent_[t](at, axis) = static_cast<float>(walls[i].tangent[t][axis]);
+    }
   }
   parallel_for(
       blocks(), threads,

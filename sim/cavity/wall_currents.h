@@ -4,6 +4,7 @@
 // Surface currents on the perfectly conducting walls of a cavity for given excitations, by the magnetic-field integral
 // equation.
 
+#include <Eigen/LU>
 #include <array>
 #include <span>
 #include <vector>

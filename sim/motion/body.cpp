@@ -248,7 +248,7 @@ Body make_body(const MotionSpec& spec, const BodyShape& shape, const std::filesy
     body.model = float_particulars(spec, shape.box);
     body.rotation_centre = {0, 0, shape.is_raft ? 0 : -spec.origin_above_waterline_m};
   }
-  if (spec.rotation_centre_m) body.rotation_centre = Eigen::Map<const Vec3>(spec.rotation_centre_m->data());
+  if (spec.rotation_centre_m) body.rotation_centre = Vec3(*spec.rotation_centre_m);
   if (spec.model == MotionModel::kSeries) {
     body.model = read_attitude_series(find_file(spec.file, folder, "motion.file"),
                                       {spec.translations, spec.heading, spec.position});

@@ -104,15 +104,17 @@ SurfaceState assemble(const LinearSums& low, const LinearSums& all, const Second
   state.slope_x = slope.x();
   state.slope_y = slope.y();
   if (!motion) {
-    state.velocity.setConstant(kNotComputed);
-    state.acceleration.setConstant(kNotComputed);
+    state.velocity = Vec3::Constant(kNotComputed);
+    state.acceleration = Vec3::Constant(kNotComputed);
     return state;
   }
-  state.velocity.head<2>() = all.velocity + low.elevation * low.shear + second.velocity;
-  state.velocity.z() = all.vertical_velocity + second.elevation_t + low.velocity.dot(low.slope);
-  state.acceleration.head<2>() = -kGravity * slope - low.lift * low.slope;
-  state.acceleration.z() =
-      all.lift + second.elevation_tt + 2 * low.velocity.dot(low.shear) - kGravity * low.slope.squaredNorm();
+  const Vec2 velocity = all.velocity + low.elevation * low.shear + second.velocity;
+  state.velocity = {velocity.x(), velocity.y(),
+                    all.vertical_velocity + second.elevation_t + low.velocity.dot(low.slope)};
+  const Vec2 acceleration = -kGravity * slope - low.lift * low.slope;
+  state.acceleration = {
+      acceleration.x(), acceleration.y(),
+      all.lift + second.elevation_tt + 2 * low.velocity.dot(low.shear) - kGravity * low.slope.squaredNorm()};
   return state;
 }
 
@@ -136,8 +138,8 @@ SurfaceState WaveField::state(std::span<const double> cosine, std::span<const do
     state.acceleration = {along.acceleration * direction.x(), along.acceleration * direction.y(),
                           along.vertical_acceleration};
     if (!motion) {
-      state.velocity.setConstant(kNotComputed);
-      state.acceleration.setConstant(kNotComputed);
+      state.velocity = Vec3::Constant(kNotComputed);
+      state.acceleration = Vec3::Constant(kNotComputed);
     }
     return state;
   }

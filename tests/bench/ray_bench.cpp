@@ -117,7 +117,7 @@ class RaySolver {
           to_radar.push_back({hit, geometry_.receive.r});
         }
         tube.segment.image_transform = {
-            tube.segment.image_transform.L * (Mat3::Identity() - 2 * n * n.transpose()),
+            tube.segment.image_transform.L * (Mat3::Identity() - outer_product(2 * n, n)),
             tube.segment.image_transform.L * (2 * n.dot(facet.corner[0]) * n) + tube.segment.image_transform.t};
         tube.segment.direction += 2 * cosine * n;
         tube.segment.E_h = 2 * n.dot(tube.segment.E_h) * n - tube.segment.E_h;

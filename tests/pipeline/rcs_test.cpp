@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/rotation.h"
 #include "sim/core/process/file.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/shapes/generators.h"
@@ -341,8 +342,7 @@ TEST_F(RcsCommand, HasAWavefrontCurvatureAtShortRange) {
 
 // A leaning strip has no rotational symmetry: at the zenith its matrix rotates with the azimuth as it does just below.
 TEST_F(RcsCommand, KeepsItsBasisThroughTheZenith) {
-  const Mat3 leaning =
-      (Eigen::AngleAxisd(0.15, Vec3::UnitX()) * Eigen::AngleAxisd(kPi / 2 - 0.02, Vec3::UnitY())).toRotationMatrix();
+  const Mat3 leaning = axis_rotation(0.15, Vec3::UnitX()) * axis_rotation(kPi / 2 - 0.02, Vec3::UnitY());
   write_mesh(plate(), transformed(make_plate(0.04, 0.3), leaning, Vec3::Zero()));
   for (const char* azimuth : {"0", "60", "-110"}) {
     const ProgramResult result =

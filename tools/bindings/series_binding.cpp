@@ -102,9 +102,8 @@ std::vector<double> motion_values(const MovingBodies& scene, std::size_t count, 
       if (stop) throw Interrupted();
       const MotionSample motion = motion_at(scene.bodies[b], step_s * static_cast<double>(n));
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        const auto i = static_cast<Eigen::Index>(axis);
-        values[(axis * bodies + b) * count + n] = degrees(motion.angles[i]);
-        values[((axis + 3) * bodies + b) * count + n] = motion.translation[i];
+        values[(axis * bodies + b) * count + n] = degrees(motion.angles[axis]);
+        values[((axis + 3) * bodies + b) * count + n] = motion.translation[axis];
       }
     }
   }

@@ -14,7 +14,7 @@ function(precompile_headers target owner)
 endfunction()
 
 set(SEAGLINT_COMMON_HEADERS
-  <Eigen/Core> <Eigen/Geometry> <fmt/format.h> <algorithm> <array> <cmath> <complex> <cstdint> <filesystem> <functional> <map>
+  <fmt/format.h> <algorithm> <array> <cmath> <complex> <cstdint> <filesystem> <functional> <map>
   <memory> <optional> <set> <span> <string> <string_view> <utility> <vector>)
 
 # add_stage(FOLDER [ROOMS ...] [LIBRARIES ...])

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/compare/alignment.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -88,7 +87,7 @@ double coherence(std::span<const Phase> phases, const Vec3& x) {
 
 // Normal equations of phases -q.x with weights |value|; with_mean: up to a common constant.
 struct Normal {
-  Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();  // sum of w (q - mean)(q - mean)^T
+  Mat3 matrix = Mat3::Zero();  // sum of w (q - mean)(q - mean)^T
   Vec3 right = Vec3::Zero();
   double weight = 0, squares = 0;  // sum of w, and of w residual^2
 
@@ -110,7 +109,7 @@ struct Normal {
       if (w <= 0) continue;
       const Vec3 q = phase.q - mean;
       const double residual = std::arg(phase.value * std::polar(1.0, phase.q.dot(x)) * turn);
-      normal.matrix += w * q * q.transpose();
+      normal.matrix += outer_product(w * q, q);
       normal.right -= w * residual * q;
       normal.squares += w * residual * residual;
     }
@@ -119,13 +118,13 @@ struct Normal {
   // The step along eigenvectors whose spread of q exceeds `least` rad/m.
   Vec3 step(double least) const {
     if (weight <= 0) return Vec3::Zero();
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(matrix);
+    const PrincipalAxes eigen = principal_axes(matrix);
     Vec3 result = Vec3::Zero();
     for (int k = 0; k < 3; ++k) {
-      const double spread = std::sqrt(std::max(eigen.eigenvalues()[k], 0.0) / weight);
+      const double spread = std::sqrt(std::max(eigen.values[k], 0.0) / weight);
       if (spread <= least) continue;
-      const Vec3 v = eigen.eigenvectors().col(k);
-      result += v * (v.dot(right) / eigen.eigenvalues()[k]);
+      const Vec3 v = eigen.axes.col(k);
+      result += v * (v.dot(right) / eigen.values[k]);
     }
     return result;
   }
@@ -168,7 +167,7 @@ Vec3 first_guess(std::span<const Phase> pairs, double spread) {
 
 // Standard errors of the origin along three perpendicular unit vectors.
 struct OriginErrors {
-  Eigen::Matrix3d axes;
+  Mat3 axes;
   Vec3 error_m;
 };
 
@@ -180,7 +179,7 @@ class OriginSearch {
   // Uses pairs whose phases by the uncertainty of the origin so far are below half a turn.
   void use(const PhasePairs& pairs, double least) {
     if (!resolves(pairs.phases)) return;
-    if (information_.isZero()) x_ = first_guess(pairs.phases, pairs.spread);
+    if (information_ == Mat3::Zero()) x_ = first_guess(pairs.phases, pairs.spread);
     refine(pairs.phases, x_, false, least);
     const Normal normal = Normal::of(pairs.phases, x_, false);
     constexpr double kIndependent = 50;  // pairs are not: neighbours share points
@@ -190,7 +189,7 @@ class OriginSearch {
   }
   // Whether the phases of these by the uncertainty of the origin are below half a turn.
   bool resolves(std::span<const Phase> phases) const {
-    const Eigen::Matrix3d covariance = (information_ + Eigen::Matrix3d::Identity() / square(kPriorOrigin_m)).inverse();
+    const Mat3 covariance = (information_ + Mat3::Identity() / square(kPriorOrigin_m)).inverse();
     double squares = 0, weight = 0;
     for (const Phase& phase : phases) {
       squares += phase.weight() * phase.q.dot(covariance * phase.q);
@@ -199,27 +198,27 @@ class OriginSearch {
     return weight > 0 && squares / weight < square(kPi);
   }
   OriginErrors errors() const {
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(information_);
-    OriginErrors result{eigen.eigenvectors(), Vec3::Zero()};
-    for (int k = 0; k < 3; ++k) result.error_m[k] = 1 / std::sqrt(std::max(eigen.eigenvalues()[k], 1e-300));
+    const PrincipalAxes eigen = principal_axes(information_);
+    OriginErrors result{eigen.axes, Vec3::Zero()};
+    for (int k = 0; k < 3; ++k) result.error_m[k] = 1 / std::sqrt(std::max(eigen.values[k], 1e-300));
     return result;
   }
 
  private:
   static double square(double value) { return value * value; }
   Vec3 x_ = Vec3::Zero();
-  Eigen::Matrix3d information_ = Eigen::Matrix3d::Zero();
+  Mat3 information_ = Mat3::Zero();
 };
 
 // By the scatter of the phases about those of the origin and a constant.
 OriginErrors errors_of(std::span<const Phase> phases, const Vec3& x) {
   const Normal normal = Normal::of(phases, x, true);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(normal.matrix);
-  OriginErrors errors{eigen.eigenvectors(), Vec3::Zero()};
+  const PrincipalAxes eigen = principal_axes(normal.matrix);
+  OriginErrors errors{eigen.axes, Vec3::Zero()};
   const double scatter = std::sqrt(normal.squares / std::max(normal.weight, 1e-300));
   const double count = std::max<double>(1, static_cast<double>(phases.size()) - 4);
   for (int k = 0; k < 3; ++k) {
-    const double spread = std::sqrt(std::max(eigen.eigenvalues()[k], 0.0) / std::max(normal.weight, 1e-300));
+    const double spread = std::sqrt(std::max(eigen.values[k], 0.0) / std::max(normal.weight, 1e-300));
     errors.error_m[k] = spread > 0 ? std::max(scatter, 1e-6) / (spread * std::sqrt(count)) : 1e300;
   }
   return errors;
@@ -267,7 +266,7 @@ std::vector<Phase> centred(std::vector<Phase> phases) {
 // With e^{+jwt}. What has the other time factor had the other sign of its stated origin, too.
 Complex reference_of(const AlignmentPoint& p, bool conjugated) {
   if (!conjugated) return p.reference_m;
-  if (p.stated_origin_m.isZero()) return std::conj(p.reference_m);
+  if (p.stated_origin_m.isZero(1e-12)) return std::conj(p.reference_m);
   return std::conj(p.reference_m) * std::polar(1.0, 2 * p.path_gradient.dot(p.stated_origin_m));
 }
 
@@ -297,10 +296,11 @@ Alignment fit(std::span<const AlignmentPoint> points, bool conjugated) {
       continue;
     }
     determined += axis * axis.dot(x);
-    variance += (axis * errors.error_m[k]).cwiseAbs2();
+    const Vec3 error = axis * errors.error_m[k];
+    variance += error.cwiseProduct(error);
   }
   x = determined;
-  result.origin_error_m = variance.cwiseSqrt();
+  result.origin_error_m = Vec3(std::sqrt(variance.x()), std::sqrt(variance.y()), std::sqrt(variance.z()));
   return result;
 }
 

@@ -51,7 +51,7 @@ class FrequencySamples {
     for (const FieldValue* value : values) gradients.push_back(gradient(view_point(cut, *value)));
     Vec3 low = gradients.front(), high = low;
     for (const Vec3& q : gradients) low = low.cwiseMin(q), high = high.cwiseMax(q);
-    (high - low).maxCoeff(&axis_);
+    axis_ = (high - low).longest_axis();
     std::vector<std::size_t> order(values.size());
     std::iota(order.begin(), order.end(), 0);
     std::stable_sort(order.begin(), order.end(),
@@ -150,7 +150,7 @@ class FrequencySamples {
 
   const RcsCut& cut_;
   double radius_m_;
-  Eigen::Index axis_ = 0;                  // along which the gradients extend furthest
+  std::size_t axis_ = 0;                   // along which the gradients extend furthest
   std::vector<Vec3> q_;                    // ascending along it
   std::vector<const FieldValue*> sorted_;  // in their order
 };

@@ -105,7 +105,7 @@ std::vector<RcsSweep> table_sweeps(const RcsCut& cut, const RcsCut& other) {
         const double az = sweep.azimuth_of(view), el = sweep.elevation_of(view);
         const FieldValue& value = *values.at(f, az, el);
         Complex amplitude = value.amplitude_m.value_or(amplitude_of_dbsm(value.level_dbsm));
-        if (value.amplitude_m && !other.origin_m.isZero()) {
+        if (value.amplitude_m && !other.origin_m.isZero(1e-12)) {
           const Vec3 r = direction_to_radar(radians(az), radians(el));
           amplitude *= std::polar(1.0, k * (sweep.transmitter.value_or(r) + r).dot(other.origin_m));
         }

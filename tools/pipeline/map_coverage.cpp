@@ -66,8 +66,7 @@ struct Durations {
 
 void extend(Reach& reach, const Target& target, const Vec3& r_hat, const Durations& durations) {
   for (const PointSpec& point : target.spec.points) {
-    const double range = -r_hat.dot(Vec3(point.position_m.data())),
-                 velocity = -r_hat.dot(Vec3(point.velocity_mps.data()));
+    const double range = -r_hat.dot(Vec3(point.position_m)), velocity = -r_hat.dot(Vec3(point.velocity_mps));
     reach.range_m.include(range);
     reach.range_m.include(range + velocity * durations.interval_s);
     reach.velocity_mps.include(velocity);
@@ -118,7 +117,7 @@ std::vector<std::string> map_coverage_warnings(const Pipeline& pipeline) {
       extend(reach, targets[t], r_hat, durations);
       for (const std::size_t companion : targets[t].companions) extend(reach, targets[companion], r_hat, durations);
       if (!platform.motion_compensated) {
-        const double own_mps = r_hat.dot(Vec3(platform.velocity_mps.data()));
+        const double own_mps = r_hat.dot(Vec3(platform.velocity_mps));
         reach.velocity_mps = {reach.velocity_mps.low + own_mps, reach.velocity_mps.high + own_mps};
       }
       const std::string who = fmt::format("targets.{} at azimuth {:g} deg", scenario.targets[t].name, view.azimuth_deg);

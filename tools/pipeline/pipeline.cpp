@@ -147,7 +147,7 @@ IntervalResult Pipeline::target_response(std::size_t index, const ObservedInterv
 
 IntervalSampling Pipeline::sampling(const PulseTrain& train, double start_s) const {
   IntervalSampling sampling = interval_sampling(train, start_s);
-  sampling.line_of_sight_rate = Vec3(scenario_.radar.platform.velocity_mps.data()) / (scenario_.radar.range_km * 1e3);
+  sampling.line_of_sight_rate = Vec3(scenario_.radar.platform.velocity_mps) / (scenario_.radar.range_km * 1e3);
   return sampling;
 }
 

@@ -168,7 +168,7 @@ double largest_reach_m(const Scenario& scenario, const SamplePlan& plan) {
         const std::string mesh = placement_text(turned) + " " + spec.mesh;
         if (!meshes.contains(mesh)) meshes[mesh] = TurnedMesh(read_placed_mesh(find_mesh(drawn, spec), turned));
         check_above_water(drawn, spec, meshes[mesh].box);
-        const double offset_m = Vec3(spec.offset_m.data()).norm();
+        const double offset_m = Vec3(spec.offset_m).norm();
         for (const double scale : body_scales(spec.layout, spec.scale))
           target.radii_m.push_back(scale * (meshes[mesh].radius_m + offset_m / spec.scale));
         return target;

@@ -10,6 +10,7 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/dbsm.h"
 #include "sim/core/numbers/random.h"
+#include "sim/core/numbers/rotation.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/progress.h"
 #include "sim/geometry/mesh/mesh_changes.h"
@@ -36,7 +37,7 @@ ChangedMesh changed(const TriangleMesh& mesh, MeshChange change, const MeshSensi
     case MeshChange::kCutFloat: return {cut_in_four(mesh, true)};
     case MeshChange::kRenumbered: return {renumbered(mesh, random)};
     case MeshChange::kTurned: {
-      const Mat3 turn = Eigen::AngleAxisd(1.1, Vec3(1, -2, 0.5).normalized()).toRotationMatrix();
+      const Mat3 turn = axis_rotation(1.1, Vec3(1, -2, 0.5).normalized());
       return {transformed(mesh, turn, Vec3::Zero()), turn};
     }
     case MeshChange::kMoved: {

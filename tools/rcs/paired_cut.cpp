@@ -183,7 +183,7 @@ std::vector<PairedCut> paired_cuts(const RcsSweep& sweep, const RcsCut& referenc
       // For a phase origin at x0 the two-way path is shorter by (r^_t + r^_s).x0 than for the body's origin
       // (CONVENTIONS.md, "Scattering").
       if (sample->amplitude_m)
-        cut.amplitude_m.push_back(reference.origin_m.isZero()
+        cut.amplitude_m.push_back(reference.origin_m.isZero(1e-12)
                                       ? *sample->amplitude_m
                                       : *sample->amplitude_m * std::polar(1.0, path_gradient.dot(reference.origin_m)));
       cut.places.push_back({view, q, f, az, el, path_gradient, sample->line});

@@ -12,6 +12,7 @@
 #include <system_error>
 #include <vector>
 
+#include "sim/core/numbers/rotation.h"
 #include "sim/core/process/error.h"
 #include "sim/geometry/files/glb_chunks.h"
 #include "sim/geometry/files/gltf_check.h"
@@ -25,7 +26,6 @@ namespace seaglint {
 namespace {
 
 namespace fs = std::filesystem;
-using Mat4 = Eigen::Matrix4d;
 
 constexpr std::size_t kMaxParts = 65000, kMaxMaterials = 65000;
 
@@ -89,19 +89,38 @@ Loaded load(const std::string& bytes, const fs::path& path) {
   return {std::move(model), std::move(sanitised.findings), std::move(folder.opened)};
 }
 
+// Affine map of a node to its parent, or to the scene.
+struct Transform {
+  Mat3 linear = Mat3::Identity();
+  Vec3 translation = Vec3::Zero();
+
+  Vec3 direction(const Vec3& x) const { return linear.col(0) * x.x() + linear.col(1) * x.y() + linear.col(2) * x.z(); }
+  Vec3 operator*(const Vec3& x) const { return direction(x) + translation; }
+  Transform operator*(const Transform& inner) const {
+    return {{direction(inner.linear.col(0)), direction(inner.linear.col(1)), direction(inner.linear.col(2))},
+            *this * inner.translation};
+  }
+};
+
 // glTF 2.0, section 3.5.3: a matrix in column-major order, or translation * rotation * scale with the quaternion as (x,
 // y, z, w).
-Mat4 local_transform(const tinygltf::Node& node) {
-  if (node.matrix.size() == 16) return Eigen::Map<const Mat4>(node.matrix.data());
-  Mat4 T = Mat4::Identity();
+Transform local_transform(const tinygltf::Node& node) {
+  const auto at = [](const std::vector<double>& values, std::size_t first) {
+    return Vec3(values[first], values[first + 1], values[first + 2]);
+  };
+  Transform T;
+  if (node.matrix.size() == 16)
+    return {{at(node.matrix, 0), at(node.matrix, 4), at(node.matrix, 8)}, at(node.matrix, 12)};
   if (node.rotation.size() == 4) {
-    Eigen::Quaterniond q(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
-    if (q.norm() > 0) T.topLeftCorner<3, 3>() = q.normalized().toRotationMatrix();
+    const Vec3 v = at(node.rotation, 0);
+    const double w = node.rotation[3];
+    const double length = std::sqrt((v.x() * v.x() + v.z() * v.z()) + (v.y() * v.y() + w * w));
+    if (length > 0) T.linear = Quaternion{w / length, v / length}.matrix();
   }
   if (node.scale.size() == 3) {
-    T.topLeftCorner<3, 3>() *= Eigen::Map<const Vec3>(node.scale.data()).asDiagonal();
+    for (std::size_t i = 0; i < 3; ++i) T.linear.col(i) *= node.scale[i];
   }
-  if (node.translation.size() == 3) T.topRightCorner<3, 1>() = Eigen::Map<const Vec3>(node.translation.data());
+  if (node.translation.size() == 3) T.translation = at(node.translation, 0);
   return T;
 }
 
@@ -121,11 +140,11 @@ class Reader {
       throw InputError(fmt::format("{}: {} materials are more than {}", file_, model_.materials.size(), kMaxMaterials));
     struct Visit {
       int node;
-      Mat4 parent;
+      Transform parent;
     };
     std::vector<Visit> pending;
     std::vector<bool> visited(model_.nodes.size(), false);
-    for (int root : roots()) pending.push_back({root, Mat4::Identity()});
+    for (int root : roots()) pending.push_back({root, Transform{}});
     std::reverse(pending.begin(), pending.end());
     while (!pending.empty()) {
       const Visit visit = pending.back();
@@ -133,7 +152,7 @@ class Reader {
       if (visited[visit.node]) throw InputError(fmt::format("{}: nodes[{}] has two parents", file_, visit.node));
       visited[visit.node] = true;
       const tinygltf::Node& node = model_.nodes[visit.node];
-      const Mat4 world = visit.parent * local_transform(node);
+      const Transform world = visit.parent * local_transform(node);
       if (node.mesh >= 0) add_mesh(node, world);
       for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
         pending.push_back({*child, world});
@@ -220,20 +239,20 @@ class Reader {
     return list;
   }
 
-  void add_mesh(const tinygltf::Node& node, const Mat4& world) {
+  void add_mesh(const tinygltf::Node& node, const Transform& world) {
     const tinygltf::Mesh& mesh = model_.meshes[node.mesh];
     builder_.begin_part(!node.name.empty()   ? node.name
                         : !mesh.name.empty() ? mesh.name
                                              : fmt::format("mesh_{}", node.mesh));
     if (builder_.part_count() > kMaxParts)
       throw InputError(fmt::format("{}: its nodes make more than {} parts", file_, kMaxParts));
-    const bool is_mirrored = world.topLeftCorner<3, 3>().determinant() < 0;
+    const bool is_mirrored = world.linear.determinant() < 0;
     for (const tinygltf::Primitive& primitive : mesh.primitives) {
       if (primitive.mode >= TINYGLTF_MODE_TRIANGLES) add_primitive(primitive, world, is_mirrored);
     }
   }
 
-  void add_primitive(const tinygltf::Primitive& primitive, const Mat4& world, bool is_mirrored) {
+  void add_primitive(const tinygltf::Primitive& primitive, const Transform& world, bool is_mirrored) {
     const std::string material = primitive.material >= 0 ? model_.materials[primitive.material].name : std::string();
     builder_.begin_material(material.empty() ? Material{}.name : material);
 
@@ -248,7 +267,7 @@ class Reader {
     used.erase(std::unique(used.begin(), used.end()), used.end());
     const auto base = static_cast<std::uint32_t>(builder_.vertices().size());
     for (const std::uint32_t v : used) {
-      const Vec3 placed = (world * vector_at(positions, v).homogeneous()).head<3>();
+      const Vec3 placed = world * vector_at(positions, v);
       builder_.vertex(body_from_gltf() * placed);
     }
     const auto vertex = [&](std::uint32_t v) {
@@ -261,7 +280,7 @@ class Reader {
       normals = data_of(found->second);
     const bool has_byte_normals =
         normals && model_.accessors[primitive.attributes.at("NORMAL")].componentType == TINYGLTF_COMPONENT_TYPE_BYTE;
-    const Mat3 turn = body_from_gltf() * world.topLeftCorner<3, 3>().inverse().transpose();
+    const Mat3 turn = body_from_gltf() * world.linear.inverse().transpose();
     const auto normal = [&](std::uint32_t v) -> Vec3 { return turn * vector_at(*normals, v); };
     const auto add = [&](std::size_t i, std::size_t j, std::size_t k) {
       if (is_mirrored) std::swap(j, k);

@@ -12,7 +12,7 @@ namespace seaglint {
 
 // glTF 2.0, section 3.4: +Y up, +Z forward, so +X is to port. Column i is glTF's axis i in the body frame.
 inline const Mat3& body_from_gltf() {
-  static const Mat3 R = (Mat3() << 0, 0, 1, 1, 0, 0, 0, 1, 0).finished();
+  static constexpr Mat3 R{Vec3::UnitY(), Vec3::UnitZ(), Vec3::UnitX()};
   return R;
 }
 

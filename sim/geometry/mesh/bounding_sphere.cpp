@@ -18,12 +18,16 @@ std::optional<Sphere> sphere_through(std::span<const Vec3> points) {
   const auto sides = static_cast<Eigen::Index>(points.size()) - 1;
   if (sides == 0) return Sphere{points[0], 0};
   Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> side(3, sides);
-  for (Eigen::Index i = 0; i < sides; ++i) side.col(i) = points[static_cast<std::size_t>(i) + 1] - points[0];
+  for (Eigen::Index i = 0; i < sides; ++i) {
+    const Vec3 own = points[static_cast<std::size_t>(i) + 1] - points[0];
+    side.col(i) << own.x(), own.y(), own.z();
+  }
   // c = points[0] + side x with 2 side^T side x = |side|^2.
   const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3> gram = 2 * side.transpose() * side;
   const Eigen::FullPivLU<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3>> lu(gram);
   if (!lu.isInvertible()) return std::nullopt;
-  const Vec3 from_first = side * lu.solve(gram.diagonal() / 2);
+  const Eigen::Vector3d centre = side * lu.solve(gram.diagonal() / 2);
+  const Vec3 from_first(centre.x(), centre.y(), centre.z());
   return Sphere{points[0] + from_first, from_first.norm()};
 }
 

@@ -71,7 +71,7 @@ struct Box {
   Vec3 lower, upper;
 
   bool overlaps(const Box& other) const {
-    return (lower.array() <= other.upper.array()).all() && (other.lower.array() <= upper.array()).all();
+    return lower.cwiseMin(other.upper) == lower && other.lower.cwiseMin(upper) == other.lower;
   }
 };
 
@@ -119,8 +119,7 @@ class BoxTree {
     const auto own = static_cast<std::uint32_t>(nodes_.size());
     nodes_.push_back({all, first, end});
     if (end - first <= kLeaf) return own;
-    int axis = 0;
-    (all.upper - all.lower).maxCoeff(&axis);
+    const std::size_t axis = (all.upper - all.lower).longest_axis();
     const auto centre = [&](std::uint32_t i) { return boxes_[i].lower[axis] + boxes_[i].upper[axis]; };
     const std::uint32_t middle = first + (end - first) / 2;
     std::nth_element(order_.begin() + first, order_.begin() + middle, order_.begin() + end,

@@ -30,15 +30,13 @@ Mat3 rotation_of(const MeshPlacement& placement) {
   if (forward.dot(up) != 0)
     throw InputError(
         fmt::format("forward {} and up {}: must be perpendicular to each other", placement.forward, placement.up));
-  Mat3 rotation;
-  rotation << forward.transpose(), up.cross(forward).transpose(), up.transpose();
-  return rotation;
+  return Mat3(forward, up.cross(forward), up).transpose();
 }
 
 TriangleMesh placed(TriangleMesh mesh, const MeshPlacement& placement) {
   const Mat3 rotation = rotation_of(placement);
-  const Vec3 offset(placement.offset_m.data());
-  if (!rotation.isIdentity(0)) mesh = transformed(mesh, rotation, Vec3::Zero());
+  const Vec3 offset(placement.offset_m);
+  if (rotation != Mat3::Identity()) mesh = transformed(mesh, rotation, Vec3::Zero());
   if (placement.scale != 1) mesh = enlarged(std::move(mesh), placement.scale);
   if (!offset.isZero(0)) mesh = transformed(mesh, Mat3::Identity(), offset);
   return mesh;

@@ -79,7 +79,7 @@ SidesFrom sides_of_cut(const DividedMesh& of) {
   return sides;
 }
 
-Vec2 plan(const TriangleMesh& mesh, std::uint32_t v) { return mesh.vertices[v].head<2>(); }
+Vec2 plan(const TriangleMesh& mesh, std::uint32_t v) { return mesh.vertices[v].xy(); }
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 

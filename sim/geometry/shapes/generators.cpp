@@ -186,10 +186,7 @@ TriangleMesh make_icosahedral_reflector(double edge) {
   const auto& [a0, b0, c0] = solid.faces[0];
   const Vec3 facing = (solid.vertices[a0] + solid.vertices[b0] + solid.vertices[c0]).normalized();
   const Vec3 up = (solid.vertices[a0] - facing * facing.dot(solid.vertices[a0])).normalized();
-  Mat3 R;
-  R.row(0) = facing;
-  R.row(1) = up.cross(facing);
-  R.row(2) = up;
+  const Mat3 R = Mat3(facing, up.cross(facing), up).transpose();
 
   MeshBuilder builder;
   for (const Vec3& p : solid.vertices) builder.vertex(0.5 * edge * (R * p));

@@ -26,7 +26,7 @@ void require(double value, double min, double max, const char* name) {
 // Positions on a grid of 2^-16 m (15 um, a thousandth of a wavelength at 16 GHz), which float32 represents exactly up
 // to 256 m: differences in the last bit of a sine between processors have no effect.
 TriangleMesh on_grid(TriangleMesh mesh) {
-  for (Vec3& p : mesh.vertices) p = (p * 65536.0).array().round() / 65536.0;
+  for (Vec3& p : mesh.vertices) p = (p * 65536.0).rounded() / 65536.0;
   return mesh;
 }
 

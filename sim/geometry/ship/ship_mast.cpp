@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/rotation.h"
 #include "sim/geometry/shapes/solids.h"
 
 namespace seaglint {
@@ -60,7 +61,7 @@ void add_enclosed_mast(MeshBuilder& builder, const HullSurface& hull, double foo
     const double z = foot + 8.4, out = 2.35 - (z - foot - 5.5) * std::tan(slope);
     Pose wall = upright({x, 0, 0}, 0.5 * kPi * k);
     wall.p = wall * Vec3(out, 0, z);
-    wall.R = wall.R * Eigen::AngleAxisd(-slope, Vec3::UnitY()).toRotationMatrix();
+    wall.R = wall.R * axis_rotation(-slope, Vec3::UnitY());
     std::vector<Vec3> outline;
     for (int c = 0; c < 8; ++c) {
       const double angle = kPi / 8 + 0.25 * kPi * c;
@@ -126,8 +127,7 @@ void add_lattice_mast(MeshBuilder& builder, const HullSurface& hull, double foot
   const Pose head = upright({x + 0.45, 0, foot + kHeight + 0.65}, radians(20));
   for (int k = -2; k <= 2; ++k) {
     const Pose panel = head * upright({0.07 * k * k, 0.62 * k, 0}, radians(13.0 * k));
-    add_box(builder, panel * Pose{Vec3::Zero(), Eigen::AngleAxisd(radians(-12), Vec3::UnitY()).toRotationMatrix()},
-            {0.12, 0.66, 1.15});
+    add_box(builder, panel * Pose{Vec3::Zero(), axis_rotation(radians(-12), Vec3::UnitY())}, {0.12, 0.66, 1.15});
   }
   add_bar(builder, head * Vec3(-0.5, 0, 0.1), head * Vec3(0.1, 0, 0.6), 0.2);
 }
@@ -137,7 +137,7 @@ void add_volume_radar(MeshBuilder& builder, const HullSurface& hull, double roof
   builder.begin_part("volume_radar");
   add_cone(builder, {x, 0, roof - 0.2}, {x, 0, roof + 1.0}, 1.15, 0.85, 16);
   const Pose head = upright({x, 0, roof + 0.9}, radians(-55));
-  const Pose tilted = head * Pose{{0.5, 0, 0.2}, Eigen::AngleAxisd(radians(-15), Vec3::UnitY()).toRotationMatrix()};
+  const Pose tilted = head * Pose{{0.5, 0, 0.2}, axis_rotation(radians(-15), Vec3::UnitY())};
   add_box(builder, tilted, {0.55, 6.4, 3.0});
   add_bar(builder, head * Vec3(-0.9, 0, 0), head * Vec3(0.4, 0, 1.6), 0.4);
   for (int k = -3; k <= 3; ++k) add_box(builder, tilted * upright({-0.38, 0.9 * k, 0.15}), {0.3, 0.08, 2.7});

@@ -4,6 +4,7 @@
 #include <initializer_list>
 
 #include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/rotation.h"
 #include "sim/geometry/shapes/solids.h"
 
 namespace seaglint {
@@ -63,8 +64,7 @@ void add_brackets(MeshBuilder& builder, const HullSurface& hull, const Deckhouse
       const Pose wall = house.on_side(hull, side, x, z);
       // The shelf looks up for one and down for the next, the cheek is fore or aft.
       const double angle = n % 4 == 0 ? 0 : n % 4 == 1 ? 0.5 * kPi : n % 4 == 2 ? kPi : 1.5 * kPi;
-      const Pose bracket =
-          moved(wall, 0.02, 0, 0) * Pose{Vec3::Zero(), Eigen::AngleAxisd(angle, Vec3::UnitX()).toRotationMatrix()};
+      const Pose bracket = moved(wall, 0.02, 0, 0) * Pose{Vec3::Zero(), axis_rotation(angle, Vec3::UnitX())};
       const double leg = 0.32 + 0.05 * (n % 3);
       add_corner_plates(builder, bracket, {leg, leg, leg}, 0.03);
       ++n;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/rotation.h"
 #include "sim/geometry/shapes/solids.h"
 
 namespace seaglint {
@@ -73,7 +74,7 @@ void add_canisters(MeshBuilder& builder, const HullSurface& hull, const Deckhous
   builder.begin_part("missile_canisters");
   for (double side : {1.0, -1.0}) {
     const Pose base = upright({hull.x_of(side > 0 ? -4.0 : -7.0), -side * 0.8, forward.roof}, side * radians(90));
-    const Pose tilted = base * Pose{{0, 0, 0.75}, Eigen::AngleAxisd(radians(-14), Vec3::UnitY()).toRotationMatrix()};
+    const Pose tilted = base * Pose{{0, 0, 0.75}, axis_rotation(radians(-14), Vec3::UnitY())};
     for (double y : {-0.45, 0.45}) {
       for (double z : {0.0, 0.86}) add_box(builder, tilted * upright({0, y, z}), {4.7, 0.74, 0.74});
     }

@@ -157,7 +157,7 @@ class Equations {
   }
 
   Vec2 horizontal_rate(const FloatState& s, const SurfaceState& water) const {
-    return water.velocity.head<2>() - s.shift.head<2>() / kMooringTime;
+    return water.velocity.xy() - s.shift.xy() / kMooringTime;
   }
 
  private:
@@ -210,8 +210,8 @@ std::vector<MotionSample> simulate_float(const FloatParticulars& body, const Mot
       const double t = start + part * (static_cast<double>((n + before) * parts + p));
       // The water is evaluated at the position predicted to first order in the step: error below 1 mm.
       const Vec2 velocity = equations.horizontal_rate(state, water0);
-      const SurfaceState water_middle = water.next(state.shift.head<2>() + 0.5 * part * velocity);
-      const SurfaceState water1 = water.next(state.shift.head<2>() + part * velocity);
+      const SurfaceState water_middle = water.next(state.shift.xy() + 0.5 * part * velocity);
+      const SurfaceState water1 = water.next(state.shift.xy() + part * velocity);
       const double yaw_middle = random_yaw.at(t + 0.5 * part).x;
       const OscillatorState yaw1 = random_yaw.at(t + part);
 

@@ -22,8 +22,13 @@ double given_or(double value, double derived) { return value > 0 ? value : deriv
 
 // -w^2 M + C - T of sway, roll and yaw without speed, without the roll inertia about G and additional damping.
 Eigen::Matrix3cd lateral_impedance(const ShipParticulars& ship, double omega) {
-  return -omega * omega * ship.lateral_mass.cast<Complex>() + ship.lateral_stiffness.cast<Complex>() -
-         ship.strips->radiation(omega, 0).lateral;
+  const StripTheory::Radiation radiation = ship.strips->radiation(omega, 0);
+  Eigen::Matrix3cd z;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j)
+      z(i, j) = -omega * omega * ship.lateral_mass(i, j) + ship.lateral_stiffness(i, j) - radiation.lateral[i][j];
+  }
+  return z;
 }
 
 // Roll impedance with sway and yaw free: moment per roll angle.
@@ -86,7 +91,7 @@ void set_roll(ShipParticulars& ship, const MotionSpec& spec, double mass) {
 void set_pitch_and_heave(ShipParticulars& ship, const MotionSpec& spec, double mass) {
   const double stiffness = ship.vertical_stiffness(1, 1);
   const auto impedance = [&](double omega) -> Complex {
-    return stiffness - omega * omega * ship.vertical_mass(1, 1) - ship.strips->radiation(omega, 0).vertical(1, 1);
+    return stiffness - omega * omega * ship.vertical_mass(1, 1) - ship.strips->radiation(omega, 0).vertical[1][1];
   };
   const double radius = given_or(spec.pitch_gyradius_m, kPitchRadius * ship.length);
   double inertia = mass * radius * radius;
@@ -102,7 +107,7 @@ void set_pitch_and_heave(ShipParticulars& ship, const MotionSpec& spec, double m
   ship.radii_of_gyration.y() = std::sqrt(inertia / mass);
 
   const auto heave = [&](double omega) -> Complex {
-    return ship.vertical_stiffness(0, 0) - ship.strips->radiation(omega, 0).vertical(0, 0);
+    return ship.vertical_stiffness(0, 0) - ship.strips->radiation(omega, 0).vertical[0][0];
   };
   ship.heave.omega0 = natural_frequency(mass, ship.vertical_stiffness(0, 0), heave);
   ship.heave.damping = heave(ship.heave.omega0).imag() / (2 * ship.vertical_stiffness(0, 0));
@@ -126,7 +131,7 @@ ShipParticulars ship_particulars(const MotionSpec& spec, const HullSections& hul
   const Hydrostatics& h = ship.strips->hydrostatics();
   ship.centre_of_gravity = {h.buoyancy_x, 0, h.buoyancy_z + h.waterplane_yy / h.volume - ship.metacentric_height};
   ship.rotation_centre = ship.centre_of_gravity;
-  if (spec.rotation_centre_m) ship.rotation_centre = Eigen::Map<const Vec3>(spec.rotation_centre_m->data());
+  if (spec.rotation_centre_m) ship.rotation_centre = Vec3(*spec.rotation_centre_m);
 
   const double mass = kSeaWaterDensity * h.volume;
   const double x = ship.centre_of_gravity.x();
@@ -135,22 +140,16 @@ ShipParticulars ship_particulars(const MotionSpec& spec, const HullSections& hul
   const double yaw_radius = given_or(spec.yaw_gyradius_m, kPitchRadius * ship.length);
   ship.radii_of_gyration.z() = yaw_radius;
   // Mass matrix with G away from the origin; the moments of inertia in roll and pitch are added below.
-  ship.lateral_mass << 1, -z, x,  //
-      -z, z * z, -x * z,          //
-      x, -x * z, x * x + yaw_radius * yaw_radius;
-  ship.lateral_mass *= mass;
-  ship.lateral_damping.setZero();
-  ship.lateral_stiffness.setZero();
+  ship.lateral_mass = mass * Mat3({1, -z, x}, {-z, z * z, -x * z}, {x, -x * z, x * x + yaw_radius * yaw_radius});
   ship.lateral_stiffness(1, 1) = weight * h.volume * ship.metacentric_height;
-  ship.vertical_mass << mass, -mass * x, -mass * x, mass * x * x;
+  ship.vertical_mass = {{mass, -mass * x}, {-mass * x, mass * x * x}};
   // Slender hull: pitch neglects BG against BM, consistent with the wave forces.
-  ship.vertical_stiffness << h.waterplane, -h.waterplane_x, -h.waterplane_x, h.waterplane_xx;
-  ship.vertical_stiffness *= weight;
+  ship.vertical_stiffness = weight * Mat2({h.waterplane, -h.waterplane_x}, {-h.waterplane_x, h.waterplane_xx});
 
   if (spec.yaw_period_s > 0) {
     const double omega = 2 * kPi / spec.yaw_period_s;
     const double yaw_inertia =
-        ship.lateral_mass(2, 2) + ship.strips->radiation(omega, 0).lateral(2, 2).real() / (omega * omega);
+        ship.lateral_mass(2, 2) + ship.strips->radiation(omega, 0).lateral[2][2].real() / (omega * omega);
     ship.lateral_stiffness(2, 2) = omega * omega * yaw_inertia;
     ship.lateral_damping(2, 2) = 2 * spec.yaw_damping * omega * yaw_inertia;
   }

@@ -3,7 +3,6 @@
 
 // Coefficients of the equations of motion of a ship, derived from hull and scenario.
 
-#include <Eigen/Core>
 #include <memory>
 
 #include "sim/core/numbers/linear.h"
@@ -31,9 +30,9 @@ struct ShipParticulars {
   Oscillator roll, pitch, heave;
 
   std::shared_ptr<const StripTheory> strips;
-  Eigen::Matrix3d lateral_mass, lateral_damping, lateral_stiffness;  // sway, roll, yaw
-  Eigen::Matrix2d vertical_mass, vertical_stiffness;                 // heave, pitch
-  double pitch_damping = 0;                                          // in addition to radiation (negative: less), N m s
+  Mat3 lateral_mass, lateral_damping, lateral_stiffness;  // sway, roll, yaw
+  Mat2 vertical_mass, vertical_stiffness;                 // heave, pitch
+  double pitch_damping = 0;                               // in addition to radiation (negative: less), N m s
 };
 
 // Throws InputError for a hull and a spec that are inconsistent.

@@ -28,24 +28,32 @@ MotionRao ship_rao(const ShipParticulars& ship, const ShipWave& wave) {
   const ShipForces force = ship.strips->excitation(wave, ship.speed);
   const StripTheory::Radiation radiation = ship.strips->radiation(omega, ship.speed);
 
-  const Eigen::Matrix3cd lateral = -omega * omega * ship.lateral_mass.cast<Complex>() +
-                                   kJ * omega * ship.lateral_damping.cast<Complex>() +
-                                   ship.lateral_stiffness.cast<Complex>() - radiation.lateral;
+  Eigen::Matrix3cd lateral;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j)
+      lateral(i, j) = -omega * omega * ship.lateral_mass(i, j) + kJ * omega * ship.lateral_damping(i, j) +
+                      ship.lateral_stiffness(i, j) - radiation.lateral[i][j];
+  }
   const Eigen::Vector3cd across = lateral.partialPivLu().solve(Eigen::Vector3cd(force.sway, force.roll, force.yaw));
 
-  Eigen::Matrix2cd vertical = -omega * omega * ship.vertical_mass.cast<Complex>() +
-                              ship.vertical_stiffness.cast<Complex>() - radiation.vertical;
+  Eigen::Matrix2cd vertical;
+  for (int i = 0; i < 2; ++i) {
+    for (int j = 0; j < 2; ++j)
+      vertical(i, j) =
+          -omega * omega * ship.vertical_mass(i, j) + ship.vertical_stiffness(i, j) - radiation.vertical[i][j];
+  }
   // The total damping is kept non-negative where radiation is lower than at resonance.
   const double damping = std::max(omega * vertical(1, 1).imag() + omega * omega * ship.pitch_damping, 0.0);
   vertical(1, 1) = Complex(vertical(1, 1).real(), damping / omega);
   const Eigen::Vector2cd upright = vertical.partialPivLu().solve(Eigen::Vector2cd(force.heave, force.pitch));
 
-  // Translation of the origin and rotation of the hull; the rotation centre c moves by the translation plus rotation x
-  // c.
+  // Translation of the origin and rotation of the hull; the rotation centre c moves by the translation plus the complex
+  // conjugate of rotation x c.
   const Complex surge = force.surge / (-omega * omega * ship.vertical_mass(0, 0));
   const CVec3 rotation(across(1), upright(1), across(2));
+  const CVec3 arm = rotation.cross(ship.rotation_centre.cast<Complex>());
   const CVec3 translation =
-      CVec3(surge, across(0), upright(0)) + rotation.cross(CVec3(ship.rotation_centre.cast<Complex>()));
+      CVec3(surge, across(0), upright(0)) + CVec3(std::conj(arm.x()), std::conj(arm.y()), std::conj(arm.z()));
   return {translation.x(), translation.y(), translation.z(), rotation.x(), rotation.y(), rotation.z()};
 }
 

@@ -115,7 +115,7 @@ StripTheory::Place StripTheory::place(double omega) const {
 // weight takes one factor w, which avoids division by w.
 StripTheory::Radiation StripTheory::radiation(double encounter, double speed) const {
   const Place at = place(encounter);
-  Radiation sum{Eigen::Matrix3cd::Zero(), Eigen::Matrix2cd::Zero()};
+  Radiation sum;
   for (const Strip& strip : strips_) {
     std::array<Complex, 4> value{};
     for (std::size_t n = 0; n < 4; ++n) {
@@ -126,15 +126,16 @@ StripTheory::Radiation StripTheory::radiation(double encounter, double speed) co
     const double w = encounter;
     const Complex left = w * strip.x - kJ * speed;   // w (x + U/jw)
     const Complex right = w * strip.x + kJ * speed;  // w (x - U/jw)
-    Eigen::Matrix3cd lateral;
-    lateral << w * sway * w, w * sway_roll * w, w * sway * right,  //
-        w * sway_roll * w, w * roll * w, w * sway_roll * right,    //
-        left * sway * w, left * sway_roll * w, left * sway * right;
-    Eigen::Matrix2cd vertical;
-    vertical << w * heave * w, -w * heave * right,  //
-        -left * heave * w, left * heave * right;
-    sum.lateral += lateral;
-    sum.vertical += vertical;
+    const Radiation own{{{{w * sway * w, w * sway_roll * w, w * sway * right},
+                          {w * sway_roll * w, w * roll * w, w * sway_roll * right},
+                          {left * sway * w, left * sway_roll * w, left * sway * right}}},
+                        {{{w * heave * w, -w * heave * right}, {-left * heave * w, left * heave * right}}}};
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) sum.lateral[i][j] += own.lateral[i][j];
+    }
+    for (int i = 0; i < 2; ++i) {
+      for (int j = 0; j < 2; ++j) sum.vertical[i][j] += own.vertical[i][j];
+    }
   }
   return sum;
 }

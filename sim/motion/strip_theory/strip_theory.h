@@ -4,7 +4,6 @@
 // Wave forces on a slender hull from the flow about its sections: strip theory of Salvesen, Tuck and Faltinsen (1970),
 // without their terms for a submerged transom.
 
-#include <Eigen/Core>
 #include <array>
 #include <vector>
 
@@ -47,10 +46,10 @@ class StripTheory {
   const Hydrostatics& hydrostatics() const { return hydrostatics_; }
 
   // Force per displacement, w^2 A - j w B, at the encounter frequency w (rad/s, any sign) and speed (m/s): of (sway,
-  // roll, yaw) and of (heave, pitch) about the origin.
+  // roll, yaw) and of (heave, pitch) about the origin, [force][displacement].
   struct Radiation {
-    Eigen::Matrix3cd lateral;
-    Eigen::Matrix2cd vertical;
+    std::array<std::array<Complex, 3>, 3> lateral{};
+    std::array<std::array<Complex, 2>, 2> vertical{};
   };
   Radiation radiation(double encounter, double speed) const;
 

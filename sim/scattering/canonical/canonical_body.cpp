@@ -137,16 +137,16 @@ std::optional<CanonicalBody> dihedral(const PlaneFace& first, const PlaneFace& s
 }
 
 std::optional<CanonicalBody> trihedral(const std::vector<PlaneFace>& faces) {
-  Mat3 normals;
-  for (int i = 0; i < 3; ++i) normals.row(i) = faces[static_cast<std::size_t>(i)].normal;
-  for (int i = 0; i < 3; ++i) {
-    if (std::abs(normals.row(i).dot(normals.row((i + 1) % 3))) > kRightAngle) return std::nullopt;
+  const std::array<Vec3, 3> normal{faces[0].normal, faces[1].normal, faces[2].normal};
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (std::abs(normal[i].dot(normal[(i + 1) % 3])) > kRightAngle) return std::nullopt;
   }
-  const Vec3 apex = normals.inverse() * Vec3(faces[0].offset, faces[1].offset, faces[2].offset);
+  const Vec3 apex = Mat3(Mat3(normal[0], normal[1], normal[2]).transpose()).inverse() *
+                    Vec3(faces[0].offset, faces[1].offset, faces[2].offset);
   const Vec3 middle = (faces[0].centroid + faces[1].centroid + faces[2].centroid) / 3;
   CanonicalBody body{CanonicalShape::kTriangularTrihedral, apex, 0, 0, Mat3::Identity()};
   for (int i = 0; i < 3; ++i) {
-    const Vec3 leg = Vec3(normals.row((i + 1) % 3)).cross(Vec3(normals.row((i + 2) % 3))).normalized();
+    const Vec3 leg = normal[(i + 1) % 3].cross(normal[(i + 2) % 3]).normalized();
     body.axes.col(i) = leg.dot(middle - apex) < 0 ? Vec3(-leg) : leg;
   }
   std::array<bool, 3> triangular{};
@@ -185,7 +185,7 @@ std::optional<CanonicalBody> sphere(const TriangleMesh& mesh) {
   Vec3 right = Vec3::Zero();
   for (const Vec3& p : points) {
     const Vec3 x = p - mean;
-    matrix += x * x.transpose();
+    matrix += outer_product(x, x);
     right += 0.5 * x.squaredNorm() * x;
   }
   if (std::abs(matrix.determinant()) < 1e-9 * std::pow(matrix.trace(), 3)) return std::nullopt;

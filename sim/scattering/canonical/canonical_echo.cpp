@@ -120,7 +120,7 @@ std::optional<CanonicalEcho> CanonicalSolution::of_reflector(const RadarBasis& b
     if (off > radians(kOffBisector_deg) || std::abs(r.z()) > 0.5 || pattern < kAlongSeam) return std::nullopt;
     aperture = 2 * body_.a_m * body_.b_m * std::sin(kPi / 4 - off) * pattern;
     const Vec3 seam = body_.axes.col(2);
-    dyad = 2 * seam * seam.transpose() - Mat3::Identity();
+    dyad = outer_product(2 * seam, seam) - Mat3::Identity();
   } else {
     const bool triangular = body_.shape == CanonicalShape::kTriangularTrihedral;
     if (r.sum() / std::sqrt(3.0) < cosine_of_deg(triangular ? 5 : 1)) return std::nullopt;

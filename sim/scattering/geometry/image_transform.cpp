@@ -37,16 +37,16 @@ MovingPolygon PanelMap::mapped(const MovingPolygon& polygon) const {
     // Point of the vertex on the panel, and its slide over the panel relative to a body-fixed point.
     const double z = own_.at(vertex.p);
     const Vec3 x = origin_ + vertex.p.x() * first_ + vertex.p.y() * second_;
-    const auto moved = [&](const Vec2& slide) -> Vec2 { return (slide.x() * first_ + slide.y() * second_).head<2>(); };
+    const auto moved = [&](const Vec2& slide) -> Vec2 { return (slide.x() * first_ + slide.y() * second_).xy(); };
     image.push_back(
-        {x.head<2>(), moved(vertex.d1 + Vec2(z, 0)) - Vec2(x.z(), 0), moved(vertex.d2 + Vec2(0, z)) - Vec2(0, x.z())});
+        {x.xy(), moved(vertex.d1 + Vec2(z, 0)) - Vec2(x.z(), 0), moved(vertex.d2 + Vec2(0, z)) - Vec2(0, x.z())});
   }
   if (signed_area(image) < 0) std::reverse(image.begin(), image.end());
   return image;
 }
 
 Vec2 PanelMap::inverse(const Vec2& p) const {
-  const Vec2 d = p - origin_.head<2>();
+  const Vec2 d = p - origin_.xy();
   return Vec2(d.x() * second_.y() - d.y() * second_.x(), d.y() * first_.x() - d.x() * first_.y()) / determinant_;
 }
 

@@ -25,7 +25,7 @@ inline ImageTransform operator*(const ImageTransform& a, const ImageTransform& b
 
 // Reflection in the plane n . x = offset, n unit.
 inline ImageTransform plane_reflection(const Vec3& n, double offset) {
-  return {Mat3::Identity() - 2 * n * n.transpose(), 2 * offset * n};
+  return {Mat3::Identity() - outer_product(2 * n, n), 2 * offset * n};
 }
 
 // Direction x reflected in a plane with unit normal n.

@@ -96,7 +96,7 @@ Side clip_by(const MovingPolygon& polygon, const Distance& distance, double on_l
 Side side_of_edge(const Box& box, const MovingVertex& from, const MovingVertex& to) {
   const Vec2 left = left_of(to.p - from.p), steep = left.cwiseAbs();
   const double centre = left.dot(0.5 * (box.lower + box.upper) - from.p);
-  const double reach = steep.dot(0.5 * (box.upper - box.lower)) + kLineTolerance * steep.sum();
+  const double reach = steep.dot(0.5 * (box.upper - box.lower)) + kLineTolerance * (steep.x() + steep.y());
   if (centre > reach || left.squaredNorm() < kLineTolerance * kLineTolerance) return Side::kInside;
   return centre < -reach ? Side::kOutside : Side::kBoth;
 }

@@ -22,7 +22,7 @@ Quadratic compose(const Quadratic& q, const Affine& f) {
 }
 
 Quadratic product(const Quadratic& a, const Quadratic& b) {
-  const Mat2 outer = a.gradient * b.gradient.transpose();
+  const Mat2 outer = outer_product(a.gradient, b.gradient);
   return {a.value * b.value, a.value * b.gradient + b.value * a.gradient, outer + outer.transpose()};
 }
 
@@ -44,7 +44,7 @@ Quadratic edge_midpoint_quadratic(const Barycentric& lambda, const std::array<do
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3;
     const double scale = 4 * middle[i];  // lambda_i lambda_j = 1/4 at the midpoint of the side
-    const Mat2 product = lambda.gradient[i] * lambda.gradient[j].transpose();
+    const Mat2 product = outer_product(lambda.gradient[i], lambda.gradient[j]);
     sum += {scale * lambda.value[i] * lambda.value[j],
             scale * (lambda.value[i] * lambda.gradient[j] + lambda.value[j] * lambda.gradient[i]),
             scale * (product + product.transpose())};

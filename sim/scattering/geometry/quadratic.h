@@ -9,8 +9,6 @@
 
 namespace seaglint {
 
-using Mat2 = Eigen::Matrix2d;
-
 // value + gradient . p + p . hessian p / 2
 struct Quadratic {
   double value = 0;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/scattering/observation/line_of_sight.h"
 
-#include <Eigen/Geometry>
+#include "sim/core/numbers/rotation.h"
 
 namespace seaglint {
 namespace {
 
 RadarBasis turned_to(const RadarBasis& basis, const Vec3& r) {
-  const Mat3 turn = Eigen::Quaterniond::FromTwoVectors(basis.r, r).toRotationMatrix();
+  const Mat3 turn = rotation_between(basis.r, r).matrix();
   return {r, turn * basis.h, turn * basis.v};
 }
 

@@ -65,7 +65,7 @@ class CurvedDecomposer {
     const double area_ratio = std::sqrt(1 + steepest.squaredNorm());
     along_surface_ = Mat2::Identity();
     if (steepest.squaredNorm() > 0) {
-      along_surface_ -= (1 - 1 / area_ratio) / steepest.squaredNorm() * steepest * steepest.transpose();
+      along_surface_ -= outer_product((1 - 1 / area_ratio) / steepest.squaredNorm() * steepest, steepest);
     }
     for (int i = 0; i < 3; ++i) {
       const int j = (i + 1) % 3;
@@ -74,11 +74,10 @@ class CurvedDecomposer {
       if (c_.flat_panel) continue;
       skew_[i] = std::clamp(0.5 * (c_.w[i] + c_.w[j]).dot(along) - (psi(c_.corner[j]) - psi(c_.corner[i])), -max, max);
     }
-    Mat2 change = c_.phase.hessian;
-    if (!c_.flat_panel) change.setZero();
+    Mat2 change = c_.flat_panel ? c_.phase.hessian : Mat2::Zero();
     for (int i = 0; i < 3; ++i) {
       slope_[i] = along_surface_ * c_.slope[i];
-      if (!c_.flat_panel) change += c_.slope[i] * c_.lambda.gradient[i].transpose();
+      if (!c_.flat_panel) change += outer_product(c_.slope[i], c_.lambda.gradient[i]);
     }
     curvature_ = (along_surface_ * change * along_surface_).norm();
     if (c_.has_bundle)

@@ -82,6 +82,6 @@ struct GrazingSource {
 };
 
 // Reflection of directions in a plane with unit normal n.
-inline Mat3 householder(const Vec3& n) { return Mat3::Identity() - 2 * n * n.transpose(); }
+inline Mat3 householder(const Vec3& n) { return Mat3::Identity() - outer_product(2 * n, n); }
 
 }  // namespace seaglint

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/rotation.h"
 #include "sim/core/numbers/smooth_step.h"
 #include "sim/scattering/coefficients/fade_windows.h"
 #include "sim/scattering/coefficients/path_weights.h"
@@ -66,8 +67,8 @@ std::array<double, 4> endpoint_correction(const WedgeFace& face, const EdgeIllum
   const auto about_edge = [&](const Vec3& x) { return std::atan2(face.n.dot(x), face.x.dot(x)); };
   const double off = std::remainder(about_edge(s) - about_edge(beam), 2 * kPi);
   const auto add = [&](double angle, double weight) {
-    const Vec3 on_cone = Eigen::AngleAxisd(angle, face.t) * beam, away = on_cone - beam;
-    const auto turned = Eigen::Quaterniond::FromTwoVectors(s, on_cone);
+    const Vec3 on_cone = axis_rotation(angle, face.t) * beam, away = on_cone - beam;
+    const Quaternion turned = rotation_between(s, on_cone);
     const std::array<Vec3, 2> received{turned * out.E_h, turned * out.E_v};
     const double ends_there = lands * last_end_weight(away.dot(into), away.dot(face.x), across);
     // Where the last reflector has no end-point contribution, that of the edge's face is used alone, away from its

@@ -74,7 +74,9 @@ PanelBvh::SeparatingAxes PanelBvh::axes_of(const Prism& prism) const {
     axes.side[i].width = static_cast<float>(half(i) + slack_);
   }
   for (int e = 0; e < 3; ++e) {
-    const Vec3 n = Vec3::Unit(e).cross(prism.along);
+    Vec3 axis;
+    axis[e] = 1;
+    const Vec3 n = axis.cross(prism.along);
     const double first = n.dot(prism.across[0]), second = n.dot(prism.across[1]);
     set_parts(axes.edge[e], Vec2(n[(e + 1) % 3], n[(e + 2) % 3]));
     axes.edge[e].middle = static_cast<float>(first * middle(0) + second * middle(1));

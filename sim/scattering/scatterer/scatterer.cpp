@@ -32,7 +32,7 @@ Vec3 centre_of(const TriangleMesh& mesh) {
   const Sphere sphere = bounding_sphere(points);
   if (!(sphere.radius > 0)) return Vec3::Zero();
   const double step = std::ldexp(1.0, std::ilogb(sphere.radius) - 20);
-  return (sphere.centre / step).array().round() * step;
+  return (sphere.centre / step).rounded() * step;
 }
 
 double radius_of(std::span<const Facet> facets) {

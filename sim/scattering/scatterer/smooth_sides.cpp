@@ -6,9 +6,8 @@
 #include <limits>
 #include <utility>
 
-#include <Eigen/Geometry>
-
 #include "sim/core/numbers/linear.h"
+#include "sim/core/numbers/rotation.h"
 
 namespace seaglint {
 namespace {
@@ -140,7 +139,7 @@ class ShapeTest {
       // Of the turn, its part about the axis square to the line counts.
       const Vec3 along = (facets_[f].corner[(exit + 1) % 3] - facets_[f].corner[exit]) / length_[f][exit];
       sum += turn_[f][exit] * std::abs(along.cross(direction).dot(normal));
-      direction = Eigen::Quaterniond::FromTwoVectors(normal, facets_[g].normal) * direction;
+      direction = rotation_between(normal, facets_[g].normal) * direction;
       if (std::abs(sum) > kStripTurn * std::abs(start)) reach = std::min(reach, kReach * length);
       if (std::abs(sum) >= kLeastTurn * std::abs(start))
         return sum * start > 0 && std::abs(sum) <= kLargestTurn * std::abs(start);

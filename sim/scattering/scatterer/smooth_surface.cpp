@@ -17,7 +17,7 @@ Mat3 normal_derivative(const Facet& facet, const std::array<Vec3, 3>& normal) {
   const Vec3 across = e1.cross(e2);
   // Dual basis of e1, e2 in the facet's plane.
   const Vec3 d1 = e2.cross(across) / across.squaredNorm(), d2 = across.cross(e1) / across.squaredNorm();
-  return (normal[1] - normal[0]) * d1.transpose() + (normal[2] - normal[0]) * d2.transpose();
+  return outer_product(normal[1] - normal[0], d1) + outer_product(normal[2] - normal[0], d2);
 }
 
 }  // namespace

@@ -6,8 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include <Eigen/Eigenvalues>
-
+#include "sim/core/numbers/principal_axes.h"
 #include "sim/core/numbers/smooth_step.h"
 #include "sim/geometry/mesh/crease_normals.h"
 #include "sim/geometry/mesh/index_groups.h"
@@ -36,13 +35,13 @@ double face_width(std::span<const Facet> facets, std::span<const std::uint32_t> 
     const Vec3 centre = (a + b + c) / 3;
     area += own;
     first += own * centre;
-    second += own / 12 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + 9 * centre * centre.transpose());
+    second += own / 12 *
+              (outer_product(a, a) + outer_product(b, b) + outer_product(c, c) + outer_product(9 * centre, centre));
   }
   const Vec3 mean = first / area;
-  const Mat3 about = second / area - mean * mean.transpose();
+  const Mat3 about = second / area - outer_product(mean, mean);
   // Moments in the plane: the two larger eigenvalues; the smallest belongs to the normal.
-  const Eigen::SelfAdjointEigenSolver<Mat3> moments(about, Eigen::EigenvaluesOnly);
-  return std::sqrt(12 * std::max(0.0, moments.eigenvalues()[1]));
+  return std::sqrt(12 * std::max(0.0, principal_axes(about).values[1]));
 }
 
 std::vector<double> facet_widths(std::span<const Facet> facets) {

@@ -7,9 +7,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include <Eigen/Eigenvalues>
-
 #include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/principal_axes.h"
 #include "sim/core/process/error.h"
 
 namespace seaglint {
@@ -98,9 +97,9 @@ std::vector<SurfaceShape> surface_shapes(const Scatterer& scatterer) {
   }
   for (SurfaceShape& shape : shapes) shape.centre /= static_cast<double>(shape.facets);
   for (std::size_t f = 0; f < facets.size(); ++f) {
-    for (const Vec3& x : facets[f].corner) at(f).moment += (x - at(f).centre) * (x - at(f).centre).transpose();
+    for (const Vec3& x : facets[f].corner) at(f).moment += outer_product(x - at(f).centre, x - at(f).centre);
   }
-  for (SurfaceShape& shape : shapes) shape.moment = Eigen::SelfAdjointEigenSolver<Mat3>(shape.moment).eigenvectors();
+  for (SurfaceShape& shape : shapes) shape.moment = principal_axes(shape.moment).axes;
   for (std::size_t f = 0; f < facets.size(); ++f) {
     for (const Vec3& corner : facets[f].corner) {
       const Vec3 x = at(f).moment.transpose() * (corner - at(f).centre);

@@ -40,7 +40,7 @@ struct ArrivingRays {
     return bundle.position_map.matrix + further_path(p) * bundle.direction_map.matrix;
   }
   Mat2 panel_spreading(const Vec2& p) const {
-    return spreading(p) + bundle.direction_map.at(p) * path_slope.transpose();
+    return spreading(p) + outer_product(bundle.direction_map.at(p), path_slope);
   }
   // psi of the further path, - further_path |tilt|^2 / 2, m, and its gradient.
   double further_phase(const Vec2& p) const {

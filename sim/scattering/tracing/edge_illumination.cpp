@@ -69,11 +69,11 @@ std::vector<IlluminatedInterval> illuminated_intervals(const Vec3& image, const 
       // edge.
       if (interval.s[0] < 0) {
         interval.s[0] = 0;
-        interval.slip[0].setZero();
+        interval.slip[0] = Vec2::Zero();
       }
       if (interval.s[1] > length) {
         interval.s[1] = length;
-        interval.slip[1].setZero();
+        interval.slip[1] = Vec2::Zero();
       }
       if (interval.s[1] - interval.s[0] > kCoincident) intervals.push_back(interval);
     }

@@ -40,7 +40,7 @@ RayLattice::RayLattice(const Scatterer& scatterer, const RadarBasis& basis, doub
   }
   lower_ = all.lower - Vec2::Constant(0.5 * spacing_m);
   const Vec2 size = all.upper - lower_ + Vec2::Constant(0.5 * spacing_m);
-  const double rays = (size / spacing_m).prod();
+  const double rays = size.x() / spacing_m * (size.y() / spacing_m);
   if (rays > kMaxRays)
     throw InputError(fmt::format("rays {:.4g} m apart over a target of {:.4g} x {:.4g} m are {:.2g}, more than {:.0e}",
                                  spacing_m, size.x(), size.y(), rays, kMaxRays));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "sim/core/numbers/rotation.h"
 #include "sim/scattering/geometry/tolerances.h"
 #include "sim/scattering/tracing/beam_tracer.h"
 #include "sim/scattering/tracing/prism_search.h"
@@ -34,8 +35,7 @@ RadarBasis perturbed_look_direction(const Scatterer& scatterer, const RadarBasis
   // requires another axis.
   RadarBasis aside = basis;
   for (const Vec2& axis : {Vec2(1, -1), Vec2(1, 0.6), Vec2(0.3, 1), Vec2(1, 0.1), Vec2(-0.2, 1)}) {
-    const Mat3 turn =
-        Eigen::AngleAxisd(kLookPerturbation, (axis.x() * basis.h + axis.y() * basis.v).normalized()).toRotationMatrix();
+    const Mat3 turn = axis_rotation(kLookPerturbation, (axis.x() * basis.h + axis.y() * basis.v).normalized());
     aside = {turn * basis.r, turn * basis.h, turn * basis.v};
     if (!has_a_limit(aside.r)) break;
   }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "sim/core/numbers/rotation.h"
 #include "sim/core/process/error.h"
 #include "tests/sim/cavity/guide.h"
 
@@ -94,7 +95,7 @@ TEST(CavityAperture, RefusesSurfacesThatAreNoCavity) {
 
   // Its two halves with their apertures facing each other.
   TriangleMesh closed = guide(0.3, 0.2, 0.5);
-  const Mat3 half_turn = Vec3(-1, -1, 1).asDiagonal();
+  const Mat3 half_turn(-Vec3::UnitX(), -Vec3::UnitY(), Vec3::UnitZ());
   closed.append(transformed(closed, half_turn, Vec3(0, 0.3, 0)));
   refused(welded(closed), "closed");
 
@@ -106,7 +107,7 @@ TEST(CavityAperture, RefusesSurfacesThatAreNoCavity) {
   TriangleMesh sharing = guide(0.3, 0.2, 0.5), touching = sharing;
   sharing.append(transformed(guide(0.3, 0.2, 0.5), Mat3::Identity(), Vec3(0, 0.3, 0.2)));
   refused(welded(sharing), "more than two triangles");
-  const Mat3 tilt = Eigen::AngleAxisd(0.1, Vec3::UnitY()).toRotationMatrix();
+  const Mat3 tilt = axis_rotation(0.1, Vec3::UnitY());
   touching.append(transformed(guide(0.3, 0.2, 0.5), tilt, Vec3(0, 0.3, 0.2)));
   refused(welded(touching), "touches itself");
 

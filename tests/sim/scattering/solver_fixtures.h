@@ -15,6 +15,7 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/random.h"
+#include "sim/core/numbers/rotation.h"
 #include "sim/geometry/shapes/generators.h"
 #include "tests/sim/scattering/solve_calls.h"
 #include "tests/sim/scattering/solve_calls.h"
@@ -73,8 +74,8 @@ inline TriangleMesh cut_plate(double length, double width, std::uint32_t cells) 
 // the exit path.
 inline TriangleMesh stepped_corner() {
   TriangleMesh mesh = make_square_trihedral(0.4);
-  mesh.append(transformed(make_plate(0.11, 0.13),
-                          Eigen::AngleAxisd(0.4, Vec3(1, 2, 0.5).normalized()).toRotationMatrix(), {0.35, 0.22, 0.17}));
+  mesh.append(
+      transformed(make_plate(0.11, 0.13), axis_rotation(0.4, Vec3(1, 2, 0.5).normalized()), {0.35, 0.22, 0.17}));
   return mesh;
 }
 

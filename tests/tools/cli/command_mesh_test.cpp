@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "sim/core/numbers/rotation.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/geometry/files/mesh_io.h"
@@ -102,7 +103,7 @@ TEST(MeshPicture, DrawsThePlateThatFacesTheViewerOnWhite) {
 
 TEST(MeshPicture, HasTheBowOnTheLeftSeenFromPort) {
   // A plate at x = 10 and a smaller one at x = -10, both seen from port.
-  const Mat3 rotation = Eigen::AngleAxisd(0.5 * 3.14159265358979, Vec3::UnitZ()).toRotationMatrix();
+  const Mat3 rotation = axis_rotation(0.5 * 3.14159265358979, Vec3::UnitZ());
   TriangleMesh mesh = transformed(make_plate(4, 4), rotation, Vec3(10, 0, 0));
   mesh.append(transformed(make_plate(1, 1), rotation, Vec3(-10, 0, 0)));
   const Picture picture = picture_of(mesh, {.azimuth_deg = 90, .elevation_deg = 0, .width = 300});

@@ -143,7 +143,7 @@ TEST(Alignment, FindsAFarOrigin) {
   disturb(points, origin, -2, false, 1);
   const Alignment found = fit_alignment(points, 2);
   EXPECT_FALSE(found.conjugated);
-  EXPECT_LT((found.origin_m - origin).head<2>().norm(), kSpeedOfLight / 9.7e9 / 50);
+  EXPECT_LT((found.origin_m - origin).xy().norm(), kSpeedOfLight / 9.7e9 / 50);
   // One elevation leaves a direction undetermined that is not quite the vertical: the origin's component along it is 0.
   ASSERT_EQ(found.undetermined.size(), 1u);
   const Vec3 axis = found.undetermined[0], determined = origin - axis * axis.dot(origin);

@@ -78,7 +78,7 @@ TEST(KnownValues, OfATotalIsTheSumOverBothReceivedPolarisations) {
 
 TEST(KnownValues, OfAPlateAreThoseOfItsMainLobe) {
   CanonicalBody plate{CanonicalShape::kPlate, Vec3::Zero(), 0.3, 0.2, Mat3::Identity()};
-  plate.axes << 0, 0, 1, 1, 0, 0, 0, 1, 0;  // sides along y and z, normal along x
+  plate.axes = {Vec3::UnitY(), Vec3::UnitZ(), Vec3::UnitX()};  // sides along y and z, normal along x
   const double peak = 10 * std::log10(4 * kPi * std::pow(0.06 * 10e9 / kSpeedOfLight, 2));
   std::vector<PairedCut> cuts{flat_cut(Polarisation::kHh, peak + 1, peak)};
   const auto known = known_values(cuts, std::vector{plate}, 80);

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/rotation.h"
 #include "sim/core/process/error.h"
 #include "sim/geometry/mesh/topology.h"
 #include "sim/geometry/shapes/generators.h"
@@ -26,7 +27,7 @@ bool keeps_doubles(const std::string& name) { return name.ends_with(".obj") || n
 
 TEST_F(MeshFile, EveryFormatPreservesTheTriangles) {
   TriangleMesh mesh = make_icosahedral_reflector();
-  mesh = transformed(mesh, Eigen::AngleAxisd(0.3, Vec3(1, 2, 3).normalized()).toRotationMatrix(), Vec3(2, -1, 5));
+  mesh = transformed(mesh, axis_rotation(0.3, Vec3(1, 2, 3).normalized()), Vec3(2, -1, 5));
   for (const char* name : {"a.glb", "a.gltf", "a.obj", "a.stl", "a.ply"}) {
     SCOPED_TRACE(name);
     write_mesh(folder / name, mesh);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/rotation.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/mesh/crease_normals.h"
 #include "sim/geometry/mesh/mesh_diagnostics.h"
@@ -121,7 +122,7 @@ TEST_F(MeshNormals, ThatAreInvalidRefuseNoFileAndAreCounted) {
 
 TEST_F(MeshNormals, FollowTheOperationsOnAMesh) {
   TriangleMesh mesh = sphere_with_normals();
-  const Mat3 R = Eigen::AngleAxisd(0.8, Vec3(1, -1, 2).normalized()).toRotationMatrix();
+  const Mat3 R = axis_rotation(0.8, Vec3(1, -1, 2).normalized());
   const Vec3 shift(3, 1, -0.5);
   EXPECT_LT(error_on_sphere(transformed(mesh, R, shift), shift), 1e-14);
 

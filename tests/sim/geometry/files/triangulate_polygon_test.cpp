@@ -9,6 +9,7 @@
 #include <string>
 
 #include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/rotation.h"
 
 namespace seaglint {
 namespace {
@@ -72,7 +73,7 @@ void expect_covers(const Corners& corner, double area) {
 
 // From every first vertex, in both orientations, seen from any side and away from the origin.
 void expect_covers_however_written(Corners corner, double area) {
-  const Mat3 R = Eigen::AngleAxisd(1.1, Vec3(1, -2, 0.5).normalized()).toRotationMatrix();
+  const Mat3 R = axis_rotation(1.1, Vec3(1, -2, 0.5).normalized());
   for (std::size_t start = 0; start < corner.size(); ++start) {
     SCOPED_TRACE("from corner " + std::to_string(start));
     std::rotate(corner.begin(), corner.begin() + 1, corner.end());

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sim/core/numbers/random.h"
+#include "sim/core/numbers/rotation.h"
 #include "sim/geometry/shapes/generators.h"
 
 namespace seaglint {
@@ -58,7 +59,7 @@ TEST(BoundingSphere, OfKnownBodies) {
 TEST(BoundingSphere, TurnsAndMovesWithTheBody) {
   const std::vector<Vec3> points = random_points(7, 500);
   const Sphere sphere = bounding_sphere(points);
-  const Mat3 R = Eigen::AngleAxisd(1.1, Vec3(1, -2, 0.5).normalized()).toRotationMatrix();
+  const Mat3 R = axis_rotation(1.1, Vec3(1, -2, 0.5).normalized());
   const Vec3 shift(1000, -200, 30);
   std::vector<Vec3> moved;
   for (const Vec3& p : points) moved.push_back(R * p + shift);

@@ -8,6 +8,7 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/random.h"
+#include "sim/core/numbers/rotation.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/mesh/mesh_builder.h"
 #include "sim/geometry/mesh/mesh_changes.h"
@@ -93,7 +94,7 @@ TEST(CoincidingFaces, AreOneSheetHoweverTheBacksAreCut) {
 
 // Float32 rounds the corners of the cuts, and six digits those of a file.
 TEST(CoincidingFaces, MayDifferByTheRoundingOfTheirCorners) {
-  Mat3 R = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+  Mat3 R = axis_rotation(0.7, Vec3(1, 2, 3).normalized());
   const TriangleMesh sheet = transformed(make_plate(3, 2), R, {20, 30, 5});
   const TriangleMesh backs = cut_in_four(cut_in_four(turned_over(sheet), true), true);
   EXPECT_EQ(diagnose(both(sheet, backs)).covered, backs.triangles.size());

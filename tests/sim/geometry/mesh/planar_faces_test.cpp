@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Planar faces of a mesh: the same triangles however the faces were cut, and the same surface.
 #include "sim/geometry/mesh/planar_faces.h"
+#include "sim/core/numbers/rotation.h"
 
 #include <gtest/gtest.h>
 
@@ -80,7 +81,7 @@ TEST(PlanarFaces, HaveTheSameTrianglesHoweverTheyWereCutAndNumbered) {
 
 // Midpoints rounded to float32 leave faces planar within that rounding.
 TEST(PlanarFaces, AbsorbRoundingOfCoordinates) {
-  const Mat3 turn = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+  const Mat3 turn = axis_rotation(0.7, Vec3(1, 2, 3).normalized());
   TriangleMesh cut = transformed(box({1, 0.7, 0.3}), turn, Vec3::Zero());
   for (int i = 0; i < 3; ++i) cut = cut_in_four(cut, true);
   EXPECT_EQ(merge_planar_faces(cut, kTolerance).mesh.triangles.size(), 12u);
@@ -111,7 +112,7 @@ TEST(PlanarFaces, KeepSheetsJoinedAtNonManifoldEdges) {
   TriangleMesh sheets = make_plate(1, 1);
   const Vec3 side(0, -0.5, 0);
   for (const double angle : {0.9, 2.1}) {
-    const Mat3 turn = Eigen::AngleAxisd(angle, Vec3::UnitZ()).toRotationMatrix();
+    const Mat3 turn = axis_rotation(angle, Vec3::UnitZ());
     sheets.append(transformed(make_plate(1, 1), turn, side - turn * side));
   }
   TriangleMesh cut = welded(sheets);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/rotation.h"
 #include "sim/geometry/mesh/index_groups.h"
 #include "sim/geometry/mesh/mesh_builder.h"
 #include "sim/geometry/shapes/generators.h"
@@ -95,7 +96,7 @@ TEST(Topology, AcceptsNonManifoldEdgesAndDegenerateTriangles) {
 TEST(Topology, TwoClosedPartsWithACommonEdgeAreEachClosed) {
   TriangleMesh first = unit_cube(), second = unit_cube();
   second.part_names = {"other"};
-  const Mat3 half_turn = Eigen::AngleAxisd(kPi, Vec3::UnitZ()).toRotationMatrix().array().round();
+  const Mat3 half_turn(-Vec3::UnitX(), -Vec3::UnitY(), Vec3::UnitZ());
   first.append(transformed(second, half_turn, Vec3::Zero()));
   const TriangleMesh both = welded(first);
   EXPECT_EQ(both.vertices.size(), 14u);
@@ -124,7 +125,7 @@ TEST(TriangleMesh, AppendMatchesPartsAndMaterialsByName) {
 
 TEST(TriangleMesh, RotationAndTranslationKeepAreaAndVolume) {
   const TriangleMesh mesh = make_icosahedral_reflector();
-  const Mat3 R = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+  const Mat3 R = axis_rotation(0.7, Vec3(1, 2, 3).normalized());
   const TriangleMesh moved = transformed(mesh, R, Vec3(10, -5, 2));
   EXPECT_NEAR(enclosed_volume(moved), enclosed_volume(mesh), 1e-12);
   EXPECT_NEAR(surface_area(moved), surface_area(mesh), 1e-12);

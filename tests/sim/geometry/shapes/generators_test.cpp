@@ -36,7 +36,7 @@ TEST(DihedralMesh, IsOpenForwardWithItsAngleAtAVerticalSeam) {
     ++seams;
     EXPECT_NEAR(wedge.exterior_angle, radians(90), kRounding);
     for (std::uint32_t v : topology.edges[wedge.edge].vertices) {
-      EXPECT_NEAR(dihedral.vertices[v].head<2>().norm(), 0, kRounding);
+      EXPECT_NEAR(dihedral.vertices[v].xy().norm(), 0, kRounding);
     }
   }
   EXPECT_EQ(seams, 1);

@@ -66,7 +66,7 @@ TEST(Assets, HaveTheNormalsOfTheShipsSmoothSurfaces) {
       smooth += n.isZero(0) ? 0 : 1;
       // A corner without a normal has that of its triangle in the file, or none.
       const Vec3& read = again.corner_normals[t][i];
-      EXPECT_LT((read - (n.isZero(0) ? (read.isZero(0) ? Vec3::Zero().eval() : own) : n)).norm(), 1.1e-7);
+      EXPECT_LT((read - (n.isZero(0) ? (read.isZero(0) ? Vec3::Zero() : own) : n)).norm(), 1.1e-7);
     }
   }
   EXPECT_GT(smooth, 12000u) << "the hull's triangles";

@@ -100,7 +100,7 @@ TEST_F(ShipMesh, HullPlatesAreSmallAndOfVaryingNormals) {
       longest = std::max(longest,
                          (hull.vertices[hull.triangles[t][(i + 1) % 3]] - hull.vertices[hull.triangles[t][i]]).norm());
     }
-    EXPECT_LT(longest, 3.5) << hull.vertices[hull.triangles[t][0]].transpose();
+    EXPECT_LT(longest, 3.5) << "triangle " << t;
     flare.push_back(degrees(std::asin(n.z())));
   }
   std::sort(flare.begin(), flare.end());

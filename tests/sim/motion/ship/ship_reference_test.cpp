@@ -56,13 +56,14 @@ Misfit misfit_to(const RaoTable& table, const ShipParticulars& ship) {
         ours += energy * Vec3(std::norm(a.roll), std::norm(a.pitch), std::norm(a.yaw));
         theirs += energy * Vec3(std::norm(b.roll), std::norm(b.pitch), std::norm(b.yaw));
       }
-      const Vec3 off = ours.cwiseQuotient(theirs).cwiseSqrt() - Vec3::Ones();
-      misfit.rms += off.cwiseAbs2();
+      Vec3 off;
+      for (int axis = 0; axis < 3; ++axis) off[axis] = std::sqrt(ours[axis] / theirs[axis]) - 1;
+      misfit.rms += off.cwiseProduct(off);
       misfit.worst = misfit.worst.cwiseMax(off.cwiseAbs());
       cases += 1;
     }
   }
-  misfit.rms = (misfit.rms / cases).cwiseSqrt();
+  for (double& rms : misfit.rms) rms = std::sqrt(rms / cases);
   std::printf("roll, pitch, yaw: rms %.3f %.3f %.3f, worst %.3f %.3f %.3f\n", misfit.rms.x(), misfit.rms.y(),
               misfit.rms.z(), misfit.worst.x(), misfit.worst.y(), misfit.worst.z());
   return misfit;
@@ -98,7 +99,7 @@ TEST(S175, RollDampingMatchesAnotherStripTheory) {
   for (std::size_t row = 0; row < reference.rows(); ++row) {
     const double omega = reference.number(row, 0);
     if (omega < 0.19 || omega > 0.61) continue;
-    const double damping = -ship.strips->radiation(omega, 0).lateral(1, 1).imag() / omega;
+    const double damping = -ship.strips->radiation(omega, 0).lateral[1][1].imag() / omega;
     // The forms for the lines 25 %, the reference's own rounding 3e4 N m s (its first value is as much below 0).
     EXPECT_NEAR(damping, reference.number(row, 1), 0.25 * reference.number(row, 1) + 4e4) << omega;
   }

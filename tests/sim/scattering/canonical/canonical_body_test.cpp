@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/rotation.h"
 #include "sim/geometry/shapes/generators.h"
 
 namespace seaglint {
@@ -14,7 +15,7 @@ namespace {
 
 // Moved and turned so that no axis or origin is special.
 TriangleMesh displaced(const TriangleMesh& mesh) {
-  const Mat3 rotation = (Eigen::AngleAxisd(0.4, Vec3(1, 2, -0.5).normalized())).toRotationMatrix();
+  const Mat3 rotation = (axis_rotation(0.4, Vec3(1, 2, -0.5).normalized())).toRotationMatrix();
   return transformed(mesh, rotation, Vec3(3, -2, 0.7));
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Exact and closed-form echoes: independent series, published peaks, reciprocity, and the solver by physical optics.
 #include "sim/scattering/canonical/canonical_echo.h"
+#include "sim/core/numbers/rotation.h"
 
 #include <gtest/gtest.h>
 
@@ -96,7 +97,7 @@ TEST(ClosedForms, HaveTheirPublishedPeaks) {
 // Amplitude and phase of the solver's physical optics agree to the relative error that the closed form states, for
 // bodies turned and moved; a dihedral whose seam is inclined has a cross-polar echo.
 TEST(ClosedForms, AreThoseOfTheSolverWithinTheirStatedError) {
-  const Mat3 turn = Eigen::AngleAxisd(0.6, Vec3(1, -2, 0.7).normalized()).toRotationMatrix();
+  const Mat3 turn = axis_rotation(0.6, Vec3(1, -2, 0.7).normalized());
   const Vec3 origin(0.2, -0.1, 0.3), trihedral_axis = direction(45, 35.2643896827547);
   const double f = 16e9;
   const std::vector<std::pair<TriangleMesh, Vec3>> cases{{make_plate(0.3, 0.2), Vec3::UnitX()},

@@ -217,9 +217,10 @@ TEST(FringeCurrent, IsFiniteEverywhereButAlongTheGrazingRay) {
     // Backscatter, as in every monostatic sweep: the received component is normal to the direction.
     for (const double N : {1.2, 1.5, 2.0}) {
       const Vec3 K = fringe_current(wedge(N), k_hat, E, -k_hat);
-      EXPECT_LT((K - k_hat * k_hat.dot(K)).cwiseAbs().maxCoeff(), 1) << N << ' ' << k_hat.transpose();
+      EXPECT_LT((K - k_hat * k_hat.dot(K)).cwiseAbs().maxCoeff(), 1)
+          << N << ' ' << k_hat.x() << ' ' << k_hat.y() << ' ' << k_hat.z();
       const auto [all, again] = equivalent_edge_currents(wedge(N), k_hat, {E, E}, -k_hat);
-      EXPECT_LT((all - K).norm(), 1e-12) << N << ' ' << k_hat.transpose();
+      EXPECT_LT((all - K).norm(), 1e-12) << N << ' ' << k_hat.x() << ' ' << k_hat.y() << ' ' << k_hat.z();
     }
   }
 }

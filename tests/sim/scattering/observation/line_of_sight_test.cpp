@@ -132,7 +132,7 @@ TEST(MovingRadar, PointsOverTheSeaHaveFourPathsPerPulseDirection) {
       }
     }
     // Rounding of directions (1e-16) times phases of 2 k |x|, 3e4 rad.
-    EXPECT_LT(std::sqrt(difference / power), 1e-10) << velocity.transpose();
+    EXPECT_LT(std::sqrt(difference / power), 1e-10) << velocity.x() << ' ' << velocity.y() << ' ' << velocity.z();
   }
 }
 
@@ -165,7 +165,7 @@ TEST(MovingRadar, IntervalResultOverTheSeaMatchesPerPulseDirections) {
     }
     fmt::print("radar at {}, {}, {} m/s over the sea: {:.1f} dB\n", velocity.x(), velocity.y(), velocity.z(),
                10 * std::log10(difference / power));
-    EXPECT_LT(std::sqrt(difference / power), 0.01) << velocity.transpose();
+    EXPECT_LT(std::sqrt(difference / power), 0.01) << velocity.x() << ' ' << velocity.y() << ' ' << velocity.z();
     best_db = std::min(best_db, 10 * std::log10(difference / power));
     worst_db = std::max(worst_db, 10 * std::log10(difference / power));
   }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "sim/core/numbers/rotation.h"
 #include "sim/core/process/error.h"
 #include "sim/geometry/shapes/generators.h"
 #include "sim/scattering/coefficients/reflection.h"
@@ -202,7 +203,7 @@ TEST(CoatedTarget, IntervalFollowsTheCoefficientsOfACurvedSurface) {
 }
 
 TEST(CoatedTarget, IsInvariantToCommonRotation) {
-  const Mat3 rotation = Eigen::AngleAxisd(1.1, Vec3(0.3, -1, 0.6).normalized()).toRotationMatrix();
+  const Mat3 rotation = axis_rotation(1.1, Vec3(0.3, -1, 0.6).normalized());
   const MaterialSpec material = library("ram_loaded_epoxy");
   const RadarBasis basis = radar_basis(direction(41, 22));
   const RadarBasis rotated{rotation * basis.r, rotation * basis.h, rotation * basis.v};

@@ -8,6 +8,7 @@
 #include <sstream>
 #include <vector>
 
+#include "sim/core/numbers/rotation.h"
 #include "sim/geometry/shapes/generators.h"
 #include "sim/scattering/points/phase_integral.h"
 #include "sim/scattering/points/decomposition.h"
@@ -241,8 +242,7 @@ TEST(CurvedSurface, CylinderOnAPlateHasTheTopHatsEcho) {
   for (const int segments : {72, 144, 288}) {
     TriangleMesh hat =
         transformed(make_cylinder(radius, height, segments), Mat3::Identity(), {0, 0, 0.5 * height + 1e-4});
-    TriangleMesh floor =
-        transformed(make_plate(4, 4), Eigen::AngleAxisd(-kPi / 2, Vec3::UnitY()).toRotationMatrix(), Vec3::Zero());
+    TriangleMesh floor = transformed(make_plate(4, 4), axis_rotation(-kPi / 2, Vec3::UnitY()), Vec3::Zero());
     hat.append(floor);
     std::array<double, 2> mean{};
     for (int mode = 0; mode < 2; ++mode) {
@@ -388,7 +388,7 @@ TEST(CurvedSurface, IsValidOverAnAspectChangeAtAnyPosition) {
       const Complex from_points = direct_sum(points, k, there - r)[kVvChannel];
       // Half the aspect change squared times the distance, k 20 (1.2e-3)^2 = 0.006 rad; frozen amplitudes 0.2 %.
       EXPECT_LT(std::abs(from_points - independent), 0.01 * std::abs(independent))
-          << place.transpose() << ", aspect change " << aspect_change_deg;
+          << place.x() << ' ' << place.y() << ' ' << place.z() << ", aspect change " << aspect_change_deg;
     }
   }
 }

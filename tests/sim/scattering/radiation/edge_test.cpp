@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "sim/core/numbers/random.h"
+#include "sim/core/numbers/rotation.h"
 #include "sim/core/numbers/sinc.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/shapes/generators.h"
@@ -146,9 +147,9 @@ TEST(PlateEdges, HaveNoSpikesInAFullSweep) {
 TEST(PlateEdges, EdgeOnEchoIsContinuousForAnyOrientation) {
   const double k = wavenumber(10e9);
   for (const double rotation_deg : {0.0, 20.0, 45.0, 90.0, 135.0, 160.0}) {
-    const Mat3 rotation = Eigen::AngleAxisd(radians(rotation_deg), Vec3::UnitX()).toRotationMatrix();
-    const Scatterer sheet(transformed(
-        make_plate(0.3, 0.2), rotation * Eigen::AngleAxisd(kPi / 2, Vec3::UnitY()).toRotationMatrix(), Vec3::Zero()));
+    const Mat3 rotation = axis_rotation(radians(rotation_deg), Vec3::UnitX());
+    const Scatterer sheet(
+        transformed(make_plate(0.3, 0.2), rotation * axis_rotation(kPi / 2, Vec3::UnitY()), Vec3::Zero()));
     const double exactly = largest(echo(sheet, radar_basis(direction(0, 0)), k, 0, 8, true));
     const double off_plane = largest(echo(sheet, radar_basis(direction(1e-3, 1.3e-3)), k, 0, 8, true));
     EXPECT_GT(exactly, 0.5 * off_plane) << rotation_deg;
@@ -160,7 +161,7 @@ TEST(PlateEdges, EdgeOnEchoIsContinuousForAnyOrientation) {
 // as at the origin, but for the phase.
 TEST(PlateEdges, EdgeOnEchoIndependentOfPosition) {
   const double k = wavenumber(10e9);
-  const Mat3 flat = Eigen::AngleAxisd(kPi / 2, Vec3::UnitY()).toRotationMatrix();
+  const Mat3 flat = axis_rotation(kPi / 2, Vec3::UnitY());
   for (const double elevation_deg : {0.0, 5e-4}) {
     const Vec3 r = direction(0, elevation_deg);
     const Complex here = echo(Scatterer(transformed(make_plate(0.2, 0.2), flat, Vec3::Zero())), radar_basis(r), k, 0, 8,
@@ -172,7 +173,7 @@ TEST(PlateEdges, EdgeOnEchoIndependentOfPosition) {
       // Exactly in its plane the look direction is perturbed by 1e-6 rad, and vertices lie within 1e-7 m of it.
       const double tolerance = 2 * k * (1e-6 * place.norm() + 1e-7);
       EXPECT_LT(std::abs(elsewhere / here * std::polar(1.0, -2 * k * r.dot(place)) - 1.0), tolerance)
-          << elevation_deg << ' ' << place.transpose();
+          << elevation_deg << ' ' << place.x() << ' ' << place.y() << ' ' << place.z();
     }
   }
 }

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <vector>
 
+#include "sim/core/numbers/rotation.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/scattering/coefficients/fade_windows.h"
 #include "sim/scattering/coefficients/transition.h"
@@ -214,7 +215,7 @@ TEST(MultipleDiffraction, AtAnUprightWallIsThatOfTheImage) {
 // cross-polar single diffraction.
 TEST(MultipleDiffraction, OfAGrazingSheetIsReciprocalAndMirrorSymmetric) {
   const double length = 0.3, width = 0.2, k = wavenumber(10e9), edge_amplitude = length / (2 * kPi);
-  const Mat3 lie_down = Eigen::AngleAxisd(kPi / 2, Vec3::UnitY()).toRotationMatrix();
+  const Mat3 lie_down = axis_rotation(kPi / 2, Vec3::UnitY());
   const Scatterer sheet(transformed(make_plate(width, length), lie_down, Vec3::Zero()));
   const double rounding = 1e-12 * edge_amplitude;
   // Relative to the edges' echo: the fourth order, 1 / (2 pi k width) of the others, is truncated; the look direction

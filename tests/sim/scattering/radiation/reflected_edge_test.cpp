@@ -9,6 +9,7 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/scattering/coefficients/fade_windows.h"
+#include "sim/core/numbers/rotation.h"
 
 namespace seaglint {
 namespace {
@@ -128,7 +129,7 @@ TEST(ReflectedEdge, HasNoPoleAskewToTheReflector) {
   const Vec3 beam = in.direction - 2 * n.dot(in.direction) * n;
   double largest = 0;
   for (double off = -0.9; off <= 0.3; off += 1e-4) {
-    out.direction = -(Eigen::AngleAxisd(off, t) * beam);
+    out.direction = -(axis_rotation(off, t) * beam);
     out.E_h = out.direction.unitOrthogonal();
     out.E_v = out.direction.cross(out.E_h);
     for (const double end : endpoint_correction(face, in, out)) largest = std::max(largest, std::abs(end));

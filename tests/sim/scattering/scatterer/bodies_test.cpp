@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sizes of the bodies in a file, and the detail that follows from them.
 #include "sim/scattering/scatterer/bodies.h"
+#include "sim/core/numbers/rotation.h"
 
 #include <gtest/gtest.h>
 
@@ -22,8 +23,7 @@ TriangleMesh at(const TriangleMesh& mesh, const Vec3& place) { return transforme
 
 // A horizontal sheet of `cells` squares along either side.
 TriangleMesh sea(double side, std::uint32_t cells) {
-  return transformed(cut_plate(side, side, cells), Eigen::AngleAxisd(-kPi / 2, Vec3::UnitY()).toRotationMatrix(),
-                     Vec3::Zero());
+  return transformed(cut_plate(side, side, cells), axis_rotation(-kPi / 2, Vec3::UnitY()), Vec3::Zero());
 }
 
 // A hull, a cylinder of 6 m, and a mast of 1 m that intersects it.
@@ -75,7 +75,7 @@ TEST(BodySize, TurnsAndMovesWithTheTarget) {
   mesh.append(sea(40, 11));
   mesh.append(at(make_sphere(0.3, 2), {5, 0, 5}));
   const Scatterer target(mesh);
-  const Mat3 R = Eigen::AngleAxisd(0.7, Vec3(1, 2, -1).normalized()).toRotationMatrix();
+  const Mat3 R = axis_rotation(0.7, Vec3(1, 2, -1).normalized());
   const Scatterer turned(transformed(mesh, R, {800, -100, 30}));
   EXPECT_EQ(turned.bodies().surface_of, target.bodies().surface_of);
   for (std::size_t i = 0; i < target.bodies().radius.size(); ++i)

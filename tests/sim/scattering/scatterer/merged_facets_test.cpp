@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Smooth surfaces with as many facets as their curvature requires.
 #include "sim/scattering/scatterer/merged_facets.h"
+#include "sim/core/numbers/rotation.h"
 
 #include <gtest/gtest.h>
 
@@ -98,7 +99,7 @@ TEST(MergedFacets, FormAClosedSurfaceOfVerticesOfTheMesh) {
       const Vec3& x = facet.corner[i];
       EXPECT_EQ(vertices.count({x.x(), x.y(), x.z()}), 1u);
       // Gradient of the ellipsoid's equation; the normals are means over facets of the fine mesh, stretched by 3.
-      const Vec3 normal = x.cwiseQuotient(Vec3(4, 1, 0.49)).normalized();
+      const Vec3 normal = Vec3(x.x() / 4, x.y(), x.z() / 0.49).normalized();
       EXPECT_GE(facet.normal.dot(normal), std::cos(1.2 * kMaxFacetTilt));
       if (!facet.corner_normal[i].isZero(0)) {
         EXPECT_LT((facet.corner_normal[i] - normal).norm(), 5e-3);
@@ -205,8 +206,7 @@ TEST(MergedFacets, KeepTheBordersOfPartsAndMaterials) {
 TEST(MergedFacets, HaveTheEchoOfTheFineMesh) {
   const TriangleMesh body = scaled(make_sphere(0.5, 6), {1.5, 1, 1});
   TriangleMesh over_plate = body;
-  over_plate.append(
-      transformed(make_plate(2, 2), Eigen::AngleAxisd(-kPi / 2, Vec3::UnitY()).toRotationMatrix(), Vec3(0.9, 0, -0.8)));
+  over_plate.append(transformed(make_plate(2, 2), axis_rotation(-kPi / 2, Vec3::UnitY()), Vec3(0.9, 0, -0.8)));
   // A cylinder of 1 m with round ends.
   TriangleMesh capsule = make_sphere(0.5, 6);
   for (Vec3& x : capsule.vertices) {

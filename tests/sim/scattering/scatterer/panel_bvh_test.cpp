@@ -81,10 +81,10 @@ TEST(PanelBvh, ExcludesAPrismNextToASkewedBox) {
   mesh.triangles = {{0, 1, 2}};
   mesh.triangle_part = mesh.triangle_material = {0};
   const Scatterer triangle(mesh);
-  const Vec3 along = Vec3::Ones().normalized();
+  const Vec3 along = Vec3(1, 1, 1).normalized();
   const RadarBasis across = radar_basis(along);
   const auto walked_at = [&](double h, double v) {
-    const Vec3 centre = 0.5 * Vec3::Ones() - triangle.centre();
+    const Vec3 centre = 0.5 * Vec3(1, 1, 1) - triangle.centre();
     return !walked(triangle, {centre + h * across.h + v * across.v - 5 * along, along}, 0.02).empty();
   };
   // Vertices at 0.816 from its middle, sides at 0.707, two of them normal to h.

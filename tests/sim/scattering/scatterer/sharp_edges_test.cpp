@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "sim/core/numbers/random.h"
+#include "sim/core/numbers/rotation.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/shapes/generators.h"
 #include "sim/scattering/scatterer/scatterer.h"
@@ -37,7 +38,7 @@ TEST(SharpEdges, AreThoseOfAPlateABoxAndADihedral) {
 
 // The collinear length of an edge does not depend on triangulation and position; it ends at a vertex of the face.
 TEST(SharpEdges, HaveTheLengthOfTheirCollinearChain) {
-  const Mat3 rotation = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+  const Mat3 rotation = axis_rotation(0.7, Vec3(1, 2, 3).normalized());
   for (const std::uint32_t pieces : {1u, 16u}) {
     const Scatterer plate(transformed(cut_plate(0.3, 0.2, pieces), rotation, Vec3(40, -7, 3)), {}, 0.0);
     EXPECT_EQ(plate.edges().edges.size(), 4 * pieces);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which facets are samples of a smooth surface, decided by their shape.
 #include "sim/scattering/scatterer/smooth_sides.h"
+#include "sim/core/numbers/rotation.h"
 
 #include <gtest/gtest.h>
 
@@ -94,7 +95,7 @@ TEST(SmoothSides, OfRoughPlanesAreKnuckles) {
 TEST(SmoothSides, AKnuckleStaysAKnuckle) {
   TriangleMesh mesh = make_plate(1, 1);
   const Vec3 hinge(0, 0.5, 0);
-  const Mat3 turn = Eigen::AngleAxisd(radians(10), Vec3::UnitZ()).toRotationMatrix();
+  const Mat3 turn = axis_rotation(radians(10), Vec3::UnitZ());
   mesh.append(transformed(make_plate(1, 1), turn, hinge + turn * hinge));
   EXPECT_EQ(smooth_fraction(welded(mesh)), 0);
   EXPECT_EQ(smooth_fraction(cut_in_four(cut_in_four(welded(mesh)))), 0);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/core/numbers/rotation.h"
 #include "sim/core/process/error.h"
 #include "sim/geometry/shapes/generators.h"
 #include "tests/sim/scattering/solve_calls.h"
@@ -71,7 +72,7 @@ TEST(WavefrontCurvature, CurvedBodyOnTheLineOfSightKeepsItsEcho) {
 // A shadow edge on the axis has no second order, however fast it slides over the plate on which it falls.
 TEST(WavefrontCurvature, SlideOfAShadowEdgeHasNoSecondOrder) {
   const double k = wavenumber(3e9);
-  const Mat3 tilt = Eigen::AngleAxisd(radians(50), Vec3::UnitY()).toRotationMatrix();
+  const Mat3 tilt = axis_rotation(radians(50), Vec3::UnitY());
   TriangleMesh mesh = transformed(make_plate(2, 2), tilt, Vec3::Zero());
   TriangleMesh screen = transformed(make_plate(4, 4), Mat3::Identity(), {8, 0, 2});
   screen.part_names = {"screen"};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reciprocity of scattering matrices and of their contributions: one antenna, over the sea.
 #include "sim/scattering/observation/observation.h"
+#include "sim/core/numbers/rotation.h"
 
 #include <gtest/gtest.h>
 
@@ -23,8 +24,7 @@ const std::array kBand{2 * kPi * 0.95, 2 * kPi, 2 * kPi * 1.05};
 
 // A house on a hull, turned so that no face is along an axis: many bounces, large cross-polarisation.
 const Scatterer& turned_ship() {
-  static const Scatterer ship(
-      transformed(block_ship(), Eigen::AngleAxisd(0.4, Vec3(1, 2, -0.5).normalized()).toRotationMatrix(), {3, -1, 2}));
+  static const Scatterer ship(transformed(block_ship(), axis_rotation(0.4, Vec3(1, 2, -0.5).normalized()), {3, -1, 2}));
   return ship;
 }
 

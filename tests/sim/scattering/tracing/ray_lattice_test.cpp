@@ -22,7 +22,8 @@ TEST(RayLattice, HasOneRayInEveryCellAndTheQuarterThatContainsItsRay) {
     for (const std::int64_t i : {0, 5, 63}) {
       const LatticeCell cell = lattice.cell(tile, i, 7);
       const Vec2 corner = square.lower + side * Vec2(static_cast<double>(i), 7), ray = lattice.ray(cell);
-      EXPECT_TRUE(((ray - corner).array() >= -1e-12).all() && ((ray - corner).array() <= side + 1e-12).all());
+      const Vec2 inside = ray - corner;
+      EXPECT_TRUE(std::min(inside.x(), inside.y()) >= -1e-12 && inside.maxCoeff() <= side + 1e-12);
       const LatticeCell quarter = lattice.quarter(cell, ray);
       EXPECT_EQ(quarter.level, 1);
       EXPECT_EQ(quarter.column, 2 * cell.column + (ray.x() - corner.x() >= side / 2));
@@ -44,7 +45,8 @@ TEST(RayLattice, CoversThePlateAndAimsAtEveryPanelThatFacesTheAntenna) {
     aimed += lattice.aimed(tile).size();
     for (const Vec2& ray : lattice.aimed(tile)) {
       const Box square = lattice.window(tile).boxes()[0];
-      EXPECT_TRUE((ray.array() >= square.lower.array()).all() && (ray.array() < square.upper.array()).all());
+      EXPECT_TRUE(ray.x() >= square.lower.x() && ray.y() >= square.lower.y());
+      EXPECT_TRUE(ray.x() < square.upper.x() && ray.y() < square.upper.y());
     }
   }
   EXPECT_GE(area, std::cos(radians(10)));

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "sim/core/numbers/rotation.h"
 #include "sim/geometry/shapes/generators.h"
 #include "tests/measured.h"
 #include "tests/sim/scattering/solver_fixtures.h"
@@ -68,8 +69,8 @@ TEST(Dihedral, HasOppositeSignsForHhAndVvAndTheApertureFormulasStrength) {
 }
 
 TEST(Dihedral, RotatedBy45DegreesIsPureCrossPolarised) {
-  const TriangleMesh rotated = transformed(make_dihedral(0.25, 0.3, kPi / 2),
-                                           Eigen::AngleAxisd(kPi / 4, Vec3::UnitX()).toRotationMatrix(), Vec3::Zero());
+  const TriangleMesh rotated =
+      transformed(make_dihedral(0.25, 0.3, kPi / 2), axis_rotation(kPi / 4, Vec3::UnitX()), Vec3::Zero());
   const auto s = echo(rotated, Vec3::UnitX(), k16);
   const double expected = std::sqrt(2.0) * 0.3 * 0.25 * k16 / (2 * kPi);
   const double side_lobe = 2 * 0.3 * 0.25 * k16 / (2 * kPi) / (k16 * 0.3);

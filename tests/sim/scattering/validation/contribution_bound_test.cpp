@@ -170,8 +170,8 @@ TEST(ContributionBound, TheDivergenceFactorTendsToZeroAtACaustic) {
       for (const double width : {1e-1, 1e-3, 1e-5}) {
         const std::array corner{Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)};
         CurvedFootprint footprint{corner, Barycentric(corner), {}, {}, {}, {}, {}, true, true, {}, {}, {}};
-        footprint.rays.bundle.position_map.matrix = Vec2(width, 1).asDiagonal();
-        footprint.rays.bundle.direction_map = {Vec2(tilt, -tilt), Vec2(-1, 0).asDiagonal()};
+        footprint.rays.bundle.position_map.matrix = Mat2({width, 0}, {0, 1});
+        footprint.rays.bundle.direction_map = {Vec2(tilt, -tilt), Mat2({-1, 0}, {0, 0})};
         footprint.rays.path_slope = path_slope;
         EXPECT_LE(std::abs(footprint.divergence_factor(Vec2::Zero())), 2 * std::sqrt(width) * (1 + 1e-12));
       }

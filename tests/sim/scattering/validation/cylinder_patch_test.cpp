@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "sim/core/numbers/rotation.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 #include "tests/sim/scattering/validation/reference_bodies.h"
 
@@ -22,7 +23,7 @@ using namespace testing_echoes;
 TriangleMesh cylinder_before(const std::array<Vec2, 2>& rectangle, int strips) {
   TriangleMesh body = transformed(make_cylinder(0.5, 1, strips), Mat3::Identity(), {0, 0, 0.5});
   const Vec2 size = rectangle[1] - rectangle[0], centre = 0.5 * (rectangle[0] + rectangle[1]);
-  const Mat3 level = Eigen::AngleAxisd(-kPi / 2, Vec3::UnitY()).toRotationMatrix();
+  const Mat3 level = axis_rotation(-kPi / 2, Vec3::UnitY());
   body.append(transformed(make_plate(size.y(), size.x()), level, {centre.x(), centre.y(), 0}));
   return body;
 }

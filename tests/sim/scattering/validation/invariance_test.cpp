@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/core/numbers/random.h"
+#include "sim/core/numbers/rotation.h"
 #include "sim/geometry/shapes/generators.h"
 #include "tests/sim/scattering/solve_calls.h"
 #include "tests/sim/scattering/solver_fixtures.h"
@@ -35,7 +36,7 @@ TEST(Invariance, MovingATargetTowardsTheRadarAdvancesThePhase) {
 }
 
 TEST(Invariance, CommonRotationChangesNothing) {
-  const Mat3 rotation = Eigen::AngleAxisd(1.1, Vec3(0.3, -1, 0.6).normalized()).toRotationMatrix();
+  const Mat3 rotation = axis_rotation(1.1, Vec3(0.3, -1, 0.6).normalized());
   const RadarBasis basis = radar_basis(direction(41, 22));
   const RadarBasis rotated{rotation * basis.r, rotation * basis.h, rotation * basis.v};
   const auto before = echo(Scatterer(stepped_corner()), basis, k10, kFine);
@@ -121,7 +122,7 @@ TEST(Invariance, FacetsThatCoincideCountOnce) {
 TEST(Invariance, IntersectingFacetsHideEachOtherBehindTheirCommonLine) {
   // Two crossed plates viewed along the bisector: of each the half in front is visible.
   const auto plate = [](double angle) {
-    return transformed(make_plate(0.4, 0.3), Eigen::AngleAxisd(angle, Vec3::UnitZ()).toRotationMatrix(), Vec3::Zero());
+    return transformed(make_plate(0.4, 0.3), axis_rotation(angle, Vec3::UnitZ()), Vec3::Zero());
   };
   TriangleMesh crossed = plate(radians(30));
   crossed.append(plate(radians(-30)));
@@ -130,7 +131,7 @@ TEST(Invariance, IntersectingFacetsHideEachOtherBehindTheirCommonLine) {
   const auto half = [](double angle, double side) {
     TriangleMesh mesh = make_plate(0.2, 0.3);
     for (Vec3& x : mesh.vertices) x.y() += side * 0.1;
-    return transformed(mesh, Eigen::AngleAxisd(angle, Vec3::UnitZ()).toRotationMatrix(), Vec3::Zero());
+    return transformed(mesh, axis_rotation(angle, Vec3::UnitZ()), Vec3::Zero());
   };
   TriangleMesh visible = half(radians(30), -1);
   visible.append(half(radians(-30), +1));

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "sim/core/numbers/rotation.h"
 #include "tests/measured.h"
 #include "tests/sim/geometry/mesh_changes.h"
 #include "tests/sim/scattering/solver_fixtures.h"
@@ -56,7 +57,7 @@ TEST(MeshInvariance, OfRandomBodies) {
     const TriangleMesh body = random_body(seed);
     const std::vector<Complex> expected = echoes(body);
     Random random({seed, Stream::kTest, 1});
-    const Mat3 turn = Eigen::AngleAxisd(1.1, Vec3(1, -2, 0.5).normalized()).toRotationMatrix();
+    const Mat3 turn = axis_rotation(1.1, Vec3(1, -2, 0.5).normalized());
     const Vec3 shift(12, -9, 3);
     cut = std::max(cut, relative_change(expected, echoes(cut_in_four(cut_in_four(body)))));
     rounded = std::max(rounded, relative_change(expected, echoes(cut_in_four(body, true))));
