@@ -112,7 +112,7 @@ Picture picture_of(const TriangleMesh& mesh, const PictureView& view) {
       high = high.cwiseMax(in_camera_axes(mesh.vertices[v]));
     }
   }
-  const Vec3 size = (high - low).cwiseMax(1e-9);
+  const Vec3 size = (high - low).cwiseMax(Vec3::Constant(1e-9));
   const double margin = kMargin * std::max(size.x(), size.y());
   const double span_x = size.x() + 2 * margin, span_y = size.y() + 2 * margin;
   Picture picture;

@@ -15,7 +15,7 @@
 #include "sim/geometry/placement/mesh_placement.h"
 #include "sim/motion/simulate.h"
 #include "sim/motion/target_motion.h"
-#include "sim/scattering/scatterer/target_check.h"
+#include "sim/scattering/observation/observation.h"
 #include "sim/sea/realisation.h"
 
 namespace seaglint {

@@ -65,7 +65,7 @@ struct HeightsOfBody {
 // `box` of the turned mesh, neither enlarged nor moved.
 HeightsOfBody heights_of(const TargetSpec& spec, const Bounds& box, double scale) {
   const MeshPlacement placement = with_scale(spec, scale);
-  const Vec3 offset(placement.offset_m.data());
+  const Vec3 offset(placement.offset_m);
   const Bounds body{scale * box.lower + offset, scale * box.upper + offset};
   return {body.lower.z(), body.upper.z(), waterline_margin(body)};
 }

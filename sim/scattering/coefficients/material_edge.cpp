@@ -8,6 +8,7 @@
 #include "sim/core/numbers/smooth_step.h"
 #include "sim/scattering/coefficients/fade_windows.h"
 #include "sim/scattering/coefficients/impedance_wedge.h"
+#include "sim/scattering/geometry/tolerances.h"
 
 namespace seaglint {
 namespace {

@@ -61,7 +61,7 @@ class FlatDecomposer {
                  PointWriter& writer)
       : footprint_(footprint),
         transmit_(transmit),
-        is_closed_form_(at.band.nodes().size() == 1 && at.aspect_change_rad <= 0),
+        is_closed_form_(at.is_single()),
         k_(at.band.form().centre()),
         threshold_(threshold),
         writer_(writer) {}
@@ -188,9 +188,8 @@ void decompose_surface(const Contribution& contribution, const Footprint& footpr
     FlatDecomposer(footprint, transmit, at, threshold, writer).run();
     return;
   }
-  const bool is_closed_form = at.band.nodes().size() == 1 && at.aspect_change_rad <= 0;
   const Point prototype = point_of(contribution, at);
-  for (const CurvedTerm& term : curved_terms(footprint, at.band, is_closed_form ? 0 : threshold)) {
+  for (const CurvedTerm& term : curved_terms(footprint, at.band, at.is_single() ? 0 : threshold)) {
     Point& point = out.emplace_back(prototype);
     if (contribution.pattern.at_node.empty()) point.pattern = smooth_pattern(*footprint.curvature, term.p);
     for (std::size_t n = 0; n < at.band.nodes().size(); ++n)
@@ -206,13 +205,11 @@ void decompose_surface(const Contribution& contribution, const Footprint& footpr
 // their part of the interpolation error (kCellHalfPhase).
 constexpr double kPieceHalfPhase = 0.1;  // rad
 
-void decompose_interval(const EdgeInterval& interval, const PointBand& at, double aspect_change_rad,
-                        PointWriter& writer) {
+void decompose_interval(const EdgeInterval& interval, const PointBand& at, PointWriter& writer) {
   const double k = at.band.form().centre(), run = interval.psi[1] - interval.psi[0];
   // An aspect change u changes the slope of psi along the edge by at most 2 u.
-  const double threshold = 2 * aspect_change_rad / kMaxAmplitudeError * interval.length;
-  const bool is_closed_form = at.band.nodes().size() == 1 && aspect_change_rad <= 0;
-  if (!is_closed_form && std::abs(run) > threshold && std::abs(k * run) / 2 > kMaxHalfPhase &&
+  const double threshold = 2 * at.aspect_change_rad / kMaxAmplitudeError * interval.length;
+  if (!at.is_single() && std::abs(run) > threshold && std::abs(k * run) / 2 > kMaxHalfPhase &&
       endpoints_suffice(interval, k)) {
     for (const int end : {0, 1}) {
       const double sign = end == 0 ? -1 : 1;
@@ -222,8 +219,9 @@ void decompose_interval(const EdgeInterval& interval, const PointBand& at, doubl
     return;
   }
   const double slope = std::max(std::abs(run), kMaxAmplitudeError * threshold);
-  const double lengths = aspect_change_rad > 0 ? k * slope / 2 / kMaxHalfPhase
-                                               : at.band.half_width() * slope / 2 / kPieceHalfPhase;
+  const bool is_frozen = at.aspect_change_rad > 0 || at.half_band > 0;
+  const double lengths =
+      is_frozen ? k * slope / 2 / kMaxHalfPhase : at.band.half_width() * slope / 2 / kPieceHalfPhase;
   const int pieces = std::max(1, static_cast<int>(std::ceil(lengths)));
   for (int i = 0; i < pieces; ++i) {
     const double s = (i + 0.5) / pieces, half = 0.5 / pieces;
@@ -359,8 +357,10 @@ void decompose(const Contribution& contribution, const Observation& observation,
       decompose_surface(contribution, *footprint, observation.antennas.transmit, at, out);
     }
   } else {
-    PointWriter writer(contribution, at, out);
-    decompose_interval(*contribution.interval(), at, at.aspect_change_rad + observation.direction_spread, writer);
+    PointBand from_range = at;
+    from_range.aspect_change_rad += observation.direction_spread;
+    PointWriter writer(contribution, from_range, out);
+    decompose_interval(*contribution.interval(), from_range, writer);
   }
   for (std::size_t i = first; is_near && i < out.size(); ++i) curve_wavefront(observation, out[i]);
   append_pattern_change(contribution.pattern, at, first, out);

@@ -15,7 +15,7 @@ namespace seaglint {
 // aspect change times the change of psi's slope along the panel or the edge: an area is replaced by its sides where that
 // slope exceeds u / kMaxAmplitudeError, a side or an edge by its end points where its own slope does; otherwise they are
 // divided into pieces whose own phase stays below kMaxHalfPhase. The relative error is at most kMaxAmplitudeError per
-// end point, and |k / k_node - 1| beyond the nodes of a band. A single node without aspect change has one point.
+// end point, and |k / k_node - 1| beyond the nodes of a band. At a single node and direction a flat footprint or an interval is one point.
 //
 // Reciprocity and the curvature of the wavefront enter here. At a finite range each path is longer by |x_perp|^2 / (2 R),
 // x measured from the point that the range refers to (CONVENTIONS.md, "Plane waves"). Its first order about a

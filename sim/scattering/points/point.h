@@ -25,9 +25,12 @@ struct PointBand {
   FrequencyBand band;
   std::size_t first_node = 0;
   double aspect_change_rad = 0;  // largest change of the look direction from the traced one, 0 <= x < 0.1
-  // Half of a band about a single node, rad/m, over which patterns change linearly: by the nodes before and after it. 0:
-  // constant.
+  // Half of a band about a single node, rad/m: amplitudes are frozen, patterns change linearly, by the nodes before and
+  // after it. 0: the node alone.
   double half_band = 0;
+
+  // The node and the traced direction alone, where closed forms hold.
+  bool is_single() const { return band.nodes().size() == 1 && aspect_change_rad <= 0 && half_band <= 0; }
 };
 
 struct Point {

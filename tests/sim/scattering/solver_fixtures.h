@@ -22,6 +22,8 @@
 
 namespace seaglint::testing_echoes {
 
+inline double norm_of(const CVec3& v) { return std::sqrt(std::norm(v.x()) + std::norm(v.y()) + std::norm(v.z())); }
+
 inline double wavenumber(double frequency_hz) { return 2 * kPi * frequency_hz / kSpeedOfLight; }
 
 inline double dbsm(const Complex& s) { return 10 * std::log10(4 * kPi * std::norm(s)); }

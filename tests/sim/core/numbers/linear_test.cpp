@@ -76,7 +76,7 @@ TEST(Linear, ProductsOfMatricesAssociateAndTransposeInReverse) {
     const Vec3 v = draw.vector();
     const double size = A.norm() * B.norm();
     EXPECT_LE((A * B * v - A * (B * v)).norm(), kRounding * size * v.norm());
-    EXPECT_LE((Mat3((A * B).transpose()) - B.transpose() * A.transpose()).norm(), kRounding * size);
+    EXPECT_LE((Mat3((A * B).transpose()) - Mat3(B.transpose()) * Mat3(A.transpose())).norm(), kRounding * size);
     EXPECT_LE((A.transpose() * v - Mat3(A.transpose()) * v).norm(), kRounding * A.norm() * v.norm());
     EXPECT_NEAR((A * B).determinant(), A.determinant() * B.determinant(), kRounding * size * size * size);
     EXPECT_NEAR((A * B).trace(), (B * A).trace(), kRounding * size);

@@ -15,7 +15,7 @@ namespace {
 
 // Moved and turned so that no axis or origin is special.
 TriangleMesh displaced(const TriangleMesh& mesh) {
-  const Mat3 rotation = (axis_rotation(0.4, Vec3(1, 2, -0.5).normalized())).toRotationMatrix();
+  const Mat3 rotation = axis_rotation(0.4, Vec3(1, 2, -0.5).normalized());
   return transformed(mesh, rotation, Vec3(3, -2, 0.7));
 }
 

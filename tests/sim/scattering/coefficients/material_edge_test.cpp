@@ -42,7 +42,7 @@ double difference(const std::array<CVec3, 2>& a, const std::array<Vec3, 2>& b, c
   double worst = 0;
   for (int i = 0; i < 2; ++i) {
     const CVec3 d = a[i] - b[i].cast<Complex>(), radial = (s.cast<Complex>() * component_along(s, d));
-    worst = std::max(worst, (d - radial).norm());  // the component along s is not received
+    worst = std::max(worst, norm_of(d - radial));  // the component along s is not received
   }
   return worst;
 }
@@ -97,7 +97,7 @@ TEST(MaterialEdge, SubtractsWhatTheFacetsRadiate) {
                              (std::abs(n.dot(k_hat)) / (2 * kPi * (s - k_hat).x()));
         const CVec3 d = without[q] - with[q] - optics;
         const CVec3 received = d - s.cast<Complex>() * component_along(s, d);
-        EXPECT_LT(received.norm(), 1e-9 * (1 + optics.norm())) << is_metal << " " << phi0 << " " << phi << " " << b;
+        EXPECT_LT(norm_of(received), 1e-9 * (1 + norm_of(optics))) << is_metal << " " << phi0 << " " << phi << " " << b;
       }
     }
   }
@@ -126,7 +126,7 @@ TEST(MaterialEdge, OfASheetOfVacuumIsZero) {
                s = towards(2 * kPi * random.uniform(), 0.3 + 2.5 * random.uniform());
     const Vec3 h = k_hat.cross(Vec3::UnitZ()).normalized();
     const auto currents = material_edge_currents(wedge(2), faces, k_hat, {h, k_hat.cross(h)}, s, kShadowBoundaryGuard);
-    EXPECT_LT(currents[0].norm() + currents[1].norm(), 1e-6);  // rounding over the distance from a boundary
+    EXPECT_LT(norm_of(currents[0]) + norm_of(currents[1]), 1e-6);  // rounding over the distance from a boundary
   }
 }
 
@@ -159,7 +159,7 @@ TEST(MaterialEdge, IsContinuousAcrossReflectionBoundaries) {
     };
     for (double step = -4e-3; step < 4e-3; step += 1e-4) {
       const auto a = at(kPi / 2 + step), b = at(kPi / 2 + step + 1e-4);
-      EXPECT_LT((a[0] - b[0]).norm() + (a[1] - b[1]).norm(), 1e-4) << step;
+      EXPECT_LT(norm_of(a[0] - b[0]) + norm_of(a[1] - b[1]), 1e-4) << step;
     }
   }
 }

@@ -176,11 +176,13 @@ DoubleDiffractionSum double_diffraction_sum(const TriangleMesh& mesh, const Bist
   const IlluminationByEdge incoming = reached(geometry.transmit, first), outgoing = reached(geometry.receive, last);
   std::vector<Contribution> contributions;
   trace_multiple_diffraction({scatterer, geometry, {}, outgoing, {}}, incoming.all(), contributions);
+  Observation one_way = observation_of(scatterer, geometry);
+  one_way.sense = PathSense::kOneWay;
   DoubleDiffractionSum sum;
   for (const Contribution& contribution : contributions) {
     const auto* wave = std::get_if<GrazingWaveAmplitude>(&contribution.interval()->amplitude);
     if (!wave || wave->grazing_waves != 1 || contribution.source.bounces != 2 + walls) continue;
-    const auto s = scattered(contribution, observation_of(scatterer, geometry), k);
+    const auto s = scattered(contribution, one_way, k);
     for (int i = 0; i < 4; ++i) sum.S[i] += s[i];
     ++sum.count;
   }

