@@ -39,11 +39,6 @@ inline constexpr FadeWindow kOffConeWindow{0.1, 0.2};
 // contributions must cancel, above the second each may be used alone.
 inline constexpr FadeWindow kOffSpecularWindow{0.1, 0.2};
 
-// End-point contribution of a reflector subtracted from that of the edge which bounds the beam on it: ratio of the
-// slopes of psi on the reflector and on the edge's face, 1 in the direction of the beam, where their poles cancel.
-// Below the first value the slope on the reflector has a zero of its own, where nothing cancels it.
-inline constexpr FadeWindow kCommonPoleWindow{0.25, 0.5};
-
 // End-point contributions at shadow-boundary lines: slope of psi across the line. Below the first value the
 // contribution stays on the line, above the second it is moved to the edge. Both contributions grow as 1 / slope, and
 // an interval of pulses changes the slope by some thousandths. The phase difference k d slope^2 / 2 between the two is

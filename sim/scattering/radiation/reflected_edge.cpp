@@ -23,12 +23,14 @@ Vec3 half_po_current(const Vec3& n, const Vec3& k_hat, const Vec3& E) { return n
 
 // Weight 0..1 of the end-point contribution of the last reflector, for the slopes of psi per metre of the edge's face,
 // `of_face`, and of its image on that reflector, `of_last`; `across`: a metre of either, seen along the beam across the
-// edge. `of_last` is zero in the direction of the beam, as `of_face` is, and, where the edge is not parallel to the
-// reflector, in another direction on Keller's cone. In that one psi varies along the shadow-boundary line, which
-// radiates from its ends only, and beam_boundary.h leaves it there, by the slope across the line.
+// edge. Both slopes are zero in the direction of the beam, where the poles cancel: only the difference of the two
+// contributions must stay finite, 1 / of_last - 1 / of_face = (1 - of_last / of_face) / of_last. Where the edge is not
+// parallel to the reflector, `of_last` has a second zero on Keller's cone, a pole of this difference. psi varies there
+// along the shadow-boundary line, which radiates from its ends only, and beam_boundary.h leaves the contribution there,
+// by the slope across the line.
 double last_end_weight(double of_last, double of_face, double across) {
-  return 1 -
-         smooth_taper(std::abs(of_last) / across, kSlopeWindow) * smooth_taper(of_last / of_face, kCommonPoleWindow);
+  const double not_common = std::max(1 - of_last / of_face, 0.0);
+  return 1 - smooth_taper(std::abs(of_last) / (not_common * across), kSlopeWindow);
 }
 
 }  // namespace
