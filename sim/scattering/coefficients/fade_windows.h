@@ -66,10 +66,6 @@ inline constexpr FadeWindow kFresnelDepthWindow{1, 2.5};
 // Wall penumbra: sine of the grazing angle over the face, 37 and 64 deg.
 inline constexpr FadeWindow kPenumbraAngleWindow{0.6, 0.9};
 
-// Wall penumbra: height of the image's shadow-boundary line on the wall relative to the wall, above which the edge's
-// image in the wall is not visible.
-inline constexpr FadeWindow kWallTopWindow{0.6, 1};
-
 // Edge of a thin sheet: |cos phi| at which the current along its normal vanishes, from zero for a dielectric. Below the
 // first value this zero is split by Wiener and Hopf, above the second it is far from every direction and the sheet has
 // the impedance of the angle (material_edge.h).

@@ -91,13 +91,11 @@ void append_wall_penumbra(const WallBehindEdge& wall, const RadarBasis& antenna,
 
   const PenumbraWeights weights = penumbra_weights(s);
   const double ahead = weights.edge_path;
-  const double past_top = s > 0 ? smooth_taper(mean_distance * s / c / height, kWallTopWindow) : 1,
-               by_edge = weights.foot * past_top;
   // Already radiated by the wall's image, which ends at the line.
-  const double by_image = wall.image_weight * past_top;
+  const double by_image = wall.image_weight;
   const double at_end = 1 / (4 * kPi * std::abs(s)),
                by_path = std::min(at_end, std::sqrt(k * std::max(l[0], l[1]) / kPi) / (2 * kPi));
-  const double at_foot = s > 0 ? weight * (by_edge + by_image) : 0, at_line = s > 0 ? -weight * by_image : weight;
+  const double at_foot = s > 0 ? weight * (weights.foot + by_image) : 0, at_line = s > 0 ? -weight * by_image : weight;
   WallPenumbraTerm range;
   range.l = l;
   range.sine = s;
