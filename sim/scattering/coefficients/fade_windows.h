@@ -56,9 +56,6 @@ inline constexpr FadeWindow kAxialPhaseWindow{0, 1};
 // Path from edge to edge against the beam: rad, limit of the paraxial Fresnel form.
 inline constexpr FadeWindow kParaxialWindow{0.2, 0.5};
 
-// Sine of the angle between two edges, which near their crossing affect no more than lambda d.
-inline constexpr FadeWindow kSkewWindow{0.3, 0.7};
-
 // Boundary and penumbra terms: 2 d / (k depth^2), 1 where the panel is as deep as the transition region (2 d / k)^(1/2)
 // is wide.
 inline constexpr FadeWindow kFresnelDepthWindow{1, 2.5};
