@@ -45,12 +45,8 @@ inline constexpr FadeWindow kOffSpecularWindow{0.1, 0.2};
 // neglected below.
 inline constexpr FadeWindow kSlopeWindow{0.03, 0.08};
 
-// Double knife-edge diffraction on the axis, for edges whose end-point contributions do not move: slope of psi; where
-// the phase k d slope^2 / 2 (next window) leaves any.
-inline constexpr FadeWindow kAxialSlopeWindow{0.1, 0.2};
-
 // Double knife-edge diffraction on the axis: k d slope^2 / 2, rad, the phase by which a moved end-point contribution
-// differs.
+// differs, for edges whose contributions do not move.
 inline constexpr FadeWindow kAxialPhaseWindow{0, 1};
 
 // Path from edge to edge against the beam: rad, limit of the paraxial Fresnel form.

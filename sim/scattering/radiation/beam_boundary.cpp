@@ -154,7 +154,7 @@ class SideBoundaryTerms {
                                                   ? paths_.edge_weight(first, slope_)
                                                   : DiffractedPaths::EdgeWeight{};
     knives.off_axis_weight = moved.weight;
-    knives.axial_weight = (1 - moved.weight) * smooth_taper(std::abs(slope_), kAxialSlopeWindow);
+    knives.axial_weight = 1 - moved.weight;
     const Vec2 exit_direction = paths_.exit_in_plane(side_.across);
     std::array<double, 2> within{};  // distance from the second edge to the landing point of the first one's path, m
     for (std::size_t end = 0; end < 2; ++end) {
