@@ -148,7 +148,8 @@ class MaterialEdge {
     const double phi = behind ? 2 * kPi - out.phi : out.phi, c0 = std::cos(in.phi), c = std::cos(phi);
 
     const SheetSines a = sheet_sines(wave, in), b = sheet_sines(wave, {phi, out.cos_b, out.sin_b});
-    Complex even = impedance_wedge(phi, in.phi, {0.5 * (a.even + b.even), 0.0}, 1),
+    // The geometric mean splits a zero of the even sine between both directions, as the factors below do.
+    Complex even = impedance_wedge(phi, in.phi, {std::sqrt(a.even * b.even), 0.0}, 1),
             odd = impedance_wedge(phi, in.phi, {0.5 * (a.odd + b.odd), kSoftConductor}, 1);
 
     // Zeros of the even sine and of the inverse of the odd one, from normal incidence and 1 rad off it.

@@ -16,7 +16,8 @@
 // Volakis 1995, ch. 2 and 3). The normal polarisation of a dielectric makes sin(theta) of the even part vanish at
 // normal incidence, as B (a^2 - c^2) with c = cos phi: these factors are split by Wiener and Hopf, sqrt((a - c) / (a +
 // c)) for each direction, where |a| is below about 1 (kNormalPolarisationWindow); otherwise the impedance is that of
-// the angle.
+// the angle. The even sine is the geometric mean of both directions, with which the edge of a weak sheet radiates the
+// field of its polarisation.
 
 #include <array>
 

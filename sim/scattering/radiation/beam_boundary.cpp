@@ -110,13 +110,8 @@ class SideBoundaryTerms {
       places[end] = vertex.p;
       moves[end] = {side_.along.dot(vertex.d1), side_.along.dot(vertex.d2)};
     }
-<<<<<<< HEAD:sim/scattering/radiation/beam_boundary.cpp
     append(endpoint_factor(weight, edge), on_line);
-    if (visible && !hidden) add_at_edge(edge, places, moves, weight, on_line);
-=======
-    out_.push_back(on_line);
     if (visible) add_at_edge(edge, places, moves, weight * (1 - hidden), on_line);
->>>>>>> 69f771ea (Edges askew couple by the cosine between them instead of a window):sim/scattering/edges/beam_boundary.cpp
   }
 
   // Adds the coupling of two edges. `inner` bounds this side. Returns the part 0..1 of the path over the inner edge to
@@ -299,17 +294,10 @@ void FootprintBoundary::append_terms(const Contribution& contribution) {
     const SideFrame side(from, to);
     for (const BeamEdge& inner : *edges_on_path_) {
       if (!side.lies_on(inner)) continue;
-<<<<<<< HEAD:sim/scattering/radiation/beam_boundary.cpp
       if (!paths) paths.emplace(geometry_, panels_on_path_, *contribution.footprint());
       SideBoundaryTerms ends(contribution, side, *paths, outline_, out_);
-      bool hidden = false;
-      for (const BeamEdge& outer : *edges_on_path_) hidden |= ends.couple_edges(inner, outer);
-=======
-      if (!paths) paths.emplace(geometry_, panels_on_path_, footprint);
-      SideBoundaryTerms ends(side, *paths, outline_, out);
       double hidden = 0;
       for (const BeamEdge& outer : *edges_on_path_) hidden = std::max(hidden, ends.couple_edges(inner, outer));
->>>>>>> 69f771ea (Edges askew couple by the cosine between them instead of a window):sim/scattering/edges/beam_boundary.cpp
       if (inner.panel_index + 1 < panels_on_path_.size()) ends.move_endpoint_to_edge(inner, hidden);
     }
   }

@@ -188,7 +188,7 @@ TEST(AboveWater, KeepsABottomInTheSurfaceAndRemovesADeckInIt) {
   EXPECT_NEAR(surface_area(above.mesh) - surface_area(box({-5, -2, 0}, {5, 2, 1})), 0, 4 + 1e-12);
   for (std::size_t t = 0; t < above.mesh.triangles.size(); ++t) {
     const Vec3 area = area_vector(above.mesh, t);
-    const bool in_surface = above.mesh.vertices[above.mesh.triangles[t][0]].z() == 0 && area.xy().isZero(0);
+    const bool in_surface = above.mesh.vertices[above.mesh.triangles[t][0]].z() == 0 && area.xy() == Vec2::Zero();
     EXPECT_TRUE(!in_surface || area.z() < 0);
   }
 }

@@ -130,6 +130,34 @@ TEST(MaterialEdge, OfASheetOfVacuumIsZero) {
   }
 }
 
+// A weak sheet is illuminated by the incident field alone (Born): its polarisation, (eps - 1) E along the sheet and (1
+// - 1 / eps) E along its normal, radiates P = k t / 4 times (eps - 1) for the soft wave and -(eps - 1) sin phi sin phi0
+// - (1 - 1 / eps) cos phi cos phi0 for the hard one, over cos phi + cos phi0. Behind the sheet no optics are
+// subtracted.
+TEST(MaterialEdge, OfAWeakSheetIsTheFieldOfItsPolarisation) {
+  for (const double permittivity : {1.5, 4.0}) {
+    const double thickness = 2e-6, weak = k10 * thickness / 4;
+    const MaterialSurface surface(sheet(permittivity, 0, 1e3 * thickness), k10);
+    const MaterialFaces faces{{&surface, &surface}, k10, true};
+    for (const double phi0 : {0.5, 1.2, 2.4}) {
+      for (const double phi : {3.4, 4.1, 4.9, 5.6}) {
+        if (std::abs(phi - phi0 - kPi) < 0.2) continue;
+        const Vec3 k_hat = -towards(phi0, kPi / 2), s = towards(phi, kPi / 2), across = Vec3::UnitZ().cross(k_hat);
+        const auto currents = material_edge_currents(wedge(2), faces, k_hat, {Vec3::UnitZ(), across}, s, 0);
+        const double sum = std::cos(phi) + std::cos(phi0), along = weak * (permittivity - 1) / sum,
+                     normal = weak * (1 - 1 / permittivity) / sum,
+                     hard = -along * std::sin(phi) * std::sin(phi0) - normal * std::cos(phi) * std::cos(phi0);
+        const Complex scale(0, 1 / kPi);
+        // second order in k t
+        const double tolerance = 4 * k10 * thickness * permittivity * std::abs(along);
+        EXPECT_LT(std::abs(currents[0].z() / scale - along), tolerance) << permittivity << " " << phi0 << " " << phi;
+        EXPECT_LT(std::abs(component_along(Vec3::UnitZ().cross(s), currents[1]) / scale - hard), tolerance)
+            << permittivity << " " << phi0 << " " << phi;
+      }
+    }
+  }
+}
+
 // A sheet of high conductivity is opaque: its edge is that of a conducting half-plane.
 TEST(MaterialEdge, OfAConductingSheetTendsToThePerfectConductor) {
   MaterialSpec metal = sheet(1, 0, 0.01);
