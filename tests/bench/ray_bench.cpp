@@ -10,7 +10,7 @@
 #include "sim/scattering/scatterer/embree_scene.h"
 #include "tests/sim/scattering/solve_calls.h"
 #include "sim/scattering/tracing/interaction.h"
-#include "sim/scattering/tracing/ray_refinement.h"
+#include "sim/scattering/tracing/ray_tracer.h"
 #include "tests/bench/ship.h"
 
 namespace seaglint {

@@ -10,7 +10,7 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/dbsm.h"
-#include "sim/scattering/canonical/canonical_echo.h"
+#include "sim/canonical/canonical_echo.h"
 #include "tools/compare/range_profiles.h"
 #include "tools/rcs/rcs_views.h"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/scattering/canonical/canonical_body.h"
+#include "sim/canonical/canonical_body.h"
 #include "tools/rcs/paired_cut.h"
 
 namespace seaglint {

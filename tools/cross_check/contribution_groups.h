@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "sim/core/numbers/linear.h"
-#include "sim/scattering/points/point.h"
+#include "sim/scattering/points/decomposition.h"
 
 namespace seaglint {
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "sim/geometry/mesh/triangle_mesh.h"
-#include "sim/scattering/tracing/contribution_filter.h"
+#include "sim/scattering/tracing/tracing_settings.h"
 #include "tools/rcs/rcs_request.h"
 
 namespace seaglint {

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "sim/scattering/points/point.h"
+#include "sim/scattering/points/decomposition.h"
 #include "sim/scattering/scatterer/scatterer.h"
 
 namespace seaglint {

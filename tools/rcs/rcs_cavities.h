@@ -9,7 +9,7 @@
 #include "sim/cavity/cavity_scattering.h"
 #include "sim/geometry/mesh/triangle_mesh.h"
 #include "sim/scattering/coefficients/material.h"
-#include "sim/scattering/tracing/contribution_filter.h"
+#include "sim/scattering/tracing/tracing_settings.h"
 #include "tools/rcs/rcs_request.h"
 
 namespace seaglint {

@@ -9,7 +9,7 @@
 
 #include "sim/core/numbers/dbsm.h"
 #include "sim/core/process/error.h"
-#include "sim/scattering/tracing/illumination_settings.h"
+#include "sim/scattering/tracing/tracing_settings.h"
 
 namespace seaglint {
 namespace {

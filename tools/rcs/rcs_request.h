@@ -13,7 +13,7 @@
 #include "sim/cavity/cavity_scattering.h"
 #include "sim/field_tables/transmitter_keys.h"
 #include "sim/scattering/scatterer/prepare_target.h"
-#include "sim/scattering/tracing/illumination_settings.h"
+#include "sim/scattering/tracing/tracing_settings.h"
 #include "sim/scenario/sea_spec.h"
 #include "sim/scenario/target_spec.h"
 #include "tools/rcs/rcs_sweep.h"

@@ -9,7 +9,7 @@
 #include "sim/core/process/printable.h"
 #include "sim/field_tables/transmitter_keys.h"
 #include "sim/geometry/placement/mesh_placement.h"
-#include "sim/scattering/tracing/illumination_settings.h"
+#include "sim/scattering/tracing/tracing_settings.h"
 #include "tools/rcs/echo_selection.h"
 #include "tools/rcs/rcs_convergence.h"
 #include "tools/rcs/rcs_uncertainty.h"

@@ -6,7 +6,7 @@
 
 #include "sim/field_tables/field_table.h"
 #include "sim/scattering/scatterer/prepare_target.h"
-#include "sim/scattering/tracing/contribution_filter.h"
+#include "sim/scattering/tracing/tracing_settings.h"
 #include "tools/rcs/rcs_cavities.h"
 #include "tools/rcs/rcs_request.h"
 

@@ -11,7 +11,7 @@
 
 #include "sim/core/process/parallel.h"
 #include "sim/scattering/solver/solve.h"
-#include "sim/scattering/tracing/illumination_settings.h"
+#include "sim/scattering/tracing/tracing_settings.h"
 #include "tools/rcs/rcs_request.h"
 #include "tools/rcs/rcs_sweep.h"
 #include "tools/rcs/rcs_target.h"

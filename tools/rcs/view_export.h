@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "sim/scattering/points/point.h"
+#include "sim/scattering/points/decomposition.h"
 #include "tools/rcs/rcs_request.h"
 #include "tools/rcs/rcs_target.h"
 

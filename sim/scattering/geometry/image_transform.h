@@ -3,6 +3,8 @@
 
 // Image space: reflections in planes as isometries, and planes as heights over the projection plane.
 
+#include <array>
+
 #include "sim/scattering/geometry/look_basis.h"
 #include "sim/scattering/geometry/moving_polygon.h"
 
@@ -63,5 +65,12 @@ class PanelMap {
   Vec3 origin_, first_, second_;  // in the axes h, v, r of the transmitter
   double determinant_;
 };
+
+// Division of a beam's cross-section.
+
+// The parts of a cross-section on either side of the middle of a rectangle around it, with sides along and across the
+// longest side of its polygons, cut across the longer one. The cut is at rest on the plane that the rays leave,
+// `source`, when the look direction changes.
+std::array<PolygonSet, 2> halved(const PolygonSet& cross_section, const DepthPlane& source);
 
 }  // namespace seaglint

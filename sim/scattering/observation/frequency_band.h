@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Part of a frequency sweep over which amplitudes vary slowly: they are evaluated at a few wavenumbers, the nodes of
-// the band, and interpolated by the polynomial through them.
+// Frequencies of an observation: bands over which amplitudes vary slowly, and the division of a sweep into them.
 
 #include <array>
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include "sim/core/numbers/linear.h"
+#include "sim/scattering/scatterer/scatterer.h"
 
 namespace seaglint {
+
+// Part of a frequency sweep over which amplitudes vary slowly: they are evaluated at a few wavenumbers, the nodes of
+// the band, and interpolated by the polynomial through them.
 
 inline constexpr std::size_t kBandNodes = 4;
 using BandValues = std::array<Complex, kBandNodes>;  // of an amplitude, at the nodes
@@ -46,6 +50,36 @@ class FrequencyBand {
   FormRange form_;
   std::array<double, kBandNodes> nodes_{};
   std::size_t count_ = 1;
+};
+
+// Division of a frequency sweep into bands whose nodes stand for their frequencies.
+
+class SweepPlan {
+ public:
+  // `wavenumbers`: of the sweep, in any order, at least one. Bands are at most kMaxBandRatio wide (highest over
+  // lowest), narrower where layers of the target's materials delay the wave. Where a band holds no more frequencies
+  // than nodes they are their own nodes.
+  SweepPlan(const Scatterer& scatterer, std::span<const double> wavenumbers);
+
+  struct Band {
+    FrequencyBand band;
+    std::size_t first_node;           // of nodes()
+    std::vector<std::size_t> points;  // the frequencies, as indices of the sweep
+  };
+  std::span<const Band> bands() const { return bands_; }
+  std::size_t size() const { return wavenumbers_.size(); }  // frequencies
+  double wavenumber(std::size_t frequency) const { return wavenumbers_[frequency]; }
+  // Frequency nearest to the middle of the sweep, the lower of two.
+  std::size_t middle() const;
+  // Wavenumbers at which contributions are evaluated, those of all bands.
+  std::span<const double> nodes() const { return nodes_; }
+
+ private:
+  void add(const FrequencyBand& band, std::vector<std::size_t> points);
+
+  std::vector<double> wavenumbers_;
+  std::vector<Band> bands_;
+  std::vector<double> nodes_;
 };
 
 }  // namespace seaglint

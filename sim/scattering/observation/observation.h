@@ -59,12 +59,12 @@ enum class PathSense {
 
 // How contributions are observed. Their coordinates are relative to the scatterer's centre.
 struct Observation {
-  BistaticGeometry antennas;             // look directions that are traced
-  RadarRange radar = {};                 // origin: the scatterer's centre relative to the point of the range
-  double direction_spread = 0;           // direction_spread() of the radar, rad
-  Vec3 centre = Vec3::Zero();            // the scatterer's centre relative to the phase origin, m
+  BistaticGeometry antennas;    // look directions that are traced
+  RadarRange radar = {};        // origin: the scatterer's centre relative to the point of the range
+  double direction_spread = 0;  // direction_spread() of the radar, rad
+  Vec3 centre = Vec3::Zero();   // the scatterer's centre relative to the phase origin, m
   PathSense sense = PathSense::kMean;
-  double weight = 1;                     // factor of all amplitudes
+  double weight = 1;  // factor of all amplitudes
 };
 
 // Observation of a body at rest with the phase referred to the body's origin. radar.origin: of the body's frame. Throws
@@ -75,8 +75,8 @@ Observation observation_of(const Scatterer& scatterer, const BistaticGeometry& a
 // scatterer's centre. Throws InputError as check_wavefront_range().
 double direction_spread(const Scatterer& scatterer, const RadarRange& radar);
 
-// Throws InputError where the wavefront range (m; 0: plane wave) is less than ten times the reach of the target from the
-// point of the range: beyond that the third-order term of the wavefront is below a tenth of the second-order one.
+// Throws InputError where the wavefront range (m; 0: plane wave) is less than ten times the reach of the target from
+// the point of the range: beyond that the third-order term of the wavefront is below a tenth of the second-order one.
 void check_wavefront_range(double reach_m, double range_m);
 
 // Index of the pair with the antennas of the pair i exchanged, itself for one antenna; none where it is not among them.

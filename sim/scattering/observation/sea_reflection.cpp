@@ -7,7 +7,6 @@
 
 #include "sim/core/process/error.h"
 #include "sim/scattering/coefficients/material.h"
-#include "sim/scattering/coefficients/sea_water.h"
 
 namespace seaglint {
 

@@ -9,7 +9,7 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/sinc.h"
 #include "sim/scattering/points/phase_integral.h"
-#include "sim/scattering/radiation/curved_footprint.h"
+#include "sim/scattering/radiation/surface_radiation.h"
 
 namespace seaglint {
 namespace {
@@ -220,8 +220,7 @@ void decompose_interval(const EdgeInterval& interval, const PointBand& at, Point
   }
   const double slope = std::max(std::abs(run), kMaxAmplitudeError * threshold);
   const bool is_frozen = at.aspect_change_rad > 0 || at.half_band > 0;
-  const double lengths =
-      is_frozen ? k * slope / 2 / kMaxHalfPhase : at.band.half_width() * slope / 2 / kPieceHalfPhase;
+  const double lengths = is_frozen ? k * slope / 2 / kMaxHalfPhase : at.band.half_width() * slope / 2 / kPieceHalfPhase;
   const int pieces = std::max(1, static_cast<int>(std::ceil(lengths)));
   for (int i = 0; i < pieces; ++i) {
     const double s = (i + 0.5) / pieces, half = 0.5 / pieces;
@@ -251,8 +250,8 @@ Tangent curvature_tangent(const Footprint& footprint, const Observation& observa
   return {path(p) - slope.dot(p), slope};
 }
 
-// The footprint with a linear function added to psi. Over a curved wavefront the slope of psi changes along a panel also
-// where it does not with the look direction, as in a corner that returns the wave as it came.
+// The footprint with a linear function added to psi. Over a curved wavefront the slope of psi changes along a panel
+// also where it does not with the look direction, as in a corner that returns the wave as it came.
 Footprint tilted(const Footprint& footprint, const Tangent& tangent) {
   Footprint result = footprint;
   result.psi0 += tangent.value;
@@ -292,8 +291,7 @@ void curve_wavefront(const Observation& observation, Point& point) {
   for (const bool returns : {false, true}) {
     const Vec3& r = returns ? observation.antennas.receive.r : observation.antennas.transmit.r;
     Vec3& gradient = returns ? point.gradient.receive : point.gradient.transmit;
-    const Vec3 x =
-        radar.origin + gradient - (returns ? point.gradient.receive_slide : point.gradient.transmit_slide);
+    const Vec3 x = radar.origin + gradient - (returns ? point.gradient.receive_slide : point.gradient.transmit_slide);
     const double along = r.dot(x);
     point.psi -= (x - along * r).squaredNorm() / (2 * radar.range_m);
     gradient += along / radar.range_m * x;  // of -|x_perp|^2 / (2 R) with r

@@ -7,7 +7,7 @@
 
 #include "sim/scattering/observation/frequency_band.h"
 #include "sim/scattering/radiation/contribution.h"
-#include "sim/scattering/radiation/curved_footprint.h"
+#include "sim/scattering/radiation/surface_radiation.h"
 
 namespace seaglint {
 
@@ -21,8 +21,8 @@ Complex flat_phase_integral(const Footprint& footprint, const MovingPolygon& pol
 inline constexpr double kContourRatio = 50;
 
 // A term of the integral over a curved surface: the amplitude varies slowly with k and look direction, the phase is
-// e^{jk psi}. The point slides on the body as the look direction changes, which adds slide1 h + slide2 v to the gradient
-// of psi.
+// e^{jk psi}. The point slides on the body as the look direction changes, which adds slide1 h + slide2 v to the
+// gradient of psi.
 struct CurvedTerm {
   BandValues integral{};  // m^2, without the phase; with the taper, without the pattern
   double psi = 0;         // m
@@ -30,9 +30,9 @@ struct CurvedTerm {
   double slide1 = 0, slide2 = 0;
 };
 
-// Terms of a footprint with curvature that hold over the band and, for `min_slope` > 0, while the slope of psi along the
-// surface changes by kMaxAmplitudeError min_slope. Where the slope is large enough these are end points and edges of the
-// contour with the local slope, which cancel where two smooth facets meet; elsewhere pieces of half-phase below
+// Terms of a footprint with curvature that hold over the band and, for `min_slope` > 0, while the slope of psi along
+// the surface changes by kMaxAmplitudeError min_slope. Where the slope is large enough these are end points and edges
+// of the contour with the local slope, which cancel where two smooth facets meet; elsewhere pieces of half-phase below
 // kMaxHalfPhase, integrated with the full phase. The triangle, or the rectangle around it and its halves determine the
 // choice, not their illuminated part. The form and the taper are those of the centre of the FormRange.
 std::vector<CurvedTerm> curved_terms(const Footprint& footprint, const FrequencyBand& band, double min_slope);

@@ -111,15 +111,12 @@ double phase_difference(const EdgeInterval& interval, double k) {
 
 }  // namespace
 
-double EdgeInterval::fresnel_taper(double k) const {
-  return smooth_taper(fresnel_wavenumber / k, kFresnelDepthWindow);
-}
+double EdgeInterval::fresnel_taper(double k) const { return smooth_taper(fresnel_wavenumber / k, kFresnelDepthWindow); }
 
 Complex endpoint_term(const EdgeInterval& interval, double k, double fraction) {
   const double run = phase_difference(interval, k);
   const auto at_fraction = [&](const auto& law) { return law.at(k, fraction, run); };
-  return interval.fresnel_taper(k) * interval.length / Complex(0, run) *
-         std::visit(at_fraction, interval.amplitude);
+  return interval.fresnel_taper(k) * interval.length / Complex(0, run) * std::visit(at_fraction, interval.amplitude);
 }
 
 bool endpoints_suffice(const EdgeInterval& interval, double k) {

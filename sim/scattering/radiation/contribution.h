@@ -19,13 +19,11 @@
 #include <variant>
 #include <vector>
 
-#include "sim/scattering/coefficients/double_knife_edge.h"
-#include "sim/scattering/coefficients/grazing_wave_amplitude.h"
-#include "sim/scattering/coefficients/wall_penumbra_term.h"
+#include "sim/scattering/coefficients/amplitude_laws.h"
 #include "sim/scattering/geometry/image_transform.h"
 #include "sim/scattering/geometry/moving_polygon.h"
 #include "sim/scattering/observation/observation.h"
-#include "sim/scattering/tracing/contribution_filter.h"
+#include "sim/scattering/tracing/tracing_settings.h"
 
 namespace seaglint {
 
@@ -41,7 +39,7 @@ struct ContributionSource {
 
 // hh, hv, vh, vv of a surface current, or per metre of edge (after n grazing waves in m^(-(n - 1) / 2)).
 struct Pattern {
-  ScatteringMatrix value{};                   // at every wavenumber
+  ScatteringMatrix value{};                    // at every wavenumber
   std::vector<ScatteringMatrix> at_node = {};  // where not empty in its place: at each wavenumber of the illumination
 
   const ScatteringMatrix& at(std::size_t node) const { return at_node.empty() ? value : at_node[node]; }

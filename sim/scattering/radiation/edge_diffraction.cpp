@@ -5,16 +5,104 @@
 #include <cmath>
 #include <optional>
 
+#include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/rotation.h"
+#include "sim/core/numbers/smooth_step.h"
 #include "sim/core/process/parallel.h"
 #include "sim/scattering/coefficients/fade_windows.h"
+#include "sim/scattering/coefficients/material.h"
 #include "sim/scattering/coefficients/material_edge.h"
-#include "sim/scattering/coefficients/reflection.h"
-#include "sim/scattering/coefficients/thick_edge.h"
-#include "sim/scattering/geometry/tolerances.h"
+#include "sim/scattering/coefficients/wedge_diffraction.h"
+#include "sim/scattering/geometry/image_transform.h"
+#include "sim/scattering/geometry/look_basis.h"
 #include "sim/scattering/radiation/multiple_diffraction.h"
-#include "sim/scattering/radiation/reflected_edge.h"
 
 namespace seaglint {
+
+namespace {
+
+// Within this angle of the specular direction, rad, the end-point contributions are evaluated at this offset to either
+// side, where their poles cancel: an error of the offset squared times their second derivative, 1e-6 at 10 deg.
+constexpr double kAtSpecular = 1e-3, kAside = 1e-4;
+
+// n x (k^ x E): half of the PO current times eta, for a wave incident from vacuum.
+Vec3 half_po_current(const Vec3& n, const Vec3& k_hat, const Vec3& E) { return n.cross(k_hat.cross(E)); }
+
+// Weight 0..1 of the end-point contribution of the last reflector, for the slopes of psi per metre of the edge's face,
+// `of_face`, and of its image on that reflector, `of_last`; `across`: a metre of either, seen along the beam across the
+// edge. Both slopes are zero in the direction of the beam, where the poles cancel: only the difference of the two
+// contributions must stay finite, 1 / of_last - 1 / of_face = (1 - of_last / of_face) / of_last. Where the edge is not
+// parallel to the reflector, `of_last` has a second zero on Keller's cone, a pole of this difference. psi varies there
+// along the shadow-boundary line, which radiates from its ends only, and beam_boundary.h leaves the contribution there,
+// by the slope across the line.
+double last_end_weight(double of_last, double of_face, double across) {
+  const double not_common = std::max(1 - of_last / of_face, 0.0);
+  return 1 - smooth_taper(std::abs(of_last) / (not_common * across), kSlopeWindow);
+}
+
+}  // namespace
+
+std::array<double, 2> reflected_face_weights(const WedgeFrame& wedge, const EdgeIllumination& in,
+                                             const EdgeIllumination& out) {
+  std::array<double, 2> weights{};
+  const Vec3 &k_hat = in.direction, s = -out.direction;
+  for (int i = 0; i < 2; ++i) {
+    const auto& [x, n, t] = wedge.face[i];
+    if (n.dot(k_hat) >= 0 || n.dot(s) <= 0) continue;
+    weights[i] = 1;
+    if (out.reflections > 0) weights[i] = reflected_edge_weight(n, t, k_hat, s, out.first_reflector_normal);
+    if (in.reflections > 0)
+      weights[i] = std::min(weights[i], reflected_edge_weight(n, t, -s, -k_hat, in.first_reflector_normal));
+    if (in.reflections + out.reflections > kMaxCorrectedReflections) {
+      weights[i] *= smooth_taper((s - reflect_direction(k_hat, n)).norm(), kOffSpecularWindow);
+    }
+  }
+  return weights;
+}
+
+std::array<double, 4> endpoint_correction(const WedgeFace& face, const EdgeIllumination& in,
+                                          const EdgeIllumination& out) {
+  std::array<double, 4> ends{};
+  if (out.reflections == 0) return ends;
+  const Vec3 &k_hat = in.direction, s = -out.direction;
+  const Vec3 beam = reflect_direction(k_hat, face.n), n = out.first_reflector_normal.dot(beam) < 0
+                                                              ? out.first_reflector_normal
+                                                              : Vec3(-out.first_reflector_normal);
+  // Directions on the last reflector, of the same lengths as at the edge: along the edge's shadow boundary, and into
+  // the lit region.
+  const double cosine = n.dot(beam), lands = beam_incidence_taper(beam, s, n);
+  const Vec3 shadow = face.t - face.t.dot(n) / cosine * beam, into = face.x - face.x.dot(n) / cosine * beam;
+  const double area = shadow.cross(into).norm(), across = std::abs(face.n.dot(beam)) / face.t.cross(beam).norm();
+  const auto about_edge = [&](const Vec3& x) { return std::atan2(face.n.dot(x), face.x.dot(x)); };
+  const double off = std::remainder(about_edge(s) - about_edge(beam), 2 * kPi);
+  const auto add = [&](double angle, double weight) {
+    const Vec3 on_cone = axis_rotation(angle, face.t) * beam, away = on_cone - beam;
+    const Quaternion turned = rotation_between(s, on_cone);
+    const std::array<Vec3, 2> received{turned * out.E_h, turned * out.E_v};
+    const double ends_there = lands * last_end_weight(away.dot(into), away.dot(face.x), across);
+    // Where the last reflector has no end-point contribution, that of the edge's face is used alone, away from its
+    // pole.
+    const double alone = 1 - (1 - ends_there) * smooth_taper(std::abs(off), kOffSpecularWindow);
+    for (int t = 0; t < 2; ++t) {
+      const Vec3& E = t == 0 ? in.E_h : in.E_v;
+      // The integral of e^{jk away.x u} du from 0 on, times -jk / 2 pi.
+      Vec3 of_face = alone / (2 * kPi * away.dot(face.x)) * half_po_current(face.n, k_hat, E), of_last = Vec3::Zero();
+      if (ends_there > 0)
+        of_last =
+            ends_there * area / (2 * kPi * away.dot(into)) * half_po_current(n, beam, -reflect_direction(E, face.n));
+      for (int r = 0; r < 2; ++r)
+        ends[2 * r + t] += weight * (received[r].dot(of_face) + reflect_direction(received[r], n).dot(of_last));
+    }
+  };
+  if (std::abs(off) < kAtSpecular) {
+    add(-kAside, 0.5);
+    add(kAside, 0.5);
+  } else {
+    add(off, 1);
+  }
+  return ends;
+}
+
 namespace {
 
 // A sharp edge of one request, with the surfaces of its faces at every wavenumber where one is no perfect conductor.
@@ -47,9 +135,8 @@ Pattern pattern(const WedgeFrame& wedge, const EdgeIllumination& in, const EdgeI
 
 // Diffracted field of the edge via reflectors, in addition to the beams that its faces reflect to them, with the weight
 // of each face (reflected_edge.h).
-Pattern edge_field_pattern(const WedgeFrame& wedge, const std::array<double, 2>& weights,
-                               const EdgeIllumination& in, const EdgeIllumination& out,
-                           std::span<const double> wavenumbers) {
+Pattern edge_field_pattern(const WedgeFrame& wedge, const std::array<double, 2>& weights, const EdgeIllumination& in,
+                           const EdgeIllumination& out, std::span<const double> wavenumbers) {
   Pattern sum = pattern(wedge, in, out, wavenumbers, kReflectedBoundaryGuard);
   for (int f = 0; f < 2; ++f) {
     if (weights[f] <= 0) continue;
@@ -65,7 +152,7 @@ Pattern edge_field_pattern(const WedgeFrame& wedge, const std::array<double, 2>&
 // facets radiate that one directly to the receiver. A path with more reflections on its exit is replaced by its
 // reciprocal; with equal numbers the mean of both is used.
 Pattern fringe_pattern(const WedgeFrame& wedge, const EdgeIllumination& in, const EdgeIllumination& out,
-                           std::span<const double> wavenumbers) {
+                       std::span<const double> wavenumbers) {
   if (in.reflections > out.reflections) return pattern(wedge, in, out, wavenumbers);
   if (in.reflections < out.reflections) return transposed(pattern(wedge, out, in, wavenumbers));
   return reciprocal_mean(pattern(wedge, in, out, wavenumbers), pattern(wedge, out, in, wavenumbers));
@@ -164,11 +251,11 @@ void append_single_diffraction(const RadiatingEdge& of, EdgeIlluminations incomi
         edge.conducts ? pair_pattern(of, *wedge, in, out) : material_pattern(*wedge, of.materials, in, out);
     if (!pattern) return;
     const Mechanism direct = wedge->N < 1 ? Mechanism::kConcaveEdge : Mechanism::kSingleDiffraction;
-    contributions.push_back({*pattern,
-                             {edge.facet[0], facets[edge.facet[0]].part, facets[edge.facet[1]].part,
-                              static_cast<std::uint8_t>(reflections + 1),
-                              reflections > 0 ? Mechanism::kReflectedEdge : direct},
-                             common_interval(geometry, in, out, first, last)});
+    contributions.push_back(
+        {*pattern,
+         {edge.facet[0], facets[edge.facet[0]].part, facets[edge.facet[1]].part,
+          static_cast<std::uint8_t>(reflections + 1), reflections > 0 ? Mechanism::kReflectedEdge : direct},
+         common_interval(geometry, in, out, first, last)});
   };
   for (std::size_t a = 0; a < incoming.size(); ++a) {
     for (std::size_t b = geometry.monostatic ? a : 0; b < outgoing.size(); ++b) append(*incoming[a], *outgoing[b]);
@@ -220,9 +307,9 @@ void edge_diffraction(const EdgeDiffractionRequest& request,
                       const std::function<void(std::size_t, std::span<const Contribution>)>& visit) {
   const Scatterer& scatterer = request.scatterer;
   const IlluminationByEdge& incoming = request.incoming;
-  const GrazingWaves grazing{scatterer, request.geometry, request.wavenumbers, request.outgoing,
-                             multiple_diffraction_limits(scatterer, request.settings,
-                                                         std::ranges::min(request.wavenumbers))};
+  const GrazingWaves grazing{
+      scatterer, request.geometry, request.wavenumbers, request.outgoing,
+      multiple_diffraction_limits(scatterer, request.settings, std::ranges::min(request.wavenumbers))};
   const std::vector<SharpEdge>& edges = scatterer.edges().edges;
   const EdgeMaterials materials(scatterer, request.wavenumbers);
   // Chunks with about equal numbers of edge illuminations.

@@ -8,13 +8,84 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/smooth_step.h"
-#include "sim/scattering/coefficients/path_weights.h"
-#include "sim/scattering/geometry/tolerances.h"
-#include "sim/scattering/radiation/grazing_strip.h"
+#include "sim/scattering/coefficients/amplitude_laws.h"
+#include "sim/scattering/coefficients/fade_windows.h"
+#include "sim/scattering/coefficients/wedge_diffraction.h"
+#include "sim/scattering/geometry/look_basis.h"
 #include "sim/scattering/radiation/wall_penumbra.h"
+#include "sim/scattering/scatterer/panels.h"
 
 namespace seaglint {
 namespace {
+
+// Relative first-order change of a grazing wave by the thickness of the sheets whose edges it met: the sum over these
+// edges.
+struct ThicknessChange {
+  FirstOrderThickness<Complex> change;
+  double thickness_m = 0;  // 0: no sheet has a thickness
+};
+
+ThicknessChange with_edge(ThicknessChange thickness, const WedgeFrame& wedge, const Vec3& towards) {
+  if (wedge.thickness_m <= 0) return thickness;
+  const FirstOrderThickness<Complex> more = thick_edge_wave_change(wedge, towards);
+  return {{thickness.change.constant + more.constant, thickness.change.logarithm + more.logarithm}, wedge.thickness_m};
+}
+
+// A wave incident on an interval of an edge. psi and its gradient are linear along the interval.
+struct EdgeIncidentWave {
+  int edge = kNoEdge;
+  std::array<double, 2> s{};    // m from the edge's start
+  std::array<double, 2> psi{};  // minus the path so far, m
+  std::array<Vec3, 2> X;        // gradient of psi with the transmit direction, m
+  Vec3 direction;
+  std::array<Vec3, 2> E;                                // for transmitted h and v
+  std::array<Complex, 2> factor{1.0, 1.0};              // of E
+  std::array<double, 2> l{};                            // length of this grazing wave at the ends of the interval, m
+  double departure = 0;                                 // transition_parameter() where it starts
+  std::array<double, kMaxGrazingWaves - 1> detour_m{};  // GrazingWaveAmplitude::detour_m
+  ThicknessChange thickness{};                          // of the edges met before
+  int grazing_waves = 0;                                // along the face, before
+  int wall_reflections = 0;                             // of this grazing wave at perpendicular walls
+  // maps directions behind those walls, or behind the other wall of a concave edge, to image space
+  Mat3 unfolding = Mat3::Identity();
+  Vec3 previous_direction = Vec3::Zero();  // of the wave at the previous edge
+  bool met_concave_edge = false;           // among the edges before
+};
+
+// A strip of parallel rays on a face: u transverse, w along the rays, both unit vectors in the face.
+struct RayStrip {
+  Vec3 u, w;
+  double from, to;  // in u, m
+};
+
+// Mean of 1/sqrt(l) for l linear between its ends.
+double mean_inverse_sqrt_length(const std::array<double, 2>& l) { return 2 / (std::sqrt(l[0]) + std::sqrt(l[1])); }
+
+// The wave on a part of its interval, fractions `from` to `to`.
+EdgeIncidentWave sub_interval(const EdgeIncidentWave& in, double from, double to) {
+  EdgeIncidentWave part = in;
+  part.s = {interpolate(in.s, from), interpolate(in.s, to)};
+  part.psi = {interpolate(in.psi, from), interpolate(in.psi, to)};
+  part.X = {interpolate(in.X, from), interpolate(in.X, to)};
+  part.l = {interpolate(in.l, from), interpolate(in.l, to)};
+  return part;
+}
+
+// A grazing wave where it leaves an edge along a face; after a perpendicular wall it leaves the edge's image.
+struct GrazingSource {
+  const EdgeIncidentWave& in;
+  const WedgeFace& face;
+  Vec3 start, along;  // of the edge
+  std::array<Complex, 2> amplitude;
+  double departure = 0;            // transition_parameter() at the edge
+  ThicknessChange thickness = {};  // including the edge's own
+  int wall_reflections = 0;
+  Mat3 unfolding = Mat3::Identity();
+  bool met_concave_edge = false;  // including the edge it leaves
+};
+
+// Reflection of directions in a plane with unit normal n.
+Mat3 householder(const Vec3& n) { return Mat3::Identity() - outer_product(2 * n, n); }
 
 constexpr double kNarrowest = 1e-9;  // m
 // Sine of the angle between a grazing wave and an edge below which they do not meet. Look directions that would make

@@ -7,8 +7,7 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/smooth_step.h"
 #include "sim/scattering/coefficients/fade_windows.h"
-#include "sim/scattering/coefficients/path_weights.h"
-#include "sim/scattering/geometry/tolerances.h"
+#include "sim/scattering/geometry/look_basis.h"
 
 namespace seaglint {
 namespace {
@@ -22,7 +21,8 @@ constexpr double kChangePhase = 100;
 using ElementPattern = std::array<double, 4>;
 
 // Response of a wall per area and -jk / 2 pi to a wave along k_hat with fields E_h, E_v.
-ElementPattern wall_pattern(const Vec3& n, const RadarBasis& antenna, const Vec3& k_hat, const Vec3& E_h, const Vec3& E_v) {
+ElementPattern wall_pattern(const Vec3& n, const RadarBasis& antenna, const Vec3& k_hat, const Vec3& E_h,
+                            const Vec3& E_v) {
   const Vec3 J_h = n.cross(k_hat.cross(E_h)), J_v = n.cross(k_hat.cross(E_v));
   return {antenna.h.dot(J_h), antenna.h.dot(J_v), antenna.v.dot(J_h), antenna.v.dot(J_v)};
 }
@@ -56,7 +56,8 @@ void append_wall_penumbra(const WallBehindEdge& wall, const RadarBasis& antenna,
   // For the direct wave and its image in the face: soft and hard are half of their difference and of their sum.
   const auto image = [&](const Vec3& x) { return reflect_direction(x, n); };
   const ElementPattern direct = wall_pattern(wall.wall_normal, antenna, -r, antenna.h, antenna.v),
-                by_face = wall_pattern(wall.wall_normal, antenna, image(-r), -image(antenna.h), -image(antenna.v));
+                       by_face =
+                           wall_pattern(wall.wall_normal, antenna, image(-r), -image(antenna.h), -image(antenna.v));
   ElementPattern soft, hard;
   for (int i = 0; i < 4; ++i) {
     soft[i] = 0.5 * (direct[i] - by_face[i]);

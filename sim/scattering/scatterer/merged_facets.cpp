@@ -12,7 +12,7 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
-#include "sim/scattering/scatterer/smooth_vertices.h"
+#include "sim/scattering/scatterer/smooth_surface.h"
 
 namespace seaglint {
 namespace {

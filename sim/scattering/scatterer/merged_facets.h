@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "sim/scattering/scatterer/smooth_sides.h"
+#include "sim/scattering/scatterer/smooth_surface.h"
 
 namespace seaglint {
 

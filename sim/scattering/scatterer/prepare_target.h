@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,50 @@
 #include "sim/scenario/target_spec.h"
 
 namespace seaglint {
+
+// Materials of the parts of a target, and the cut at the sea level.
+
+struct PartMaterial {
+  std::string part;  // name of a part, else of a material of the mesh's file; with a trailing *, all with that prefix
+  MaterialSpec material;
+};
+
+// Assigns a material to every triangle: `all`, or the last entry of `parts` that matches it. Overwrites
+// mesh.materials and triangle_material and returns the specifications in the order of mesh.materials. Throws InputError
+// for a name that neither parts nor materials of the mesh have.
+std::vector<MaterialSpec> assign_materials(TriangleMesh& mesh, const MaterialSpec& all,
+                                           std::span<const PartMaterial> parts);
+
+// Cuts the mesh at z = height, m. Triangles below become a submerged material, appended to mesh.materials and
+// `materials`: they occlude but neither reflect nor radiate.
+void cut_at_sea_level(TriangleMesh& mesh, std::vector<MaterialSpec>& materials, double height);
+
+// Throws InputError when a material's source does not cover lowest_hz to highest_hz.
+void check_frequencies(std::span<const MaterialSpec> materials, double lowest_hz, double highest_hz);
+
+// Checks of a target against the validity of the solver: electrical size, position, number of triangles, edges and
+// bars.
+
+// One sentence per warning; empty for most targets. lowest_hz: lowest frequency of the sweep. Throws InputError when
+// the target is more than 300 half-sizes from its origin, so that its details are smaller than the smallest patch kept.
+std::vector<std::string> check_target(const TriangleMesh& mesh, double lowest_hz);
+
+// One sentence where sharp edges longer than a wavelength bound bars or strips narrower than a third of it on both
+// sides: their half-plane currents neglect each other and return too much. One sentence where sheets are thicker than a
+// tenth of the shortest wavelength, or where a thickness has no effect: no sheets, or edges not used (`followed`). One
+// sentence where edges of materials longer than a wavelength do not diffract. Sentences name the part with the greatest
+// length of such edges.
+std::vector<std::string> check_edges(const Scatterer& scatterer, bool followed, double lowest_hz, double highest_hz,
+                                     std::span<const std::string> part_names = {});
+
+// One sentence, with the part that has the greatest length of them, where surfaces longer than a wavelength are round
+// bars thinner than 0.7 of it. Backscatter of the circular cylinder by physical optics less the exact series, normal
+// incidence, largest of both polarisations at diameters of 0.1, 0.2, 0.33, 0.5, 0.7 and 1 wavelengths: 7.0, 2.6,
+// 0.6, 2.9, 0.4, 0.6 dB.
+std::vector<std::string> check_bars(const Scatterer& scatterer, double lowest_hz,
+                                    std::span<const std::string> part_names = {});
+
+// Preparation of a target from its mesh file: read, assign materials, repair, check, cut at the waterline.
 
 // Material of the whole target (no part), of one part, or with a trailing * of every part whose name has that prefix.
 // The last choice that matches a part applies.

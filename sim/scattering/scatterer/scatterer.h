@@ -3,6 +3,7 @@
 
 // Target geometry and materials of the solver, independent of the look direction.
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -10,16 +11,32 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/scattering/coefficients/material.h"
-#include "sim/scattering/scatterer/bodies.h"
 #include "sim/scattering/scatterer/embree_scene.h"
 #include "sim/scattering/scatterer/facets.h"
 #include "sim/scattering/scatterer/merged_facets.h"
 #include "sim/scattering/scatterer/panel_bvh.h"
 #include "sim/scattering/scatterer/panels.h"
-#include "sim/scattering/scatterer/sharp_edges.h"
 #include "sim/scattering/scatterer/smooth_surface.h"
 
 namespace seaglint {
+
+// Size of the body to which each facet belongs.
+
+// A surface is a set of facets connected by common vertices. Where a surface at least as large comes nearer to
+// the centre of its bounding sphere than twice its radius, both belong to one body, whose size is that of its largest
+// surface: the parts of a ship, their fittings and rails. Open surfaces belong to a body of closed ones only where they
+// are no larger: a piece of sea or ground about a closed body is a body of its own. Sizes turn and move with a target.
+struct BodySizes {
+  std::vector<std::int32_t> surface_of;  // by facet
+  std::vector<double> radius;            // of the bounding sphere of its body's largest surface, m, by surface
+
+  double at(int facet) const { return radius[static_cast<std::size_t>(surface_of[static_cast<std::size_t>(facet)])]; }
+};
+
+// The tree is that of the facets.
+BodySizes body_sizes(std::span<const Facet> facets, const PanelBvh& tree);
+
+// Target geometry and materials of the solver, independent of the look direction.
 
 // Facets, smooth surface, panels, sharp edges and the panel hierarchy of a target. Built once per mesh; safe to share
 // between threads. Their coordinates are those of the mesh relative to centre(), so that no tolerance and no rounding

@@ -1,17 +1,43 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Smooth surface approximated by a mesh: vertex normals between creases, height of the surface above its facets, and
-// curvature.
+// Smooth surfaces that a mesh samples: sides across which the target is smooth, vertex normals between creases, height
+// above the facets, curvature.
 
 #include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "sim/scattering/scatterer/smooth_sides.h"
+#include "sim/scattering/scatterer/facets.h"
 
 namespace seaglint {
+
+// Sides of facets across which the target is one smooth surface.
+
+// Facet that continues a facet smoothly across each of its sides; -1 where the side is a knuckle, an edge or free.
+using SmoothSides = std::vector<std::array<std::int32_t, 3>>;
+
+// Sides where exactly two facets of one orientation meet and their normals differ by less than the crease angle,
+// 0 <= crease <= pi rad; none for 0.
+SmoothSides smooth_sides_by_angle(std::span<const Facet> facets, double crease);
+
+// The same sides, but those only where the facets are samples of one curved surface: on a line square to the side the
+// turn goes on at the distance of the facets' own size, on one side at least, and most sides nearby do so (README.md,
+// "Smooth surface").
+SmoothSides smooth_sides_by_shape(std::span<const Facet> facets, double crease);
+
+// Sides of the same kind where the corner normals of both facets are given and agree.
+SmoothSides smooth_sides_by_normals(std::span<const Facet> facets);
+
+// True where the corner normals of a mesh describe a smooth surface: some are off their triangles' own, so that they do
+// not repeat the facets, and none by more than kMaxNormalDeviation but for a hundredth of the area, so that they are
+// not the shading of a box.
+inline constexpr double kMaxNormalDeviation = 0.53;  // rad: 30 deg, a cylinder of six sides, and the digits of normals
+bool normals_describe_surface(const TriangleMesh& mesh);
+
+// Smooth surface approximated by a mesh: vertex normals between creases, height of the surface above its facets, and
+// curvature.
 
 // Default crease angle. On fairings and hulls adjacent facets turn by less than 15 deg, on the sides of modelled pipes
 // and masts (16 sides and fewer), knuckles and box edges by 22 deg and more.
@@ -57,5 +83,25 @@ class SmoothSurface {
   std::vector<std::int32_t> fan_;  // facets by vertex
   std::span<const Facet> facets_;
 };
+
+// Vertices of the smooth surfaces that a mesh approximates, and the surface normals there.
+
+// A vertex belongs to one smooth fan of facets; one on a sharp edge occurs once for each side.
+struct SmoothVertices {
+  std::vector<std::array<std::int32_t, 3>> of_facet;  // vertices at the corners
+  std::vector<Vec3> normal;                           // unit
+  std::vector<std::int32_t> first, fan;               // facets of vertex i: fan[first[i] .. first[i + 1])
+  // Of every facet, m: width of its planar face, sqrt(12 times the least second moment of its area / area), the smaller
+  // side of a rectangle; of a facet of no known face, its height over the longest side.
+  std::vector<double> facet_width;
+};
+
+// The normal is that of the file where one is given, else the mean over the fan by corner_weight(): with the weights
+// for similar widths where the largest width is at most twice the smallest, with the others from three times on, with a
+// smooth transition between.
+SmoothVertices smooth_vertices(std::span<const Facet> facets, const SmoothSides& smooth);
+
+// Weight of a facet at one of its corners, corner_weight().
+double facet_weight(const Facet& facet, int corner, double width, bool alike);
 
 }  // namespace seaglint

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/scattering/observation/line_of_sight.h"
+#include "sim/scattering/observation/look_directions.h"
 
 namespace seaglint {
 namespace {

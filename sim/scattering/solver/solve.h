@@ -12,9 +12,9 @@
 #include "sim/scattering/observation/frequency_response.h"
 #include "sim/scattering/observation/observation.h"
 #include "sim/scattering/observation/sea_reflection.h"
-#include "sim/scattering/points/point.h"
+#include "sim/scattering/points/decomposition.h"
 #include "sim/scattering/sums/view_estimate.h"
-#include "sim/scattering/tracing/illumination_settings.h"
+#include "sim/scattering/tracing/tracing_settings.h"
 #include "sim/scenario/radar_spec.h"
 #include "sim/scenario/target_spec.h"
 
@@ -32,7 +32,7 @@ struct SolveRequest {
   std::vector<BistaticGeometry> views;  // every transmit direction is traced once
   std::vector<double> wavenumbers;      // rad/m, in any order
   TracingSettings settings = {};
-  RadarRange radar = {};  // at a finite range; over the sea from the point of the surface below the body
+  RadarRange radar = {};                 // at a finite range; over the sea from the point of the surface below the body
   std::optional<SeaUnderBody> sea = {};  // four propagation paths; of views of one antenna above the surface
   bool one_way = false;                  // hv and vh as the beams have them, equal only to the accuracy of the method
   bool estimates = false;                // uncertainty, at the frequency nearest to the middle of the sweep
@@ -42,8 +42,8 @@ struct SolveRequest {
 };
 
 struct ViewResult {
-  // hh, hv, vh, vv (received, transmitted) in metres at each wavenumber. Phase origin: the body's origin. Each direction
-  // has its own polarisation basis. For one antenna hv = vh, the mean of both (Reciprocity).
+  // hh, hv, vh, vv (received, transmitted) in metres at each wavenumber. Phase origin: the body's origin. Each
+  // direction has its own polarisation basis. For one antenna hv = vh, the mean of both (Reciprocity).
   Matrices matrices;
   std::optional<ViewEstimate> estimate;
   std::vector<Point> points;  // in an order independent of the number of threads; their direct sum is the matrix
@@ -54,8 +54,8 @@ struct SolveResult {
   std::size_t segments = 0;  // beam segments traced from transmitters
 };
 
-// Every footprint's exact phase integral at every wavenumber from one trace. Throws Interrupted when *stop becomes true,
-// InputError as observation_of().
+// Every footprint's exact phase integral at every wavenumber from one trace. Throws Interrupted when *stop becomes
+// true, InputError as observation_of().
 SolveResult solve(const SolveRequest& request);
 
 // A body on its trajectory, observed over a coherent interval.

@@ -99,9 +99,9 @@ IntervalResult solve(const IntervalRequest& request) {
                             : default_aspect_change(request.scatterer, 2 * kPi / kc);
   const IntervalLimits limits = interval_limits(request.scatterer, 0);
   const std::vector<PropagationPath> paths = propagation_paths(request.sea);
-  const TracePlan plan({request.trajectory, sampling, request.r_hat, request.solver.wavefront_range_m,
-                        request.scatterer.centre()},
-                       paths, {served, kMaxCrossTrackPhase / (k_last * limits.cross_track_m)});
+  const TracePlan plan(
+      {request.trajectory, sampling, request.r_hat, request.solver.wavefront_range_m, request.scatterer.centre()},
+      paths, {served, kMaxCrossTrackPhase / (k_last * limits.cross_track_m)});
 
   // Traces in parallel before facets in parallel, which needs fewer synchronisations.
   const int threads = std::max(1, request.threads);

@@ -95,8 +95,8 @@ PlannedTrace TracePlan::planned(std::size_t trace, const Pose& pose, const LineO
                                      static_cast<std::size_t>(plan.last - plan.first + 1));
     };
     plan.paths.push_back({path, antennas,
-                          look_direction_path(own(path.outbound_via_sea), own(path.return_via_sea),
-                                              antennas.transmit.r, antennas.receive.r)});
+                          look_direction_path(own(path.outbound_via_sea), own(path.return_via_sea), antennas.transmit.r,
+                                              antennas.receive.r)});
   }
   return plan;
 }

@@ -8,8 +8,7 @@
 
 #include "sim/motion/kinematics/trajectory.h"
 #include "sim/scattering/observation/frequency_response.h"
-#include "sim/scattering/observation/line_of_sight.h"
-#include "sim/scattering/observation/look_direction_path.h"
+#include "sim/scattering/observation/look_directions.h"
 
 namespace seaglint {
 
@@ -29,9 +28,9 @@ struct PlannedTrace {
 struct ObservedMotion {
   const Trajectory& trajectory;  // covers the interval
   const IntervalSampling& sampling;
-  Vec3 r_hat;                   // look direction, target frame
-  double range_m = 0;           // of the radar from the origin of the target frame; 0: far field
-  Vec3 centre = Vec3::Zero();   // the point of the body, body frame, about which it is traced
+  Vec3 r_hat;                  // look direction, target frame
+  double range_m = 0;          // of the radar from the origin of the target frame; 0: far field
+  Vec3 centre = Vec3::Zero();  // the point of the body, body frame, about which it is traced
 };
 
 // Limits of the motion of a look direction under one trace, rad.

@@ -17,7 +17,7 @@
 #include <span>
 #include <vector>
 
-#include "sim/scattering/observation/look_direction_path.h"
+#include "sim/scattering/observation/look_directions.h"
 #include "sim/scattering/points/decomposition.h"
 
 namespace seaglint {

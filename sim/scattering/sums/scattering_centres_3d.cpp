@@ -28,8 +28,7 @@ double ScatteringCentre3d::peak_rcs() const {
   return 4 * kPi * max;
 }
 
-std::vector<ScatteringCentre3d> cluster_centres(std::span<const Point> points, double k,
-                                                double cell_m) {
+std::vector<ScatteringCentre3d> cluster_centres(std::span<const Point> points, double k, double cell_m) {
   SEAGLINT_CHECK(cell_m > 0, fmt::format("cells of {} m", cell_m));
   using Key = std::array<std::int64_t, 7>;
   struct Cell {
@@ -40,8 +39,8 @@ std::vector<ScatteringCentre3d> cluster_centres(std::span<const Point> points, d
   std::map<Key, Cell> cells;
   for (const Point& c : points) {
     const Vec3 g = c.gradient.sum();
-    Cell& at = cells[{c.source.part, c.source.bounces, static_cast<std::int64_t>(c.source.mechanism), cell(c.psi), cell(g.x()), cell(g.y()),
-                      cell(g.z())}];
+    Cell& at = cells[{c.source.part, c.source.bounces, static_cast<std::int64_t>(c.source.mechanism), cell(c.psi),
+                      cell(g.x()), cell(g.y()), cell(g.z())}];
     const auto s = echo_of(c, k);
     double weight = 1e-300;
     for (int i = 0; i < 4; ++i) {
@@ -65,8 +64,7 @@ std::vector<ScatteringCentre3d> cluster_centres(std::span<const Point> points, d
   return centres;
 }
 
-Matrices facet_contributions(std::span<const Point> points, double k,
-                                                        std::size_t facets) {
+Matrices facet_contributions(std::span<const Point> points, double k, std::size_t facets) {
   Matrices echoes(facets);
   for (const Point& c : points) {
     SEAGLINT_CHECK(c.source.facet >= 0 && static_cast<std::size_t>(c.source.facet) < facets,

@@ -20,8 +20,7 @@ void add_to(ViewEstimate::Sums& sum, const ViewEstimate::Sums& other, const CoPo
 
 }  // namespace
 
-void ViewEstimate::add(const Contribution& contribution, const ScatteringMatrix& smooth,
-                       const ScatteringMatrix& flat) {
+void ViewEstimate::add(const Contribution& contribution, const ScatteringMatrix& smooth, const ScatteringMatrix& flat) {
   const Footprint& footprint = *contribution.footprint();
   const auto& [facet, part, other_part, bounces, mechanism] = contribution.source;
   // Polygons of one beam on one panel lie in one plane of image space.

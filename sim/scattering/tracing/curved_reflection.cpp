@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "sim/scattering/geometry/tolerances.h"
+#include "sim/scattering/geometry/look_basis.h"
 
 namespace seaglint {
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <span>
 
-#include "sim/scattering/geometry/ray_bundle.h"
+#include "sim/scattering/geometry/paraxial_bundle.h"
 #include "sim/scattering/scatterer/smooth_surface.h"
 #include "sim/scattering/tracing/interaction.h"
 

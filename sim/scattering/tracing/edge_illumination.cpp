@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "sim/scattering/geometry/tolerances.h"
+#include "sim/scattering/geometry/look_basis.h"
 
 namespace seaglint {
 
@@ -37,7 +37,8 @@ void merge_intervals(std::vector<IlluminatedInterval>& intervals) {
 
 // Intervals in which sides of the illuminated polygons coincide with an edge, given by its image's start and direction.
 std::vector<IlluminatedInterval> illuminated_intervals(const Vec3& image, const Vec3& along, double length,
-                                                const FacetWave& wave, std::span<const MovingPolygon> illuminated) {
+                                                       const FacetWave& wave,
+                                                       std::span<const MovingPolygon> illuminated) {
   const RadarBasis& a = wave.antenna;
   const Vec2 start(image.dot(a.h), image.dot(a.v)), run(along.dot(a.h), along.dot(a.v));
   const double shortened = run.norm();  // projected length of a metre of edge

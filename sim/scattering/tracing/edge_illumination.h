@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "sim/core/numbers/linear.h"
-#include "sim/scattering/scatterer/sharp_edges.h"
+#include "sim/scattering/scatterer/panels.h"
 #include "sim/scattering/tracing/interaction.h"
 
 namespace seaglint {

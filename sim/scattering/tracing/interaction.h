@@ -9,14 +9,13 @@
 #include <vector>
 
 #include "sim/scattering/coefficients/material.h"
-#include "sim/scattering/coefficients/reflection.h"
-#include "sim/scattering/geometry/polygon_set.h"
-#include "sim/scattering/geometry/ray_bundle.h"
+#include "sim/scattering/geometry/moving_polygon.h"
+#include "sim/scattering/geometry/paraxial_bundle.h"
 #include "sim/scattering/observation/observation.h"
 #include "sim/scattering/scatterer/facets.h"
 #include "sim/scattering/scatterer/panel_bvh.h"
 #include "sim/scattering/scatterer/scatterer.h"
-#include "sim/scattering/tracing/illumination_settings.h"
+#include "sim/scattering/tracing/tracing_settings.h"
 #include "sim/scattering/tracing/visible_surface.h"
 
 namespace seaglint {
@@ -70,8 +69,7 @@ class InteractionVisitor {
   virtual void illuminated(const Interaction& interaction) = 0;
   // Called next for every receiver: the convex parts of the illuminated polygons with an unobstructed direct path to
   // it, in the projection plane of the transmitter; may be empty.
-  virtual void visible(const Interaction& interaction, std::size_t receiver,
-                       std::span<const MovingPolygon> pieces) = 0;
+  virtual void visible(const Interaction& interaction, std::size_t receiver, std::span<const MovingPolygon> pieces) = 0;
 };
 
 // Field at wavenumber index q.

@@ -5,9 +5,8 @@
 #include <vector>
 
 #include "sim/core/numbers/rotation.h"
-#include "sim/scattering/geometry/tolerances.h"
+#include "sim/scattering/geometry/look_basis.h"
 #include "sim/scattering/tracing/beam_tracer.h"
-#include "sim/scattering/tracing/prism_search.h"
 #include "sim/scattering/tracing/ray_tracer.h"
 
 namespace seaglint {

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "sim/core/process/parallel.h"
-#include "sim/scattering/geometry/tolerances.h"
+#include "sim/scattering/geometry/look_basis.h"
 
 namespace seaglint {
 namespace {

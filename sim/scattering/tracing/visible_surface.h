@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "sim/scattering/geometry/image_transform.h"
-#include "sim/scattering/geometry/polygon_set.h"
-#include "sim/scattering/geometry/tolerances.h"
+#include "sim/scattering/geometry/look_basis.h"
+#include "sim/scattering/geometry/moving_polygon.h"
 #include "sim/scattering/scatterer/facets.h"
 #include "sim/scattering/scatterer/panel_bvh.h"
-#include "sim/scattering/tracing/illumination_settings.h"
+#include "sim/scattering/tracing/tracing_settings.h"
 
 namespace seaglint {
 

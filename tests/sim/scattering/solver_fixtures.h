@@ -18,7 +18,6 @@
 #include "sim/core/numbers/rotation.h"
 #include "sim/geometry/shapes/generators.h"
 #include "tests/sim/scattering/solve_calls.h"
-#include "tests/sim/scattering/solve_calls.h"
 
 namespace seaglint::testing_echoes {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Diffraction by wedges with surface impedances: limits, reciprocity, shadow boundaries, and the solution of Wiener and
 // Hopf for a plane whose impedance changes along a line.
-#include "sim/scattering/coefficients/impedance_wedge.h"
+#include "sim/scattering/coefficients/material_edge.h"
 
 #include <gtest/gtest.h>
 

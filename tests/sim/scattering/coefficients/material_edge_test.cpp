@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#include "sim/scattering/coefficients/reflection.h"
+#include "sim/scattering/coefficients/material.h"
 #include "sim/scattering/coefficients/wedge_diffraction.h"
 #include "sim/scenario/material_file.h"
 #include "tests/sim/scattering/solver_fixtures.h"

@@ -9,7 +9,6 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/random.h"
 #include "sim/scattering/coefficients/material.h"
-#include "sim/scattering/coefficients/sea_water.h"
 #include "sim/scenario/material_file.h"
 #include "tests/measured.h"
 

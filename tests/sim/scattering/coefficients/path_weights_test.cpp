@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Weights of complementary forms sum to one, for the directions as each form computes its own.
-#include "sim/scattering/coefficients/path_weights.h"
+#include "sim/scattering/coefficients/fade_windows.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Edges of sheets of finite thickness: against integral equations, reciprocity, continuity and symmetry.
-#include "sim/scattering/coefficients/thick_edge.h"
+#include "sim/scattering/coefficients/wedge_diffraction.h"
 #include "tests/sim/scattering/solve_calls.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A moving radar: the directions to it and to its image in the sea change with its relative motion.
-#include "sim/scattering/observation/line_of_sight.h"
+#include "sim/scattering/observation/look_directions.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

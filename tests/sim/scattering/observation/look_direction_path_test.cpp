@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/scattering/observation/look_direction_path.h"
+#include "sim/scattering/observation/look_directions.h"
 #include "sim/scattering/radiation/contribution.h"
 
 namespace seaglint {

@@ -10,7 +10,7 @@
 #include <iterator>
 
 #include "sim/geometry/files/mesh_io.h"
-#include "sim/scattering/coefficients/transition.h"
+#include "sim/scattering/coefficients/amplitude_laws.h"
 #include "sim/scattering/points/decomposition.h"
 #include "sim/scattering/points/phase_integral.h"
 #include "sim/scattering/solver/aspect_trace.h"

@@ -12,7 +12,7 @@
 #include "sim/geometry/shapes/generators.h"
 #include "sim/scattering/points/phase_integral.h"
 #include "sim/scattering/points/decomposition.h"
-#include "sim/scattering/radiation/curved_footprint.h"
+#include "sim/scattering/radiation/surface_radiation.h"
 #include "sim/scattering/scatterer/smooth_surface.h"
 #include "tests/sim/scattering/solve_calls.h"
 #include "tests/measured.h"

@@ -11,7 +11,7 @@
 #include "sim/core/numbers/rotation.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/scattering/coefficients/fade_windows.h"
-#include "sim/scattering/coefficients/transition.h"
+#include "sim/scattering/coefficients/amplitude_laws.h"
 #include "sim/scattering/coefficients/wedge_diffraction.h"
 #include "sim/scattering/points/phase_integral.h"
 #include "sim/scattering/radiation/edge_diffraction.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Bounding edges of reflectors in the direction of the reflected beam: closed forms.
-#include "sim/scattering/radiation/reflected_edge.h"
+#include "sim/scattering/radiation/edge_diffraction.h"
 
 #include <gtest/gtest.h>
 

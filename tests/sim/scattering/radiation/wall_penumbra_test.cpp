@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Walls behind edges of faces at grazing incidence, against integrals over the half-plane's field.
 #include "sim/scattering/radiation/wall_penumbra.h"
-#include "sim/scattering/coefficients/transition.h"
+#include "sim/scattering/coefficients/amplitude_laws.h"
 #include "sim/scattering/points/phase_integral.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 #include "sim/scattering/coefficients/fade_windows.h"
 #include "sim/scattering/coefficients/wedge_diffraction.h"
 #include "sim/scattering/radiation/multiple_diffraction.h"
-#include "sim/scattering/radiation/reflected_edge.h"
+#include "sim/scattering/radiation/edge_diffraction.h"
 #include "sim/scattering/solver/aspect_trace.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 

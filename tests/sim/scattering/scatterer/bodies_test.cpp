@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sizes of the bodies in a file, and the detail that follows from them.
-#include "sim/scattering/scatterer/bodies.h"
+#include "sim/scattering/scatterer/scatterer.h"
 #include "sim/core/numbers/rotation.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 
 #include "sim/geometry/shapes/generators.h"
 #include "sim/geometry/ship/make_ship.h"
-#include "sim/scattering/tracing/illumination_settings.h"
+#include "sim/scattering/tracing/tracing_settings.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
 namespace seaglint {

@@ -5,7 +5,7 @@
 
 #include "sim/geometry/mesh/mesh_diagnostics.h"
 #include "sim/geometry/shapes/generators.h"
-#include "sim/scattering/scatterer/part_materials.h"
+#include "sim/scattering/scatterer/prepare_target.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
 namespace seaglint {

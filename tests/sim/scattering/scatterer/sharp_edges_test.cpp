@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which edges are sharp, and which of their faces records the illumination.
-#include "sim/scattering/scatterer/sharp_edges.h"
+#include "sim/scattering/scatterer/panels.h"
 
 #include <gtest/gtest.h>
 

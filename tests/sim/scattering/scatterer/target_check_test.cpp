@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Targets outside or at the limits of the solver's validity.
-#include "sim/scattering/scatterer/target_check.h"
+#include "sim/scattering/scatterer/prepare_target.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -11,8 +11,8 @@
 
 #include "sim/core/numbers/random.h"
 #include "sim/geometry/shapes/generators.h"
-#include "sim/scattering/observation/sweep_plan.h"
-#include "sim/scattering/sums/band_sum.h"
+#include "sim/scattering/observation/frequency_band.h"
+#include "sim/scattering/sums/sweep_sum.h"
 #include "sim/scenario/material_file.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/scattering/tracing/ray_lattice.h"
+#include "sim/scattering/tracing/ray_paths.h"
 
 #include <gmock/gmock.h>
 

@@ -14,7 +14,7 @@
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/mesh/mesh_diagnostics.h"
 #include "sim/scattering/points/phase_integral.h"
-#include "sim/scattering/radiation/curved_footprint.h"
+#include "sim/scattering/radiation/surface_radiation.h"
 #include "sim/scattering/solver/aspect_trace.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 #include "tests/sim/scattering/validation/random_body.h"
