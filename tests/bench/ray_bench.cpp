@@ -8,14 +8,13 @@
 #include "sim/geometry/shapes/generators.h"
 #include "sim/scattering/points/phase_integral.h"
 #include "sim/scattering/scatterer/embree_scene.h"
-#include "tests/sim/scattering/solve_calls.h"
 #include "sim/scattering/tracing/interaction.h"
 #include "sim/scattering/tracing/ray_tracer.h"
 #include "tests/bench/ship.h"
+#include "tests/sim/scattering/solve_calls.h"
 
 namespace seaglint {
 namespace {
-
 
 // Flat facets for both solvers.
 const Scatterer& flat_ship() {
@@ -173,7 +172,8 @@ SearchTime time_of_search(const Scatterer& scatterer, const RadarBasis& basis, c
   const RayLattice lattice(scatterer, basis, ray_spacing(scatterer, settings));
   const Aspect aspect(scatterer, basis, settings, 1);
   const std::vector<Receiver> receivers{{monostatic(basis), aspect.visible}};
-  const TracingContext scene{scatterer, basis, receivers, settings, aspect.visible, {}, SmallestAreas(scatterer, settings)};
+  const TracingContext scene{
+      scatterer, basis, receivers, settings, aspect.visible, {}, SmallestAreas(scatterer, settings)};
   SearchTime search;
   search.all_s = fastest_of_three([&] {
     RayPaths paths(scene);

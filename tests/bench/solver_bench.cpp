@@ -6,8 +6,8 @@
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/shapes/generators.h"
 #include "sim/scattering/scatterer/embree_scene.h"
-#include "tests/sim/scattering/solve_calls.h"
 #include "tests/bench/ship.h"
+#include "tests/sim/scattering/solve_calls.h"
 
 namespace seaglint {
 namespace {
@@ -64,7 +64,8 @@ void ShipIntervalRollingAtOneRms(benchmark::State& state) {
   const Trajectory trajectory = rolling(0.014, {0, 0, 1.7});
   const Vec3 r = direction(static_cast<double>(state.range(0)));
   int traces = 0;
-  for (auto _ : state) traces = interval_response(ship(), trajectory, r, Polarisation::kVv, paper_interval(), {}, 2).traces;
+  for (auto _ : state)
+    traces = interval_response(ship(), trajectory, r, Polarisation::kVv, paper_interval(), {}, 2).traces;
   state.counters["traces"] = traces;
 }
 BENCHMARK(ShipIntervalRollingAtOneRms)->Arg(50)->Arg(90)->Unit(benchmark::kMillisecond)->UseRealTime();

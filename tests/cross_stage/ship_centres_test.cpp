@@ -10,9 +10,9 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/scattering/observation/observation.h"
-#include "tests/sim/scattering/solve_calls.h"
 #include "sim/scattering/solver/point_response.h"
 #include "tests/measured.h"
+#include "tests/sim/scattering/solve_calls.h"
 
 namespace seaglint {
 namespace {

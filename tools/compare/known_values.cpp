@@ -8,9 +8,9 @@
 #include <limits>
 #include <map>
 
+#include "sim/canonical/canonical_echo.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/dbsm.h"
-#include "sim/canonical/canonical_echo.h"
 #include "tools/compare/range_profiles.h"
 #include "tools/rcs/rcs_views.h"
 

@@ -168,7 +168,7 @@ ClutterScene Pipeline::clutter_scene(const SampleAddress& at, const Scene& scene
 
 IntervalResult Pipeline::response(const SampleAddress& at, const PulseTrain& train, const StopFlag* stop) const {
   const ObservedInterval seen{scenario_of(at), scene(at.sea_state, at.realisation), plan_.view(at), plan_.sea_state(at),
-                         sampling(train, plan_.start_s(at))};
+                              sampling(train, plan_.start_s(at))};
   const auto target = static_cast<std::size_t>(at.target);
   IntervalResult sum = target_response(target, seen, stop);
   for (const std::size_t companion : (*seen.scene->targets)[target].companions) {

@@ -101,7 +101,7 @@ class Pipeline {
   std::shared_ptr<const std::vector<Target>> targets_;
   double range_window_m_ = 0;
 
-  mutable SharedResults<std::pair<int, int>, Scene> scenes_{8};     // by sea state and realisation
+  mutable SharedResults<std::pair<int, int>, Scene> scenes_{8};       // by sea state and realisation
   mutable SharedResults<std::size_t, IntervalResult> responses_{16};  // by the first sample of an interval and target
 };
 

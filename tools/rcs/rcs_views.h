@@ -38,9 +38,9 @@ SolveResult view_contributions(const RcsRequest& request, const RcsTarget& targe
                                const StopFlag* stop = nullptr);
 
 struct RcsResult {
-  RcsSweep sweep;            // the requested model is the last
-  std::vector<Point> points; // of the requested model, for a request with exports
-  std::size_t segments = 0;  // beam segments traced from transmitters
+  RcsSweep sweep;             // the requested model is the last
+  std::vector<Point> points;  // of the requested model, for a request with exports
+  std::size_t segments = 0;   // beam segments traced from transmitters
 };
 
 // Computes all models of the request, on `threads` threads (0 = all processors). Throws WorkError when a cavity's

@@ -113,17 +113,15 @@ std::string heading(const RcsRequest& request, const Scatterer& scatterer) {
 
 }  // namespace
 
-std::string export_view(const RcsRequest& request, const RcsTarget& target,
-                        std::span<const Point> points) {
+std::string export_view(const RcsRequest& request, const RcsTarget& target, std::span<const Point> points) {
   const Scatterer& scatterer = *target.prepared.scatterer;
   const double k = 2 * kPi * request.frequency_hz[0] / kSpeedOfLight;
   std::string lines;
   if (!request.exports.centres.empty())
-    lines += write_centres(request.exports, target.prepared.mesh,
-                           cluster_centres(points, k, request.exports.cell_m), heading(request, scatterer));
+    lines += write_centres(request.exports, target.prepared.mesh, cluster_centres(points, k, request.exports.cell_m),
+                           heading(request, scatterer));
   if (!request.exports.hot_spots.empty())
-    lines +=
-        write_hot_spots(request.exports, target.prepared.mesh, scatterer, facet_levels(scatterer, points, k));
+    lines += write_hot_spots(request.exports, target.prepared.mesh, scatterer, facet_levels(scatterer, points, k));
   return lines;
 }
 

@@ -14,7 +14,6 @@ namespace seaglint {
 
 // Writes the exports of a request with one aspect from the contributions at that aspect (rcs_views.h); returns one line
 // per file.
-std::string export_view(const RcsRequest& request, const RcsTarget& target,
-                        std::span<const Point> points);
+std::string export_view(const RcsRequest& request, const RcsTarget& target, std::span<const Point> points);
 
 }  // namespace seaglint

@@ -18,8 +18,8 @@
 namespace seaglint {
 
 struct BodyModel {
-  double scale = 1;                              // factor by which the mesh of the file is enlarged, after its unit
-  double radius_m = 0;                           // largest distance of a vertex from the mesh's origin
+  double scale = 1;                                // factor by which the mesh of the file is enlarged, after its unit
+  double radius_m = 0;                             // largest distance of a vertex from the mesh's origin
   std::shared_ptr<const PreparedTarget> prepared;  // cut at the waterline
   std::shared_ptr<const Body> motion;  // of a rigid raft that of the raft, whatever the size of its reflectors
 };

@@ -95,13 +95,23 @@ double angle_from_face(const WedgeFace& face, const Vec3& towards_source) {
   return angle < 0 ? angle + 2 * kPi : angle;
 }
 
+// Incident waves along k_hat with these electric fields, observed along s. `shadow`: angle about a shadow boundary,
+// rad.
+struct Diffraction {
+  const Vec3& k_hat;
+  std::span<const Vec3> fields;
+  const Vec3& s;
+  bool only_visible;  // physical optics is subtracted on faces that s sees only
+  double shadow;
+};
+
 // Adds the integrals of eta k J / 2j over one face along the grazing diffracted ray (Michaeli 1984 and 1986; his alpha
 // is pi - a here). At a distance x from the edge Sommerfeld's wedge currents are contour integrals of e^{jkx cos xi}
 // with the cotangents of (xi +- phi') / 2N. Weighted with e^{jkx mu} and integrated over the half-line in x they become
 // 1 / (cos xi + mu), whose pole at cos a = -mu leaves the cotangents at a +- phi' over sin a. The current of physical
 // optics, N = 1, is subtracted, with `only_visible` on faces that s sees only.
-void add_face_current(const WedgeFace& face, double N, double phi, bool only_visible, double shadow, const Vec3& k_hat,
-                      std::span<const Vec3> fields, const Vec3& s, std::span<Vec3> sums) {
+void add_face_current(const WedgeFace& face, double N, double phi, const Diffraction& of, std::span<Vec3> sums) {
+  const auto& [k_hat, fields, s, only_visible, shadow] = of;
   const double cos_b = k_hat.dot(face.t);
   const double sin_b = std::sqrt(std::max(1 - cos_b * cos_b, 1e-12));
   const double mu = (sin_b * s.dot(face.x) + cos_b * (s.dot(face.t) - cos_b)) / (sin_b * sin_b);
@@ -125,13 +135,10 @@ void add_face_current(const WedgeFace& face, double N, double phi, bool only_vis
   }
 }
 
-void add_currents(const WedgeFrame& wedge, const Vec3& k_hat, std::span<const Vec3> fields, const Vec3& s,
-                  bool only_visible, double shadow, std::span<Vec3> sums) {
-  const double phi = angle_from_face(wedge.face[0], -k_hat);
+void add_currents(const WedgeFrame& wedge, const Diffraction& of, std::span<Vec3> sums) {
+  const double phi = angle_from_face(wedge.face[0], -of.k_hat);
   if (phi > wedge.N * kPi) return;
-  for (int i = 0; i < 2; ++i)
-    add_face_current(wedge.face[i], wedge.N, i == 0 ? phi : wedge.N * kPi - phi, only_visible, shadow, k_hat, fields, s,
-                     sums);
+  for (int i = 0; i < 2; ++i) add_face_current(wedge.face[i], wedge.N, i == 0 ? phi : wedge.N * kPi - phi, of, sums);
   // E_s = -(jk eta / 4 pi) (e^{-jkr}/r) integral J e^{jk s.x}; the integrals above are those of eta k J / 2j.
   for (Vec3& sum : sums) sum /= 2 * kPi;
 }
@@ -148,14 +155,14 @@ double image_angle_nearest_grazing(double phi, double N) {
 
 Vec3 fringe_current(const WedgeFrame& wedge, const Vec3& k_hat, const Vec3& E, const Vec3& s) {
   Vec3 sum = Vec3::Zero();
-  add_currents(wedge, k_hat, {&E, 1}, s, false, kShadowBoundaryGuard, {&sum, 1});
+  add_currents(wedge, {k_hat, {&E, 1}, s, false, kShadowBoundaryGuard}, {&sum, 1});
   return sum;
 }
 
 std::array<Vec3, 2> equivalent_edge_currents(const WedgeFrame& wedge, const Vec3& k_hat,
                                              const std::array<Vec3, 2>& fields, const Vec3& s, double shadow) {
   std::array<Vec3, 2> sums{Vec3::Zero(), Vec3::Zero()};
-  add_currents(wedge, k_hat, fields, s, true, shadow, sums);
+  add_currents(wedge, {k_hat, fields, s, true, shadow}, sums);
   return sums;
 }
 

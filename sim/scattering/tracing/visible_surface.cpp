@@ -171,8 +171,8 @@ void VisibleSurface::visible_after_reflections(int facet, const ImageTransform& 
     return;
   }
   const Facet& own = facets_[facet];
-  clip_to_visible(window(facet), least_area(own.normal, basis_, min_area_.on(facet)),
-                  depth_plane(own.normal, own.offset, basis_), image_transform, illuminated, transmit, visible);
+  const PanelMap map(depth_plane(own.normal, own.offset, basis_), basis_, image_transform, transmit);
+  clip_to_visible(window(facet), least_area(own.normal, basis_, min_area_.on(facet)), map, illuminated, visible);
 }
 
 void VisibleSurface::visible_via_reflector(int reflector, int facet, const ImageTransform& image_transform,
@@ -180,16 +180,14 @@ void VisibleSurface::visible_via_reflector(int reflector, int facet, const Image
                                            std::vector<MovingPolygon>& visible) const {
   const ImageTransform by = plane_reflection(facets_[reflector].normal, facets_[reflector].offset);
   const Vec3 normal = by.L * facets_[facet].normal;
-  clip_to_visible(window(reflector), least_area(normal, basis_, min_area_.on(facet)),
-                  depth_plane(normal, normal.dot(by.image(facets_[facet].corner[0])), basis_), image_transform,
-                  illuminated, transmit, visible);
+  const PanelMap map(depth_plane(normal, normal.dot(by.image(facets_[facet].corner[0])), basis_), basis_,
+                     image_transform, transmit);
+  clip_to_visible(window(reflector), least_area(normal, basis_, min_area_.on(facet)), map, illuminated, visible);
 }
 
-void VisibleSurface::clip_to_visible(const VisiblePieces& window, double min_area, const DepthPlane& own,
-                                     const ImageTransform& image_transform, std::span<const MovingPolygon> illuminated,
-                                     const RadarBasis& transmit, std::vector<MovingPolygon>& visible) const {
+void VisibleSurface::clip_to_visible(const VisiblePieces& window, double min_area, const PanelMap& map,
+                                     std::span<const MovingPolygon> illuminated, std::vector<MovingPolygon>& visible) {
   if (window.pieces.empty() || illuminated.empty()) return;
-  const PanelMap map(own, basis_, image_transform, transmit);
   // Bounding box of the illuminated polygons in the radar's projection plane.
   Box direct;
   for (const MovingPolygon& part : illuminated) {

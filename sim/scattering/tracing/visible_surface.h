@@ -93,11 +93,10 @@ class VisibleSurface {
     const Box* boxes = nullptr;
   };
   VisiblePieces window(int facet) const;
-  // Intersects the illuminated polygons, in a plane that the radar sees as `own`, with the visible polygons `window`;
-  // intersections below min_area (m^2) are left out.
-  void clip_to_visible(const VisiblePieces& window, double min_area, const DepthPlane& own,
-                       const ImageTransform& image_transform, std::span<const MovingPolygon> illuminated,
-                       const RadarBasis& transmit, std::vector<MovingPolygon>& visible) const;
+  // Intersects the illuminated polygons of a panel with the visible polygons `window`; intersections below min_area
+  // (m^2) are left out.
+  static void clip_to_visible(const VisiblePieces& window, double min_area, const PanelMap& map,
+                              std::span<const MovingPolygon> illuminated, std::vector<MovingPolygon>& visible);
 
   std::span<const Facet> facets_;
   RadarBasis basis_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/cavity/cavity_scattering.h"
-#include "sim/scattering/solver/solve.h"
+#include "tests/sim/scattering/solve_calls.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -20,8 +20,8 @@ inline std::vector<Matrices> matrices_of(SolveRequest request) {
 }
 
 inline SolveRequest views_request(const Scatterer& scatterer, std::span<const BistaticGeometry> pairs,
-                                  std::span<const double> wavenumbers, const TracingSettings& settings,
-                                  int threads = 1, const RadarRange& radar = {}) {
+                                  std::span<const double> wavenumbers, const TracingSettings& settings, int threads = 1,
+                                  const RadarRange& radar = {}) {
   return {.scatterer = scatterer,
           .views = {pairs.begin(), pairs.end()},
           .wavenumbers = {wavenumbers.begin(), wavenumbers.end()},

@@ -7,9 +7,9 @@
 
 #include <cmath>
 
+#include "sim/canonical/canonical_echo.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/dbsm.h"
-#include "sim/canonical/canonical_echo.h"
 #include "sim/scattering/observation/observation.h"
 
 namespace seaglint {

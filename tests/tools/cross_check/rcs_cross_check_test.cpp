@@ -79,7 +79,8 @@ TEST_F(DihedralCrossCheck, SumsOfTheGroupsAreTheField) {
   const RcsTarget target = prepare_rcs_target(request_);
   const double hz = 9.5e9, k = 2 * kPi * hz / kSpeedOfLight;
   std::array<Complex, 4> sum{};
-  for (const auto& [group, of_group] : group_sums(view_contributions(request_, target, {7, 3, hz}).views[0].points, k)) {
+  for (const auto& [group, of_group] :
+       group_sums(view_contributions(request_, target, {7, 3, hz}).views[0].points, k)) {
     for (std::size_t i = 0; i < 4; ++i) sum[i] += of_group[i];
   }
   // compute_rcs() refers the phase to the body's origin, the groups to the target's centre.

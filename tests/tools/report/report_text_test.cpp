@@ -35,6 +35,7 @@ ordered_json scores(double ships, double ships_right, double arrays_right) {
 std::string table_of(const ordered_json& scores) {
   return probes_table(
       {{"split_repeats", 1},
+       {"learning", {{"split.by", "sea"}}},
        {"probes",
         {{{"name", "hop code"}, {"kind", "blind"}, {"meaning", "-"}, {"random", scores}, {"group", scores}}}}},
       {});
@@ -57,6 +58,7 @@ TEST(ProbesTable, CallsAccuraciesBelowGuessingChance) {
   ordered_json random = scores(150, 60, 73), group = scores(150, 75, 75);  // 44.3 and 50 %
   const auto table = [&](const char* kind) {
     return probes_table({{"split_repeats", 1},
+                         {"learning", {{"split.by", "sea"}}},
                          {"probes",
                           {{{"name", "signal to clutter and noise"},
                             {"kind", kind},

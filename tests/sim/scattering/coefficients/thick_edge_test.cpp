@@ -185,8 +185,7 @@ TEST(ThickEdge, IsInTheContributionsOfAnAspect) {
   const double k = wavenumber(10.24e9);
   const RadarBasis basis = radar_basis(direction(33, 7));
   const TracingSettings settings{0, 8, true};
-  const auto sum =
-      direct_sum(points_of(plate, monostatic(basis), k, 1e-3, settings).points, k, Vec3::Zero());
+  const auto sum = direct_sum(points_of(plate, monostatic(basis), k, 1e-3, settings).points, k, Vec3::Zero());
   const auto matrix = echo(plate, basis, k, 0, 8, true), without = echo(thin, basis, k, 0, 8, true);
   for (const int channel : {kHhChannel, kVvChannel}) {
     EXPECT_LT(std::abs(sum[channel] - matrix[channel]), 1e-5 * largest(matrix));

@@ -133,7 +133,8 @@ TEST(FringeCurrent, IsTheCotangentsOfAComplexAngle) {
     }
     if (near_a_pole) continue;
     const Vec3 K = fringe_current(frame, k_hat, E, s);
-    EXPECT_LT(testing_echoes::norm_of(K.cast<Complex>() - expected), 1e-9 * (1 + K.norm())) << N << ' ' << phi << ' ' << beta;
+    EXPECT_LT(testing_echoes::norm_of(K.cast<Complex>() - expected), 1e-9 * (1 + K.norm()))
+        << N << ' ' << phi << ' ' << beta;
   }
   EXPECT_GT(imaginary, 200);
 }

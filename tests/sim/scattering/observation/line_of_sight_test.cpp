@@ -11,9 +11,9 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/geometry/shapes/generators.h"
 #include "sim/scattering/observation/observation.h"
-#include "tests/sim/scattering/solve_calls.h"
 #include "sim/scattering/solver/point_response.h"
 #include "tests/measured.h"
+#include "tests/sim/scattering/solve_calls.h"
 
 namespace seaglint {
 namespace {
@@ -74,13 +74,15 @@ TEST(MovingRadar, IntervalResultMatchesPerPulseDirections) {
   IntervalSampling sampling = interval();
   sampling.line_of_sight_rate *= 5;  // at 4 km
   const Vec3 r_hat = direction_to_radar(radians(70), radians(2));
-  const FrequencyResponse passing = interval_response(scatterer, at_rest, r_hat, Polarisation::kVv, sampling, {}).response;
+  const FrequencyResponse passing =
+      interval_response(scatterer, at_rest, r_hat, Polarisation::kVv, sampling, {}).response;
   double difference = 0, power = 0;
   for (const int n : {0, 7, 15}) {
     const IntervalSampling one = only_pulse(sampling, n);
     const double t = sampling.pulse_time_s[n] - sampling.pulse_time_s.front();
     const Vec3 direction = (r_hat + t * sampling.line_of_sight_rate).normalized();
-    const FrequencyResponse traced = interval_response(scatterer, at_rest, direction, Polarisation::kVv, one, {}).response;
+    const FrequencyResponse traced =
+        interval_response(scatterer, at_rest, direction, Polarisation::kVv, one, {}).response;
     for (int b = 0; b < sampling.frequencies_per_pulse; ++b) {
       difference += std::norm(passing.at(n, b) - traced.at(0, b));
       power += std::norm(traced.at(0, b));

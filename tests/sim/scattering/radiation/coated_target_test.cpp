@@ -8,9 +8,9 @@
 #include "sim/geometry/shapes/generators.h"
 #include "sim/scattering/coefficients/material.h"
 #include "sim/scattering/scatterer/prepare_target.h"
-#include "tests/sim/scattering/solve_calls.h"
 #include "sim/scenario/material_file.h"
 #include "tests/measured.h"
+#include "tests/sim/scattering/solve_calls.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
 namespace seaglint {

@@ -10,12 +10,12 @@
 
 #include "sim/core/numbers/rotation.h"
 #include "sim/geometry/shapes/generators.h"
-#include "sim/scattering/points/phase_integral.h"
 #include "sim/scattering/points/decomposition.h"
+#include "sim/scattering/points/phase_integral.h"
 #include "sim/scattering/radiation/surface_radiation.h"
 #include "sim/scattering/scatterer/smooth_surface.h"
-#include "tests/sim/scattering/solve_calls.h"
 #include "tests/measured.h"
+#include "tests/sim/scattering/solve_calls.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
 namespace seaglint {

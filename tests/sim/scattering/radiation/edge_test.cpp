@@ -16,8 +16,8 @@
 #include "sim/geometry/shapes/generators.h"
 #include "sim/scattering/coefficients/amplitude_laws.h"
 #include "sim/scattering/scatterer/panels.h"
-#include "tests/sim/scattering/solve_calls.h"
 #include "tests/measured.h"
+#include "tests/sim/scattering/solve_calls.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
 namespace seaglint {

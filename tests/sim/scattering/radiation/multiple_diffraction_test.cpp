@@ -10,8 +10,8 @@
 
 #include "sim/core/numbers/rotation.h"
 #include "sim/geometry/files/mesh_io.h"
-#include "sim/scattering/coefficients/fade_windows.h"
 #include "sim/scattering/coefficients/amplitude_laws.h"
+#include "sim/scattering/coefficients/fade_windows.h"
 #include "sim/scattering/coefficients/wedge_diffraction.h"
 #include "sim/scattering/points/phase_integral.h"
 #include "sim/scattering/radiation/edge_diffraction.h"
@@ -306,12 +306,12 @@ TEST(MultipleDiffraction, DropsOnlyWeakPaths) {
   std::size_t all = 0, kept = 0;
   for (const auto& [azimuth, elevation] : {std::pair{45.0, 35.0}, {20.0, 3.0}, {70.0, 60.0}, {1.0, 1.0}}) {
     const BistaticGeometry geometry = monostatic(radar_basis(direction(azimuth, elevation)));
-    const auto illuminations = Illumination(corner, geometry, {0, 4, true})
-                                   .trace(1, ignore_contributions)
-                                   .edge_illuminations;
+    const auto illuminations =
+        Illumination(corner, geometry, {0, 4, true}).trace(1, ignore_contributions).edge_illuminations;
     const auto significant = [&](double limit, std::size_t& count) {
       std::vector<Contribution> contributions;
-      trace_multiple_diffraction({corner, geometry, {}, illuminations, {0, 0, limit, k}}, illuminations.all(), contributions);
+      trace_multiple_diffraction({corner, geometry, {}, illuminations, {0, 0, limit, k}}, illuminations.all(),
+                                 contributions);
       count += contributions.size();
       return std::count_if(contributions.begin(), contributions.end(), [&](const Contribution& f) {
         const auto* wave = std::get_if<GrazingWaveAmplitude>(&f.interval()->amplitude);
@@ -334,8 +334,7 @@ TEST(MultipleDiffraction, OfShortRunsIsNegligibleOnTheShip) {
   const MultipleDiffractionLimits own = multiple_diffraction_limits(ship, settings, k);
   for (const double azimuth : {10.0, 90.0, 130.0}) {
     const BistaticGeometry geometry = monostatic(radar_basis(direction(azimuth, 2)));
-    const auto illuminations =
-        Illumination(ship, geometry, settings).trace(2, ignore_contributions).edge_illuminations;
+    const auto illuminations = Illumination(ship, geometry, settings).trace(2, ignore_contributions).edge_illuminations;
     const auto waves = [&](const MultipleDiffractionLimits& limits) {
       std::vector<Contribution> contributions;
       trace_multiple_diffraction({ship, geometry, {}, illuminations, limits}, illuminations.all(), contributions);
@@ -368,9 +367,8 @@ TEST(MultipleDiffraction, DoNotDependOnTriangulation) {
     const RadarBasis basis = radar_basis(direction(azimuth, 13));
     const BistaticGeometry geometry = monostatic(basis);
     const auto of_edges = [&](const Scatterer& plate, bool once) {
-      const auto illuminations = Illumination(plate, monostatic(basis), {0, 1, true})
-                                     .trace(1, ignore_contributions)
-                                     .edge_illuminations;
+      const auto illuminations =
+          Illumination(plate, monostatic(basis), {0, 1, true}).trace(1, ignore_contributions).edge_illuminations;
       std::vector<Contribution> contributions;
       trace_multiple_diffraction({plate, geometry, {}, illuminations, {}}, illuminations.all(), contributions);
       std::array<Complex, 4> sum{};

@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/scattering/coefficients/fade_windows.h"
 #include "sim/core/numbers/rotation.h"
+#include "sim/scattering/coefficients/fade_windows.h"
 
 namespace seaglint {
 namespace {

@@ -11,8 +11,8 @@
 #include "sim/core/numbers/smooth_step.h"
 #include "sim/scattering/coefficients/fade_windows.h"
 #include "sim/scattering/coefficients/wedge_diffraction.h"
-#include "sim/scattering/radiation/multiple_diffraction.h"
 #include "sim/scattering/radiation/edge_diffraction.h"
+#include "sim/scattering/radiation/multiple_diffraction.h"
 #include "sim/scattering/solver/aspect_trace.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
@@ -168,9 +168,8 @@ TEST(WallPenumbra, BelongsToTheWallAndItsFloor) {
   corner.part_names = {"one", "two", "three"};
   const Scatterer scatterer(corner);
   const BistaticGeometry geometry = monostatic(radar_basis(direction(30, 2)));
-  const auto illuminations = Illumination(scatterer, geometry, {0, 4, true})
-                                 .trace(1, ignore_contributions)
-                                 .edge_illuminations;
+  const auto illuminations =
+      Illumination(scatterer, geometry, {0, 4, true}).trace(1, ignore_contributions).edge_illuminations;
   std::vector<Contribution> contributions;
   trace_multiple_diffraction({scatterer, geometry, {}, illuminations, {}}, illuminations.all(), contributions);
   int walls = 0;

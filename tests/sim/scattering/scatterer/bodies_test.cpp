@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sizes of the bodies in a file, and the detail that follows from them.
-#include "sim/scattering/scatterer/scatterer.h"
 #include "sim/core/numbers/rotation.h"
+#include "sim/scattering/scatterer/scatterer.h"
 
 #include <gtest/gtest.h>
 

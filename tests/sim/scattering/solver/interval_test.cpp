@@ -11,12 +11,12 @@
 #include "sim/core/numbers/random.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/shapes/generators.h"
-#include "sim/scattering/points/phase_integral.h"
 #include "sim/scattering/points/decomposition.h"
+#include "sim/scattering/points/phase_integral.h"
 #include "sim/scattering/solver/aspect_trace.h"
-#include "tests/sim/scattering/solve_calls.h"
 #include "sim/scattering/sums/response_grid.h"
 #include "tests/measured.h"
+#include "tests/sim/scattering/solve_calls.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
 namespace seaglint {
@@ -146,7 +146,8 @@ TEST(IntervalResponse, OfABodyAtRestEqualsItsScatteringMatrix) {
   const Scatterer reflector(make_icosahedral_reflector());
   const Vec3 r_hat = direction(20, 2), rest(3, -40, 0.75);
   const IntervalSampling sampling = paper_interval(0);
-  const IntervalResult body = interval_response(reflector, Trajectory::at_rest(rest), r_hat, Polarisation::kHh, sampling, {});
+  const IntervalResult body =
+      interval_response(reflector, Trajectory::at_rest(rest), r_hat, Polarisation::kHh, sampling, {});
   EXPECT_EQ(body.traces, 1);
   for (const int n : {0, 100, 255}) {
     for (const int b : {0, 39}) {

@@ -10,8 +10,8 @@
 #include "sim/core/numbers/rotation.h"
 #include "sim/core/process/error.h"
 #include "sim/geometry/shapes/generators.h"
-#include "tests/sim/scattering/solve_calls.h"
 #include "tests/measured.h"
+#include "tests/sim/scattering/solve_calls.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
 namespace seaglint {
@@ -20,7 +20,8 @@ namespace {
 using namespace testing_echoes;
 
 Complex at_range(const TriangleMesh& mesh, const Vec3& r, double k, double range_m) {
-  return scattering_matrices(Scatterer(mesh), monostatic(radar_basis(r)), std::array{k}, TracingSettings{}, 1, {range_m})[0][kVvChannel];
+  return scattering_matrices(Scatterer(mesh), monostatic(radar_basis(r)), std::array{k}, TracingSettings{}, 1,
+                             {range_m})[0][kVvChannel];
 }
 
 // Physical optics of a plate in x = 0, its phase summed over small cells: e^{2jk (r.x - |x_perp|^2 / 2R)}.
@@ -82,7 +83,8 @@ TEST(WavefrontCurvature, SlideOfAShadowEdgeHasNoSecondOrder) {
   settings.filter.included = {{ContributionSelector::Kind::kPart, 0}};
   const Vec3 r = direction(0, 0);
   const auto plate_at = [&](double range_m) {
-    return scattering_matrices(Scatterer(mesh), monostatic(radar_basis(r)), std::array{k}, settings, 1, {range_m})[0][kVvChannel];
+    return scattering_matrices(Scatterer(mesh), monostatic(radar_basis(r)), std::array{k}, settings, 1,
+                               {range_m})[0][kVvChannel];
   };
   const Complex far = plate_at(0), near = plate_at(10e3);
   // Half the plate reaches 1 m off the axis: k 1 / R = 6e-3 rad; amplitudes are frozen over 10 / R.
@@ -123,8 +125,7 @@ TEST(WavefrontCurvature, OfATrihedralIsThatOfItsAperture) {
   settings.filter.included = {{ContributionSelector::Kind::kBounces, 3}};
   const RadarBasis axis = radar_basis(Vec3(1, 1, 1).normalized());
   for (const double range_m : {20.0, 40.0, 100.0}) {
-    const auto s =
-        scattering_matrices(corner, monostatic(axis), std::array{k}, settings, 1, {range_m})[0];
+    const auto s = scattering_matrices(corner, monostatic(axis), std::array{k}, settings, 1, {range_m})[0];
     // Twelve right triangles of height sqrt(3) side / 2 and angle 30 deg, in rings of equal distance from the apex.
     const int rings = 20000;
     const double height = std::numbers::sqrt3 / 2 * side;
@@ -145,10 +146,11 @@ TEST(WavefrontCurvature, OfATrihedralIsThatOfItsAperture) {
     solver.edges = false;
     solver.wavefront_range_m = range_m;
     const Complex at_rest = interval_response(corner, Trajectory::at_rest(Vec3::Zero()), axis.r, Polarisation::kHh,
-                                          {16e9, 1e6, 1, 1, {0}, {0.0}}, solver)
+                                              {16e9, 1e6, 1, 1, {0}, {0.0}}, solver)
                                 .response.at(0, 0);
     const TracingSettings all{0, solver.max_bounces, false};
-    const Complex matrix = scattering_matrices(corner, monostatic(axis), std::array{k}, all, 1, {range_m})[0][kHhChannel];
+    const Complex matrix =
+        scattering_matrices(corner, monostatic(axis), std::array{k}, all, 1, {range_m})[0][kHhChannel];
     EXPECT_LT(std::abs(at_rest - matrix), 0.02 * expected) << range_m;
   }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reciprocity of scattering matrices and of their contributions: one antenna, over the sea.
-#include "sim/scattering/observation/observation.h"
 #include "sim/core/numbers/rotation.h"
+#include "sim/scattering/observation/observation.h"
 
 #include <gtest/gtest.h>
 
@@ -80,9 +80,9 @@ TriangleMesh groove(double angle_deg) {
 }
 
 // Cross-polarised echo of grooves off their axis, where beams leave them in other directions than they came from: hv
-// and vh from the transmitter, one of which is zero by physical optics alone, and their mean against integral equations.
-// It is predicted as to its order only. The squared error of the mean is the mean of both squares less |hv - vh|^2 / 4:
-// over all grooves a quarter less at least.
+// and vh from the transmitter, one of which is zero by physical optics alone, and their mean against integral
+// equations. It is predicted as to its order only. The squared error of the mean is the mean of both squares less |hv -
+// vh|^2 / 4: over all grooves a quarter less at least.
 TEST(Reciprocity, MeanOfBothSensesIsNearerThanTheirAverage) {
   // Largest error of the mean relative to the exact value, by angle and elevation.
   const std::map<std::pair<double, double>, double> reached{{{25, 5}, 1.48}, {{25, 15}, 1.14}, {{25, 30}, 1.99},
@@ -130,8 +130,7 @@ TEST(Reciprocity, TheEstimateIsHalfOfTheDifferenceOfTheBeams) {
   SeaReflectionSpec spec;
   spec.surface = SeaSurface::kConductor;
   const double height = 2.3, k = kBand[1];
-  SolveRequest request =
-      over_sea_request(body, view[0].receive.r, {SeaReflection(spec, 0), height}, {&k, 1}, settings);
+  SolveRequest request = over_sea_request(body, view[0].receive.r, {SeaReflection(spec, 0), height}, {&k, 1}, settings);
   request.estimates = true;
   const ViewEstimate over_sea = *solve(request).views[0].estimate;
   const std::array image{monostatic(image_basis(view[0].receive))};

@@ -7,12 +7,12 @@
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/shapes/generators.h"
 #include "sim/scattering/coefficients/material.h"
+#include "sim/scattering/observation/observation.h"
 #include "sim/scattering/observation/sea_reflection.h"
 #include "sim/scattering/scatterer/prepare_target.h"
 #include "sim/scattering/solver/point_response.h"
-#include "tests/sim/scattering/solve_calls.h"
-#include "sim/scattering/observation/observation.h"
 #include "tests/measured.h"
+#include "tests/sim/scattering/solve_calls.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
 namespace seaglint {
@@ -262,7 +262,8 @@ double error_against_independent_traces(const Scatterer& scatterer, const Trajec
   const IntervalSampling sampling = paper_interval(0.3);
   const RadarBasis radar = radar_basis(r), image = radar_basis(image_direction(r));
   const int element = static_cast<int>(polarisation);
-  const IntervalResult body = interval_response(scatterer, trajectory, r, polarisation, sampling, SolverSpec{}, 2, &sea);
+  const IntervalResult body =
+      interval_response(scatterer, trajectory, r, polarisation, sampling, SolverSpec{}, 2, &sea);
   Random random({8, Stream::kTest, 0});
   double error = 0, power = 0;
   for (int spot = 0; spot < spots; ++spot) {

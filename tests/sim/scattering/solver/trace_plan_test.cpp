@@ -45,7 +45,8 @@ TEST(TracePlan, HasTheDirectionsOfABodyOffTheReferencePoint) {
   const Vec3 r = direction(30, 2), rest(-40, 45, 3), velocity(0, 10, 0);
   const double range_m = 1000;
   const IntervalSampling sampling = paper_interval(0.2);
-  const TracePlan plan({Trajectory::at_rest(rest).with_drift(velocity, 0.2), sampling, r, range_m}, kDirect, {1e-4, 1e-6});
+  const TracePlan plan({Trajectory::at_rest(rest).with_drift(velocity, 0.2), sampling, r, range_m}, kDirect,
+                       {1e-4, 1e-6});
   EXPECT_GT(plan.traces().size(), 1u);
   for (const int pulse : {0, 100, 255}) {
     const Vec3 x = rest + (sampling.pulse_time_s[static_cast<std::size_t>(pulse)] - 0.2) * velocity;
@@ -60,7 +61,8 @@ TEST(TracePlan, HasTheDirectionsOfABodyOffTheReferencePoint) {
 }
 
 TEST(TracePlan, OfABodyAtRestIsOneTrace) {
-  const TracePlan plan({Trajectory::at_rest(Vec3(1, 2, 3)), paper_interval(0.2), direction(30, 2), 0}, kDirect, {1e-3, 1e-6});
+  const TracePlan plan({Trajectory::at_rest(Vec3(1, 2, 3)), paper_interval(0.2), direction(30, 2), 0}, kDirect,
+                       {1e-3, 1e-6});
   ASSERT_EQ(plan.traces().size(), 1u);
   EXPECT_EQ(plan.traces()[0].last, 255);
   EXPECT_DOUBLE_EQ(plan.path_advance(kDirect[0], 255), 2 * direction(30, 2).dot(Vec3(1, 2, 3)));
@@ -80,7 +82,8 @@ TEST(TracePlan, HasTheNumberOfTracesOfTheAspectChange) {
   // 64 ms of 2 pi 0.01 rad/s: 4.0 mrad.
   const double aspect_change = 2 * kPi * 0.01 * 255 * 250e-6;
   for (const int count : {1, 2, 5}) {
-    const TracePlan plan({circling(0.01, 1), paper_interval(0.2), Vec3::UnitX(), 0}, kDirect, {aspect_change / (count - 0.5), 1});
+    const TracePlan plan({circling(0.01, 1), paper_interval(0.2), Vec3::UnitX(), 0}, kDirect,
+                         {aspect_change / (count - 0.5), 1});
     EXPECT_EQ(plan.traces().size(), static_cast<std::size_t>(count));
     expect_weights_sum_to_one(plan, 256);
   }

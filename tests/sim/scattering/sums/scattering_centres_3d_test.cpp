@@ -117,8 +117,7 @@ TEST(ScatteringCentres3d, OfATrihedralsThreeBouncesAreAtItsApex) {
   TracingSettings settings;
   settings.filter.included = {{ContributionSelector::Kind::kBounces, 3}};
   const RadarBasis radar = radar_basis(direction(40, 30));
-  const auto centres =
-      cluster_centres(points_of(corner, monostatic(radar), k16, 1e-4, settings).points, k16, 0.02);
+  const auto centres = cluster_centres(points_of(corner, monostatic(radar), k16, 1e-4, settings).points, k16, 0.02);
   ASSERT_FALSE(centres.empty());
   EXPECT_LT((centres.front().position() - Vec3(1, 2, 0.5)).norm(), 1e-6);
   EXPECT_NEAR(centres.front().psi, 2 * radar.r.dot(Vec3(1, 2, 0.5)), 1e-6);

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "tests/sim/scattering/solve_calls.h"
 #include "tests/measured.h"
+#include "tests/sim/scattering/solve_calls.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
 namespace seaglint {

@@ -121,8 +121,8 @@ Excess largest_excess(const Scatterer& scatterer, double frequency_hz, std::span
           for (const Contribution& contribution : contributions) {
             const auto& curvature = contribution.footprint()->curvature;
             double& of_kind = !curvature ? excess.flat : curvature->has_bundle ? excess.bent : excess.curved;
-            of_kind = std::max(of_kind, largest(scattered(contribution, pair, k[0])) /
-                                            bound(scatterer, contribution, k[0], of_sides));
+            of_kind = std::max(
+                of_kind, largest(scattered(contribution, pair, k[0])) / bound(scatterer, contribution, k[0], of_sides));
             ++excess.count;
           }
         });

@@ -48,8 +48,7 @@ double bound(const Contribution& contribution, double k) {
       return kEndPoint + (knives ? transition(std::ranges::max(knives->separation)) / kGrazingWindow[1] : 0.0);
     }
     case Mechanism::kWallPenumbra:
-      return kPenumbraTerms * std::sqrt(2.0) *
-             transition(std::ranges::max(std::get<WallPenumbraTerm>(amplitude).l));
+      return kPenumbraTerms * std::sqrt(2.0) * transition(std::ranges::max(std::get<WallPenumbraTerm>(amplitude).l));
     // Each grazing wave is at most the field at the edge that launches it; at the last edge it radiates the fringe
     // current and the end of the current of the edge before.
     default: return kFringe + kEndPoint;

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "tests/sim/scattering/solve_calls.h"
 #include "tests/measured.h"
+#include "tests/sim/scattering/solve_calls.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 #include "tests/sim/scattering/validation/reference_bodies.h"
 

@@ -9,8 +9,8 @@
 
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/scattering/scatterer/prepare_target.h"
-#include "tests/sim/scattering/solve_calls.h"
 #include "sim/scenario/material_file.h"
+#include "tests/sim/scattering/solve_calls.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
 namespace seaglint {

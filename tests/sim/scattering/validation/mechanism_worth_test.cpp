@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "sim/geometry/files/mesh_io.h"
-#include "tests/sim/scattering/solve_calls.h"
 #include "tests/measured.h"
+#include "tests/sim/scattering/solve_calls.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 #include "tests/sim/scattering/validation/reference_bodies.h"
 

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "sim/geometry/shapes/generators.h"
-#include "tests/sim/scattering/solve_calls.h"
 #include "sim/scattering/solver/solve.h"
+#include "tests/sim/scattering/solve_calls.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
 namespace seaglint {
@@ -73,9 +73,7 @@ TEST(Origin, IsNotThePointThatARangeRefersTo) {
 TEST(Origin, BelongsToThePointsOfAnAspect) {
   const BistaticGeometry geometry = monostatic(radar_basis(direction(38, 27)));
   const Vec3 turn = 1e-4 * geometry.transmit.h;
-  const auto at = [&](const Scatterer& target) {
-    return points_of(target, geometry, k10, 1e-3, {0, 8, true});
-  };
+  const auto at = [&](const Scatterer& target) { return points_of(target, geometry, k10, 1e-3, {0, 8, true}); };
   const ViewResult near = at(Scatterer(stepped_corner())), far = at(moved(stepped_corner(), kStep));
   ASSERT_EQ(near.points.size(), far.points.size());
   EXPECT_LT(relative_difference(near.matrices[0], turned_back(far.matrices[0], 2 * geometry.transmit.r)), kRounding);
@@ -105,8 +103,8 @@ TEST(Origin, DoesNotMatterInAnInterval) {
     SolverSpec solver;
     solver.wavefront_range_m = range_m;
     const auto at = [&](const Vec3& step) {
-      return interval_response(moved(stepped_corner(), step), rolling(step), direction(38, 27), Polarisation::kVv, sampling,
-                           solver);
+      return interval_response(moved(stepped_corner(), step), rolling(step), direction(38, 27), Polarisation::kVv,
+                               sampling, solver);
     };
     const IntervalResult near = at(Vec3::Zero()), far = at(kStep);
     EXPECT_EQ(near.traces, far.traces);

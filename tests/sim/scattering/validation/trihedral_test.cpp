@@ -10,8 +10,8 @@
 #include <functional>
 
 #include "sim/geometry/shapes/generators.h"
-#include "tests/sim/scattering/solve_calls.h"
 #include "tests/measured.h"
+#include "tests/sim/scattering/solve_calls.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
 namespace seaglint {

@@ -90,7 +90,7 @@ TEST(AreaLayout, RandomPlacesAreUniformAndApart) {
     const std::vector<Vec2> places = layout_positions(target_of({LayoutShape::kRandom, 10, 100, 30}, seed).layout);
     for (const Vec2& place : places) {
       sum += place;
-      squares += place.cwiseProduct(place);
+      squares += Vec2(place.x() * place.x(), place.y() * place.y());
     }
     EXPECT_GE(least_distance(layout_positions(target_of({LayoutShape::kRandom, 20, 100, 30, 6}, seed).layout)), 6);
   }
