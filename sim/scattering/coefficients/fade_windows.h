@@ -23,7 +23,7 @@ inline constexpr FadeWindow kFringeForwardWindow{0, 0.8660254037844387};
 // width of the transition region at distances of tens to thousands of wavelengths.
 inline constexpr FadeWindow kDiffractionForwardWindow{0.95, 0.999};
 
-// Grazing treatment of reflectors (path_weights.h), and the complement for the diffracted field of a
+// Grazing treatment of reflectors (double_bounce_weight()), and the complement for the diffracted field of a
 // reflector's edge: sine of the grazing angle, 2 and 6 deg. The beam, the direct wave and the diffracted wave overlap
 // there.
 inline constexpr FadeWindow kGrazingWindow{0.035, 0.11};
@@ -100,13 +100,11 @@ double grazing_taper(const Vec3& s, const Vec3& n);
 //    upright or leaning, possibly via others, and back via the same reflector or one parallel to it by the direct
 //    radiation of the wall's image in the reflector. Over an unbounded deck both are exact (reciprocity and images:
 //    Balanis, Advanced Engineering Electromagnetics, 7.5, 7.4).
-// 2. The diffracted field of a reflector's edge towards later reflectors (radiation/reflected_edge.h), and the fringe
-// current
-//    of the beam that it bounds.
+// 2. The diffracted field of a reflector's edge towards later reflectors (radiation/edge_diffraction.h), and the fringe
+//    current of the beam that it bounds.
 // 3. That field, and the penumbra term at the foot of a wall behind the edge (radiation/wall_penumbra.h).
 // 4. The face-grazing wave that the wall reflects (radiation/multiple_diffraction.h), and the penumbra term of the path
-// from
-//    the edge to the wall and back, for the magnetic field parallel to the face.
+//    from the edge to the wall and back, for the magnetic field parallel to the face.
 
 struct ReflectorPanel {
   Vec3 normal;                    // unit, of either sign

@@ -25,7 +25,7 @@ struct WedgeFrame {
   WedgeFace face[2];
   // Wedge index, exterior angle / pi, kMinWedgeIndex <= N <= 2: 2 half-plane, 3/2 convex right angle, below 1 concave.
   double N = 2;
-  double thickness_m = 0;  // of a half-plane, m (thick_edge.h)
+  double thickness_m = 0;  // of a half-plane, m (thick_edge_currents())
 };
 
 // Diffraction by a sharp edge of a perfect conductor as a line of equivalent currents: the exact surface current of the

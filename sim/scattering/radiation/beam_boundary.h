@@ -81,7 +81,7 @@ class DiffractedPaths {
   Vec2 exit_in_plane(const Vec2& direction) const;
 
   // Weight 0..1 with which the end-point contribution at the edge's shadow-boundary line is moved to the edge
-  // (reflected_edge.h), for the slope of psi across that line; and whether the edge's face is visible along the path.
+  // (edge_diffraction.h), for the slope of psi across that line; and whether the edge's face is visible along the path.
   struct EdgeWeight {
     double weight = 0;
     bool face_visible = false;
@@ -119,9 +119,9 @@ class DiffractedPaths {
 // * The end-point contribution at a shadow-boundary line is subtracted there and added at the edge that casts the line,
 //   with the phase of the diffracted path, unless the second edge obstructs that path. Both have the amplitude of the
 //   last panel, so that their difference stays finite at the reflection shadow boundary, where each of them is
-//   infinite. The rest of the exact edge field is computed in reflected_edge.h.
+//   infinite. The rest of the exact edge field is computed in edge_diffraction.h.
 // * Two edges close to each other along the transmit or the receive path are coupled (double knife-edge diffraction):
-//   with u, v = (k / 2d)^(1/2) (w, w') and F(x) the transition function (transition.h), the term is
+//   with u, v = (k / 2d)^(1/2) (w, w') and F(x) the transition function (amplitude_laws.h), the term is
 //
 //     (j / slope) e^{-j pi/4} / (2 sqrt(pi)) (F(u^2) / u - F(v^2) / v)
 //

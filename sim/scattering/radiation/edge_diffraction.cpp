@@ -134,7 +134,7 @@ Pattern pattern(const WedgeFrame& wedge, const EdgeIllumination& in, const EdgeI
 }
 
 // Diffracted field of the edge via reflectors, in addition to the beams that its faces reflect to them, with the weight
-// of each face (reflected_edge.h).
+// of each face (endpoint_correction()).
 Pattern edge_field_pattern(const WedgeFrame& wedge, const std::array<double, 2>& weights, const EdgeIllumination& in,
                            const EdgeIllumination& out, std::span<const double> wavenumbers) {
   Pattern sum = pattern(wedge, in, out, wavenumbers, kReflectedBoundaryGuard);

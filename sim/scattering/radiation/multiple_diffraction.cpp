@@ -89,7 +89,7 @@ Mat3 householder(const Vec3& n) { return Mat3::Identity() - outer_product(2 * n,
 
 constexpr double kNarrowest = 1e-9;  // m
 // Sine of the angle between a grazing wave and an edge below which they do not meet. Look directions that would make
-// them parallel are perturbed by more (illumination.cpp).
+// them parallel are perturbed by more (transmitted_wave.cpp).
 constexpr double kParallelSine = 1e-9;
 // Sine of the angle between an edge and the wave it launches along a face: for an incident wave from outside, and for a
 // grazing wave.

@@ -74,7 +74,7 @@ class SurfaceRadiator {
   void radiate_image(const Interaction& interaction, std::span<const MovingPolygon> visible);
   // Pattern per wavenumber, where the panel or a reflector before it is not a perfect conductor.
   std::vector<ScatteringMatrix> patterns(const BeamSegment& segment, int facet, const Vec3& n) const;
-  // True where the grazing treatment applies (path_weights.h): one antenna, edge diffraction on, flat perfect
+  // True where the grazing treatment applies (fade_windows.h): one antenna, edge diffraction on, flat perfect
   // conductors, no cavity walls.
   bool uses_grazing_treatment(const BeamSegment& segment, int facet) const;
   ReflectorPanel reflector_panel(int facet) const;

@@ -15,21 +15,21 @@
 //
 // which has a closed form for a wall higher than the penumbra. By parts the squares leave error functions F(w), w^2 =
 // jx, x = k l s^2, at the foot; the product, a convolution of two of them, leaves (l / pi k)^(1/2) e^{-j pi/4} e^{-jx}
-// (1 - F(x)) in addition to the b of PO, F(x) the transition function (transition.h). With erfc(w) = e^{-jx} F(x) / (pi
-// j x)^(1/2), the correction to PO (without its rays that both arrive and leave via the face) is, per metre of wall and
-// -jk / 2 pi,
+// (1 - F(x)) in addition to the b of PO, F(x) the transition function (amplitude_laws.h). With erfc(w) = e^{-jx} F(x) /
+// (pi j x)^(1/2), the correction to PO (without its rays that both arrive and leave via the face) is, per metre of wall
+// and -jk / 2 pi,
 //
 //     via the edge and its image in the wall     -1 / (2jks)         a > 0, at the phase of the foot
 //     at the edge's shadow-boundary line         e^{-2jx} / (2jks)   a < 0: cancels the end-point contribution of PO
 //     from the edge to the wall and back         (l / pi k)^(1/2) e^{-j pi/4} e^{-jx} [F(x) / (2jx) -+ (1 - F(x))]
 //
 // whose singularities at a = 0 cancel. Where the image of the wall in the face radiates up to z = b
-// (path_weights.h), it already contributes (1 - e^{-2jx}) / (2jks): a second -1 / (2jks) is then added at the
+// (image_weight()), it already contributes (1 - e^{-2jx}) / (2jks): a second -1 / (2jks) is then added at the
 // foot, and e^{-2jx} / (2jks) at the line for a > 0 too. The third term is, hard, the face-grazing diffracted wave that
 // the wall reflects (multiple_diffraction.h). Soft it decays faster than multiple diffraction, but at grazing it is
 // equally large: the sum is -2 (l / pi k)^(1/2) e^{-j pi/4}, by which the height of a wall on a face of length l is
 // effectively reduced; hard the sum vanishes. Away from grazing the first term is the -1 / (4 pi sin a) of
-// reflected_edge.h; tapers connect the two.
+// edge_diffraction.h; tapers connect the two.
 
 #include <array>
 #include <vector>
@@ -45,7 +45,7 @@ struct WallBehindEdge {
   Vec3 face_normal;                 // on the illuminated side
   Vec3 wall_normal;                 // towards the edge
   double height = 0;         // of the wall, m; the terms are tapered to zero for a wall no higher than the penumbra
-  double image_weight = 0;   // fraction of the echo via the face that its image radiates (path_weights.h)
+  double image_weight = 0;   // fraction of the echo via the face that its image radiates (image_weight())
   std::array<Vec3, 2> foot;  // ends of the interval of the wall behind the edge
   // true: the end of the interval is the projection of an end of the edge and slides with the look direction; false: it
   // is fixed

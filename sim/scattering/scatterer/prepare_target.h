@@ -115,7 +115,7 @@ struct PreparedTarget {
   std::shared_ptr<const Scatterer> scatterer;
 };
 
-// Cuts the mesh at the waterline, builds the scatterer and checks its edges and bars (target_check.h).
+// Cuts the mesh at the waterline, builds the scatterer and checks its edges and bars (check_edges(), check_bars()).
 PreparedTarget prepare_target(SolverMesh mesh, const ScattererSettings& settings);
 
 }  // namespace seaglint

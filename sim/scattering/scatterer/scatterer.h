@@ -40,8 +40,8 @@ BodySizes body_sizes(std::span<const Facet> facets, const PanelBvh& tree);
 
 // Facets, smooth surface, panels, sharp edges and the panel hierarchy of a target. Built once per mesh; safe to share
 // between threads. Their coordinates are those of the mesh relative to centre(), so that no tolerance and no rounding
-// depends on where a file has its origin; the response adds the phase of the origin (origin_phase() in
-// solver/scattering_matrix.h) or the motion of the centre.
+// depends on where a file has its origin; decompose() adds the phase of the origin (Observation::centre), an
+// interval the motion of the centre.
 class Scatterer {
  public:
   // materials[i]: material of mesh.materials[i]; empty: perfect conductor. crease_rad: adjacent facets whose normals

@@ -65,7 +65,7 @@ Complex half_plane(double from, double x, double z, double k) {
 }
 // The difference of the exact product of the field on the wall and its slope, which by reciprocity is the receiver's,
 // from physical optics, which illuminates the wall directly and once more via the floor up to the shadow-boundary line
-// of the edge, where the wall's image radiates as well (path_weights.h). They agree far above the penumbra except
+// of the edge, where the wall's image radiates as well (image_weight()). They agree far above the penumbra except
 // for waves of increasing phase rate up the wall, which a taper removes.
 Field integral(double sine, double k) {
   const double angle = std::asin(sine), penumbra = std::sqrt(2 * kWallDistance / k),

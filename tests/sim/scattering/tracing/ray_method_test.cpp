@@ -160,7 +160,7 @@ TEST(Rays, TwoAntennasCoatingsAndAFiniteRangeGiveTheEchoOfBeams) {
   const double k = wavenumber(10e9);
   const BistaticGeometry pair = bistatic(radar_basis(direction(35, 25)), radar_basis(direction(48, 15)));
   // Slivers at the borders of tiles as above. At a finite range amplitudes are frozen over each footprint
-  // (points/finite_range.h), and tiles divide footprints: 0.018 at 40 m, in proportion to 1 / range.
+  // (points/decomposition.cpp), and tiles divide footprints: 0.018 at 40 m, in proportion to 1 / range.
   for (const double range_m : {0.0, 400.0}) {
     const auto of = [&](const TracingSettings& settings) {
       return scattering_matrices(target, pair, std::array{k}, settings, 1, {range_m})[0];

@@ -166,7 +166,7 @@ TEST(BodyOnDeck, FollowsImageTheory) {
 }
 
 // A deck of 30 x 30 m, so that all of the wave that the wall reflects downwards is incident on it. Bounds are measured,
-// a tenth above the maximum: below 5 deg the paths via the deck are images (path_weights.h), from 6 deg on they
+// a tenth above the maximum: below 5 deg the paths via the deck are images (image_weight()), from 6 deg on they
 // end on the deck and its edges. With the deck as the last reflector at every elevation hh and vv had errors of up to
 // 0.57 and 0.53 from 1 to 3 deg, 0.29 and 0.21 from 3 to 5 deg.
 TEST(BodyOnDeck, FollowsImageTheoryAtLowElevations) {

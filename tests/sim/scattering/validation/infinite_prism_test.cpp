@@ -99,8 +99,8 @@ TEST(InfinitePrism, WithAConcaveEdgeMatchesIntegralEquation) {
 // The free edge of either arm bounds the beam that it reflects to the other, whose edge coincides with the shadow
 // boundary, so that half of the field in the transition region is lost: with a sharp shadow boundary the error is 0.09
 // within 8 deg of the axis. Farther off, where the beam leaves an arm at a small angle, the edge radiates along it
-// Keller's field less the end-point contribution of physical optics on the other arm (reflected_edge.h); with that on
-// its own arm the error is 0.023 within 20 deg and 0.06 within 38. The remaining error, of arms of 5 wavelengths, is
+// Keller's field less the end-point contribution of physical optics on the other arm (endpoint_correction()); with that
+// on its own arm the error is 0.023 within 20 deg and 0.06 within 38. The remaining error, of arms of 5 wavelengths, is
 // due to waves along them, most of the hard field.
 TEST(InfinitePrism, DihedralMatchesIntegralEquation) {
   for (const double elevation : {0.0, 40.0}) {
