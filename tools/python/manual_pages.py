@@ -45,7 +45,7 @@ input.addEventListener("input", () => {
 
 CURRENT = ' aria-current="page"'
 TUTORIALS = ("data_set", "mesh", "sea_states")
-STAGES = ("sim/core", "sim/scenario", "sim/geometry", "sim/sea", "sim/motion", "sim/scattering", "sim/cavity", "sim/field_tables", "sim/field_export",
+STAGES = ("sim/core", "sim/scenario", "sim/geometry", "sim/sea", "sim/motion", "sim/scattering", "sim/canonical", "sim/cavity", "sim/field_tables", "sim/field_export",
           "radar/README.md", "radar/waveform", "radar/echo", "radar/rvmap", "classify/dataset", "classify/features", "classify/cnn", "classify/model")
 
 

@@ -189,7 +189,7 @@ TriangleMesh make_icosahedral_reflector(double edge) {
   const Mat3 R = Mat3(facing, up.cross(facing), up).transpose();
 
   MeshBuilder builder;
-  for (const Vec3& p : solid.vertices) builder.vertex(0.5 * edge * (R * p));
+  for (const Vec3& p : solid.vertices) builder.vertex((0.5 * edge * R) * p);
   for (std::size_t f = 0; f < solid.faces.size(); ++f) {
     const auto& [a, b, c] = solid.faces[f];
     const Vec3 centre = (builder.vertices()[a] + builder.vertices()[b] + builder.vertices()[c]) / 3.0;

@@ -90,7 +90,7 @@ struct DoubleKnifeEdge {
 };
 
 // Correction to physical optics, per metre, for a wall in the penumbra of the edge of a face at near-grazing incidence
-// (wall_penumbra.h), along an interval of the wall's foot.
+// (multiple_diffraction.h), along an interval of the wall's foot.
 
 // Sum of three contributions with s the sine of the wave's angle over the face, l the distance on the face from edge to
 // wall and x = k l s^2: at the foot of the wall, -1 / (2jks); at the edge's shadow-boundary line on the wall (s < 0) or

@@ -53,6 +53,9 @@ inline constexpr FadeWindow kAxialPhaseWindow{0, 1};
 // Path from edge to edge against the beam: rad, limit of the paraxial Fresnel form.
 inline constexpr FadeWindow kParaxialWindow{0.2, 0.5};
 
+// Sine of the angle between two edges, which near their crossing affect no more than lambda d.
+inline constexpr FadeWindow kSkewWindow{0.3, 0.7};
+
 // Boundary and penumbra terms: 2 d / (k depth^2), 1 where the panel is as deep as the transition region (2 d / k)^(1/2)
 // is wide.
 inline constexpr FadeWindow kFresnelDepthWindow{1, 2.5};
@@ -102,7 +105,7 @@ double grazing_taper(const Vec3& s, const Vec3& n);
 //    Balanis, Advanced Engineering Electromagnetics, 7.5, 7.4).
 // 2. The diffracted field of a reflector's edge towards later reflectors (radiation/edge_diffraction.h), and the fringe
 //    current of the beam that it bounds.
-// 3. That field, and the penumbra term at the foot of a wall behind the edge (radiation/wall_penumbra.h).
+// 3. That field, and the penumbra term at the foot of a wall behind the edge (radiation/multiple_diffraction.h).
 // 4. The face-grazing wave that the wall reflects (radiation/multiple_diffraction.h), and the penumbra term of the path
 //    from the edge to the wall and back, for the magnetic field parallel to the face.
 

@@ -8,7 +8,6 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/sinc.h"
-#include "sim/scattering/points/phase_integral.h"
 #include "sim/scattering/radiation/surface_radiation.h"
 
 namespace seaglint {
@@ -54,15 +53,15 @@ class PointWriter {
   std::vector<Point>& out_;
 };
 
-// The form of a decomposition is that of the centre of the band's FormRange; it is exact at every node.
+// The form is that at the wavenumber k; it is exact at every node.
 class FlatDecomposer {
  public:
-  FlatDecomposer(const Footprint& footprint, const RadarBasis& transmit, const PointBand& at, double threshold,
-                 PointWriter& writer)
+  FlatDecomposer(const Footprint& footprint, const RadarBasis& transmit, const PointBand& at, double k,
+                 double threshold, PointWriter& writer)
       : footprint_(footprint),
         transmit_(transmit),
         is_closed_form_(at.is_single()),
-        k_(at.band.form().centre()),
+        k_(k),
         threshold_(threshold),
         writer_(writer) {}
 
@@ -180,12 +179,13 @@ struct Tangent {
   double at(const Vec2& p) const { return value + slope.dot(p); }
 };
 
+// k determines the form, here and below.
 void decompose_surface(const Contribution& contribution, const Footprint& footprint, const RadarBasis& transmit,
-                       const PointBand& at, std::vector<Point>& out) {
+                       const PointBand& at, double k, std::vector<Point>& out) {
   const double threshold = std::max(at.aspect_change_rad * footprint.psi_slope_rate / kMaxAmplitudeError, 1e-9);
   if (!footprint.curvature) {
     PointWriter writer(contribution, at, out);
-    FlatDecomposer(footprint, transmit, at, threshold, writer).run();
+    FlatDecomposer(footprint, transmit, at, k, threshold, writer).run();
     return;
   }
   const Point prototype = point_of(contribution, at);
@@ -205,8 +205,8 @@ void decompose_surface(const Contribution& contribution, const Footprint& footpr
 // their part of the interpolation error (kCellHalfPhase).
 constexpr double kPieceHalfPhase = 0.1;  // rad
 
-void decompose_interval(const EdgeInterval& interval, const PointBand& at, PointWriter& writer) {
-  const double k = at.band.form().centre(), run = interval.psi[1] - interval.psi[0];
+void decompose_interval(const EdgeInterval& interval, const PointBand& at, double k, PointWriter& writer) {
+  const double run = interval.psi[1] - interval.psi[0];
   // An aspect change u changes the slope of psi along the edge by at most 2 u.
   const double threshold = 2 * at.aspect_change_rad / kMaxAmplitudeError * interval.length;
   if (!at.is_single() && std::abs(run) > threshold && std::abs(k * run) / 2 > kMaxHalfPhase &&
@@ -269,7 +269,7 @@ Footprint tilted(const Footprint& footprint, const Tangent& tangent) {
 }
 
 void decompose_surface_at_range(const Contribution& contribution, const Footprint& footprint,
-                                const Observation& observation, PointBand at, std::vector<Point>& out) {
+                                const Observation& observation, PointBand at, double k, std::vector<Point>& out) {
   const RadarBasis& transmit = observation.antennas.transmit;
   const Vec2 middle = centroid(footprint.polygon);
   double extent = 0;
@@ -278,7 +278,7 @@ void decompose_surface_at_range(const Contribution& contribution, const Footprin
   const Tangent tangent = curvature_tangent(footprint, observation, middle);
   at.aspect_change_rad += extent / observation.radar.range_m;
   const std::size_t first = out.size();
-  decompose_surface(contribution, tilted(footprint, tangent), transmit, at, out);
+  decompose_surface(contribution, tilted(footprint, tangent), transmit, at, k, out);
   for (Point& point : std::span(out).subspan(first)) {
     const Vec3 image = point.gradient.transmit - point.gradient.transmit_slide;
     point.psi -= tangent.at({image.dot(transmit.h), image.dot(transmit.v)});
@@ -348,17 +348,18 @@ void decompose(const Contribution& contribution, const Observation& observation,
                std::vector<Point>& out) {
   const std::size_t first = out.size();
   const bool is_near = observation.radar.range_m > 0;
+  const double k = at.form_k();
   if (const Footprint* footprint = contribution.footprint()) {
     if (is_near) {
-      decompose_surface_at_range(contribution, *footprint, observation, at, out);
+      decompose_surface_at_range(contribution, *footprint, observation, at, k, out);
     } else {
-      decompose_surface(contribution, *footprint, observation.antennas.transmit, at, out);
+      decompose_surface(contribution, *footprint, observation.antennas.transmit, at, k, out);
     }
   } else {
     PointBand from_range = at;
     from_range.aspect_change_rad += observation.direction_spread;
     PointWriter writer(contribution, from_range, out);
-    decompose_interval(*contribution.interval(), from_range, writer);
+    decompose_interval(*contribution.interval(), from_range, k, writer);
   }
   for (std::size_t i = first; is_near && i < out.size(); ++i) curve_wavefront(observation, out[i]);
   append_pattern_change(contribution.pattern, at, first, out);

@@ -13,14 +13,10 @@
 
 #include "sim/scattering/observation/frequency_band.h"
 #include "sim/scattering/observation/observation.h"
+#include "sim/scattering/points/phase_integral.h"
 #include "sim/scattering/radiation/contribution.h"
 
 namespace seaglint {
-
-// Relative error of a frozen amplitude per end point, -28 dB; the error of a sum over many is far smaller.
-inline constexpr double kMaxAmplitudeError = 0.04;
-// Phase from its middle up to which a piece may be one point.
-inline constexpr double kMaxHalfPhase = 0.5;  // rad
 
 // Where points hold: the nodes of a band, the first of which is the wavenumber `first_node` of the contribution's
 // patterns, and a change of the look direction.
@@ -34,6 +30,9 @@ struct PointBand {
 
   // The node and the traced direction alone, where closed forms hold.
   bool is_single() const { return band.nodes().size() == 1 && aspect_change_rad <= 0 && half_band <= 0; }
+  // The wavenumber that determines the form of a decomposition: in a sweep that of the band's FormRange, so that a
+  // frequency has the same points alone and within any sweep; of frozen amplitudes the node.
+  double form_k() const { return band.nodes().size() > 1 || is_single() ? band.form().centre() : band.nodes().front(); }
 };
 
 struct Point {

@@ -7,7 +7,6 @@
 
 #include "sim/core/numbers/sinc.h"
 #include "sim/scattering/coefficients/fade_windows.h"
-#include "sim/scattering/points/decomposition.h"
 
 namespace seaglint {
 namespace {

@@ -200,8 +200,8 @@ class SideBoundaryTerms {
         depth_(depth_across(side, outline)) {}
 
   // Subtracts the end-point contribution at the shadow-boundary line of an edge on this side, and adds it at the edge
-  // but for the part `hidden`, 0..1, of the path from there that other edges obstruct.
-  void move_endpoint_to_edge(const BeamEdge& edge, double hidden) {
+  // unless the path from there is obstructed.
+  void move_endpoint_to_edge(const BeamEdge& edge, bool hidden) {
     const auto [weight, visible] = paths_.edge_weight(edge, slope_);
     if (weight <= 0) return;
     const double a = side_.t(edge.a), b = side_.t(edge.b), length = side_.length;
@@ -223,32 +223,32 @@ class SideBoundaryTerms {
       moves[end] = {side_.along.dot(vertex.d1), side_.along.dot(vertex.d2)};
     }
     append(endpoint_factor(weight, edge), on_line);
-    if (visible) add_at_edge(edge, places, moves, weight * (1 - hidden), on_line);
+    if (visible && !hidden) add_at_edge(edge, places, moves, weight, on_line);
   }
 
-  // Adds the coupling of two edges. `inner` bounds this side. Returns the part 0..1 of the path over the inner edge to
-  // the receiver that the outer edge obstructs: edges at right angles have no common interval, along which they would
-  // be half-planes of one problem, and the terms vanish as the square of the cosine between them.
-  double couple_edges(const BeamEdge& inner, const BeamEdge& outer) {
+  // Adds the coupling of two edges, of which `inner` bounds this side. True when the outer edge obstructs the path over
+  // the inner one to the receiver.
+  bool couple_edges(const BeamEdge& inner, const BeamEdge& outer) {
     if (inner.panel_index == outer.panel_index ||
         side_.x(outer.interior_point) <= 0.5 * (side_.x(outer.a) + side_.x(outer.b)))
-      return 0;
+      return false;
     const Vec2 run = (outer.b - outer.a).normalized();
-    const double parallel = std::abs(side_.along.dot(run)), askew = parallel * parallel;
-    if (askew <= 0) return 0;
-    if (side_.lies_on(outer) && outer.panel_index < inner.panel_index) return 0;  // found as (outer, inner)
+    const double askew = smooth_taper(std::abs(side_.across.dot(run)), kSkewWindow),
+                 parallel = std::abs(side_.along.dot(run));
+    if (askew <= 0) return false;
+    if (side_.lies_on(outer) && outer.panel_index < inner.panel_index) return false;  // found as (outer, inner)
     const EdgePair both(side_, inner, outer, panels_on_path_);
-    if (both.length() < kMinLength) return 0;
+    if (both.length() < kMinLength) return false;
     // Lengths are those along the first edge, distances those from its line.
     const BeamEdge &first = inner.panel_index < outer.panel_index ? inner : outer,
                    &second = inner.panel_index < outer.panel_index ? outer : inner;
     const double turned = &first == &outer ? parallel : 1.0;
     const std::array<EdgePair::EdgePoints, 2> ends{both.at(0), both.at(1)};
     const double distance_sum = ends[0].distance + ends[1].distance;
-    if (distance_sum < kMinLength) return 0;
+    if (distance_sum < kMinLength) return false;
     // Edges of neighbouring panels meet.
     for (const EdgePair::EdgePoints& end : ends) {
-      if (end.apart < -kCoincident || end.distance < -kCoincident) return 0;
+      if (end.apart < -kCoincident || end.distance < -kCoincident) return false;
     }
 
     EdgeInterval lacking = interval_of(turned * both.length());
@@ -293,7 +293,7 @@ class SideBoundaryTerms {
       lacking.amplitude = knives;
       append(Complex(0, weight / (2 * kPi)), lacking);
     }
-    return knives.second_in_shadow && moved.weight > 0 && landed < 0 ? askew : 0;
+    return knives.second_in_shadow && moved.weight > 0 && landed < 0;
   }
 
  private:
@@ -408,8 +408,8 @@ void FootprintBoundary::append_terms(const Contribution& contribution) {
       if (!side.lies_on(inner)) continue;
       if (!paths) paths.emplace(geometry_, panels_on_path_, *contribution.footprint());
       SideBoundaryTerms ends(contribution, side, *paths, outline_, out_);
-      double hidden = 0;
-      for (const BeamEdge& outer : *edges_on_path_) hidden = std::max(hidden, ends.couple_edges(inner, outer));
+      bool hidden = false;
+      for (const BeamEdge& outer : *edges_on_path_) hidden |= ends.couple_edges(inner, outer);
       if (inner.panel_index + 1 < panels_on_path_.size()) ends.move_endpoint_to_edge(inner, hidden);
     }
   }

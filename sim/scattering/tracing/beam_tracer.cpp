@@ -20,7 +20,7 @@ void PrismSearch::find(const BeamSegment& segment, const PolygonSet& cross_secti
   double covered = std::numeric_limits<double>::infinity();
   scene_.scatterer.tree().traverse(prism, [&](const BvhPanel& panel) {
     if (panel.facet == segment.source_facet) return covered;
-    const PrismOverlap met = test_overlap(segment, prism, panel);
+    const PrismOverlap met = prism_overlap(segment, prism, panel);
     if (met.possible) found.push_back({&panel});
     return covered = std::min(covered, met.full_cover_distance);
   });
@@ -63,7 +63,7 @@ Prism bounding_prism(std::span<const MovingPolygon> window, const BeamSegment& s
   return prism;
 }
 
-PrismOverlap test_overlap(const BeamSegment& segment, const Prism& prism, const BvhPanel& panel) {
+PrismOverlap prism_overlap(const BeamSegment& segment, const Prism& prism, const BvhPanel& panel) {
   // A closed surface is illuminated on the side of its normals only.
   const double facing = panel.normal.dot(segment.direction);
   if (!panel.open && facing >= 0) return {};

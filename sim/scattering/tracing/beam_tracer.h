@@ -42,7 +42,7 @@ struct PrismOverlap {
   // prism; infinite where it does not.
   double full_cover_distance = std::numeric_limits<double>::infinity();
 };
-PrismOverlap test_overlap(const BeamSegment& segment, const Prism& prism, const BvhPanel& panel);
+PrismOverlap prism_overlap(const BeamSegment& segment, const Prism& prism, const BvhPanel& panel);
 
 // Beam tracing: beams are followed from reflector to reflector, and the illuminated and visible polygons of every panel
 // on their path are passed to a visitor (P. S. Heckbert and P. Hanrahan, Proc. SIGGRAPH 1984, 119-127).

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Walls behind edges of faces at grazing incidence, against integrals over the half-plane's field.
-#include "sim/scattering/radiation/wall_penumbra.h"
 #include "sim/scattering/coefficients/amplitude_laws.h"
 #include "sim/scattering/points/phase_integral.h"
+#include "sim/scattering/radiation/multiple_diffraction.h"
 
 #include <gtest/gtest.h>
 

@@ -122,8 +122,8 @@ TEST(InfinitePrism, DihedralMatchesIntegralEquation) {
   }
 }
 
-// At directions along one arm and beyond, the other arm is in the penumbra of the edge (wall_penumbra.h): with full
-// illumination by physical optics the errors are 0.10 (soft) and 0.055 (hard) for arms of 5 wavelengths, 0.042 and
+// At directions along one arm and beyond, the other arm is in the penumbra of the edge (multiple_diffraction.h): with
+// full illumination by physical optics the errors are 0.10 (soft) and 0.055 (hard) for arms of 5 wavelengths, 0.042 and
 // 0.023 for arms of 20.
 TEST(InfinitePrism, DihedralAlongItsArmsMatchesIntegralEquation) {
   const Deviation near = against_integral_equations("dihedral", 0, 0, 0, 70),
