@@ -310,7 +310,7 @@ class SideBoundaryTerms {
     source.mechanism = Mechanism::kShadowBoundary;
     Pattern pattern;
     for (int i = 0; i < 4; ++i) pattern.value[i] = factor * contribution_.pattern.value[i];
-    out_.push_back({pattern, source, interval});
+    out_.emplace_back(pattern, source, interval);
   }
 
   void set_fresnel_limit(double distance, double reflector_depth, EdgeInterval& end) const {

@@ -16,6 +16,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -108,6 +109,12 @@ struct Contribution {
   Pattern pattern;
   ContributionSource source;
   std::variant<Footprint, EdgeInterval> element;
+
+  Contribution() = default;
+  Contribution(Pattern of, const ContributionSource& from, Footprint surface)
+      : pattern(std::move(of)), source(from), element(std::move(surface)) {}
+  Contribution(Pattern of, const ContributionSource& from, const EdgeInterval& edge)
+      : pattern(std::move(of)), source(from), element(edge) {}
 
   const Footprint* footprint() const { return std::get_if<Footprint>(&element); }
   const EdgeInterval* interval() const { return std::get_if<EdgeInterval>(&element); }

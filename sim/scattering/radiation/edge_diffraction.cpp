@@ -251,11 +251,10 @@ void append_single_diffraction(const RadiatingEdge& of, EdgeIlluminations incomi
         edge.conducts ? pair_pattern(of, *wedge, in, out) : material_pattern(*wedge, of.materials, in, out);
     if (!pattern) return;
     const Mechanism direct = wedge->N < 1 ? Mechanism::kConcaveEdge : Mechanism::kSingleDiffraction;
-    contributions.push_back(
-        {*pattern,
-         {edge.facet[0], facets[edge.facet[0]].part, facets[edge.facet[1]].part,
-          static_cast<std::uint8_t>(reflections + 1), reflections > 0 ? Mechanism::kReflectedEdge : direct},
-         common_interval(geometry, in, out, first, last)});
+    const ContributionSource source{edge.facet[0], facets[edge.facet[0]].part, facets[edge.facet[1]].part,
+                                    static_cast<std::uint8_t>(reflections + 1),
+                                    reflections > 0 ? Mechanism::kReflectedEdge : direct};
+    contributions.emplace_back(*pattern, source, common_interval(geometry, in, out, first, last));
   };
   for (std::size_t a = 0; a < incoming.size(); ++a) {
     for (std::size_t b = geometry.monostatic ? a : 0; b < outgoing.size(); ++b) append(*incoming[a], *outgoing[b]);

@@ -92,7 +92,8 @@ void append_wall_penumbra(const WallBehindEdge& wall, const RadarBasis& antenna,
     }
     const double max = std::abs(*std::ranges::max_element(pattern, {}, [](double x) { return std::abs(x); }));
     const double extent = length / std::max(0.5 * k * std::abs(interval.psi[1] - interval.psi[0]), 1.0);
-    if (max * max_amplitude * extent >= limits.min_amplitude_m) contributions.push_back({{value}, source, interval});
+    if (max * max_amplitude * extent >= limits.min_amplitude_m)
+      contributions.emplace_back(Pattern{value}, source, interval);
   };
 
   const PenumbraWeights weights = penumbra_weights(s);
@@ -527,11 +528,10 @@ class MultipleDiffractionTracer {
       ScatteringMatrix& thick = pattern.at_node.emplace_back(pattern.value);
       for (Complex& element : thick) element *= change;
     }
-    out_.push_back({std::move(pattern),
-                    {edge.facet[0], facets_[edge.facet[0]].part, facets_[edge.facet[1]].part,
-                     static_cast<std::uint8_t>(in.wall_reflections + in.grazing_waves + 1),
-                     in.met_concave_edge ? Mechanism::kConcaveEdge : Mechanism::kMultipleDiffraction},
-                    interval});
+    const ContributionSource source{edge.facet[0], facets_[edge.facet[0]].part, facets_[edge.facet[1]].part,
+                                    static_cast<std::uint8_t>(in.wall_reflections + in.grazing_waves + 1),
+                                    in.met_concave_edge ? Mechanism::kConcaveEdge : Mechanism::kMultipleDiffraction};
+    out_.emplace_back(std::move(pattern), source, interval);
   }
 
   const SharpEdges& edges_;
