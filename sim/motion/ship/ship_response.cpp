@@ -47,13 +47,11 @@ MotionRao ship_rao(const ShipParticulars& ship, const ShipWave& wave) {
   vertical(1, 1) = Complex(vertical(1, 1).real(), damping / omega);
   const Eigen::Vector2cd upright = vertical.partialPivLu().solve(Eigen::Vector2cd(force.heave, force.pitch));
 
-  // Translation of the origin and rotation of the hull; the rotation centre c moves by the translation plus the complex
-  // conjugate of rotation x c.
+  // Translation of the origin and rotation of the hull; the rotation centre c moves by the translation plus rotation x
+  // c.
   const Complex surge = force.surge / (-omega * omega * ship.vertical_mass(0, 0));
   const CVec3 rotation(across(1), upright(1), across(2));
-  const CVec3 arm = rotation.cross(ship.rotation_centre.cast<Complex>());
-  const CVec3 translation =
-      CVec3(surge, across(0), upright(0)) + CVec3(std::conj(arm.x()), std::conj(arm.y()), std::conj(arm.z()));
+  const CVec3 translation = CVec3(surge, across(0), upright(0)) + rotation.cross(ship.rotation_centre.cast<Complex>());
   return {translation.x(), translation.y(), translation.z(), rotation.x(), rotation.y(), rotation.z()};
 }
 

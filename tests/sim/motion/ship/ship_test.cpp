@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -156,6 +157,24 @@ TEST(ShipRao, FollowsTheSlopeOfLongWaves) {
     EXPECT_NEAR(std::abs(rao.surge + kJ * std::cos(mu)), 0, 0.005) << mu_deg;
     EXPECT_NEAR(std::abs(rao.sway + kJ * std::sin(mu)), 0, 0.005) << mu_deg;
     EXPECT_NEAR(std::abs(rao.heave - 1.0), 0, 0.006) << mu_deg;
+  }
+}
+
+// A rigid hull: the motion of its origin, translation less rotation x c, is the same whichever point c it rotates
+// about.
+TEST(ShipRao, MovesTheHullAsARigidBodyAboutAnyRotationCentre) {
+  const auto origin_of = [](const Vec3& c, const ShipWave& wave) {
+    MotionSpec spec = combatant();
+    spec.rotation_centre_m = {c.x(), c.y(), c.z()};
+    const MotionRao rao = ship_rao(ship_of(spec), wave);
+    return std::array{rao.surge - (rao.pitch * c.z() - rao.yaw * c.y()),
+                      rao.sway - (rao.yaw * c.x() - rao.roll * c.z()),
+                      rao.heave - (rao.roll * c.y() - rao.pitch * c.x())};
+  };
+  for (const double mu_deg : {40.0, 120.0, 200.0}) {
+    const ShipWave wave = wave_of(0.7, mu_deg);
+    const auto about_origin = origin_of(Vec3::Zero(), wave), about_point = origin_of(Vec3(20, 3, -5), wave);
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(std::abs(about_origin[i] - about_point[i]), 0, 1e-12) << mu_deg;
   }
 }
 
