@@ -45,7 +45,7 @@ ChangedMesh changed(const TriangleMesh& mesh, MeshChange change, const MeshSensi
       return {transformed(mesh, Mat3::Identity(), shift), Mat3::Identity(), shift};
     }
     case MeshChange::kNoise: return {with_noise(mesh, by.noise_m, random)};
-    case MeshChange::kFlat: break;
+    case MeshChange::kFlatFacets: break;
   }
   return {mesh};
 }
@@ -140,8 +140,9 @@ MeshSensitivity mesh_sensitivity(const RcsRequest& request, double noise_m, int 
     }
     for (std::size_t i = 0; i < kMeshChanges; ++i) {
       const auto change = static_cast<MeshChange>(i);
-      const std::vector<Matrices> other = views.matrices(
-          changed(target.mesh, change, result), change == MeshChange::kFlat ? std::optional(0.0) : request.crease_deg);
+      const std::vector<Matrices> other =
+          views.matrices(changed(target.mesh, change, result),
+                         change == MeshChange::kFlatFacets ? std::optional(0.0) : request.crease_deg);
       for (std::size_t view = 0; view < views.count(); ++view)
         result.views[view].change[i] = relative_change(own[view], other[view]);
     }

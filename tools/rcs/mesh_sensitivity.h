@@ -14,7 +14,7 @@
 
 namespace seaglint {
 
-enum class MeshChange { kCut, kCutFloat, kRenumbered, kTurned, kMoved, kNoise, kFlat };
+enum class MeshChange { kCut, kCutFloat, kRenumbered, kTurned, kMoved, kNoise, kFlatFacets };
 inline constexpr std::size_t kMeshChanges = 7;
 // Columns of the table.
 inline constexpr std::array<const char*, kMeshChanges> kMeshChangeNames{"cut",   "cut_float32", "renumbered", "turned",
