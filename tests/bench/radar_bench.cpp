@@ -9,9 +9,9 @@
 #include "classify/features/scattering_centres.h"
 #include "radar/rvmap/map_weights.h"
 #include "radar/rvmap/scr.h"
+#include "sim/canonical/point_response.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/random.h"
-#include "sim/scattering/solver/point_response.h"
 
 namespace seaglint {
 namespace {

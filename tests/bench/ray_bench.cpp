@@ -241,7 +241,7 @@ void ShipByRays(benchmark::State& state) {
   const BistaticGeometry geometry = monostatic(basis);
   const std::vector<double> k = band();
   TracingSettings settings{0, kDefaultBounces, true, {}, SolverMethod::kRays};
-  settings.ray_spacing_m = 0.01 * static_cast<double>(state.range(1)) * default_ray_spacing(ship());
+  settings.ray_spacing_m = 0.01 * static_cast<double>(state.range(1)) * ray_spacing(ship());
   const Matrices exact = scattering_matrices(ship(), geometry, k, {1e-3, kDefaultBounces, true}, 2);
   Matrices by_rays;
   for (auto _ : state) {

@@ -20,7 +20,7 @@ inline const Scatterer& ship() {
   static const PreparedTarget target = [] {
     TargetSource source;
     source.mesh = SEAGLINT_SOURCE_DIR "/assets/combatant_144m.glb";
-    return prepare_target(load_solver_mesh(source), {});
+    return prepare_target(load_target_mesh(source), {});
   }();
   return *target.scatterer;
 }

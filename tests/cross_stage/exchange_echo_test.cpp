@@ -27,7 +27,7 @@ std::array<Complex, 4> echo_of(const std::filesystem::path& mesh, const Vec3& r_
   source.lowest_hz = source.highest_hz = kFrequency;
   ScattererSettings settings;
   settings.lowest_hz = settings.highest_hz = kFrequency;
-  const PreparedTarget target = prepare_target(load_solver_mesh(source), settings);
+  const PreparedTarget target = prepare_target(load_target_mesh(source), settings);
   const double k = 2 * kPi * kFrequency / kSpeedOfLight;
   return scattering_matrices(*target.scatterer, monostatic(radar_basis(r_hat)), std::array{k}, {0, 4, true})[0];
 }

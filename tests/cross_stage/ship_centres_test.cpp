@@ -7,10 +7,10 @@
 #include <cstdio>
 
 #include "radar/rvmap/rv_map.h"
+#include "sim/canonical/point_response.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/scattering/observation/observation.h"
-#include "sim/scattering/solver/point_response.h"
 #include "tests/measured.h"
 #include "tests/sim/scattering/solve_calls.h"
 

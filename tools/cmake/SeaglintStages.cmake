@@ -47,7 +47,7 @@ function(add_stage folder)
     add_library(${target} STATIC ${sources} ${headers})
     target_include_directories(${target} PUBLIC ${tree})
     target_link_libraries(${target} PUBLIC ${upstream} PRIVATE seaglint_flags ${STAGE_LIBRARIES})
-    # Eigen and fmt are the two libraries whose types the public headers use.
+    # Libraries whose types headers use: fmt, and Eigen in sim/cavity.
     target_link_libraries(${target} PUBLIC Eigen3::Eigen fmt::fmt)
     if(NOT folder STREQUAL "classify/cnn")  # libtorch has macros and flags of its own
       precompile_headers(${target} seaglint_core ${SEAGLINT_COMMON_HEADERS})

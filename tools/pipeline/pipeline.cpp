@@ -8,10 +8,10 @@
 
 #include "classify/dataset/directory/planned_record.h"
 #include "classify/features/restored_map.h"
+#include "sim/canonical/point_response.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
 #include "sim/scattering/observation/observation.h"
-#include "sim/scattering/solver/point_response.h"
 
 namespace seaglint {
 

@@ -62,8 +62,8 @@ struct RcsRequest : MeshPlacement {
   bool physical_optics_too = false;             // also computes a second model without edge diffraction
   int max_bounces = kDefaultBounces;
   SolverMethod method = SolverMethod::kBeams;
-  double min_patch_m = 0;            // 0: default_min_patch()
-  double ray_spacing_m = 0;          // of method rays; 0: default_ray_spacing()
+  double min_patch_m = 0;            // 0: min_patch()
+  double ray_spacing_m = 0;          // of method rays; 0: ray_spacing()
   std::optional<double> crease_deg;  // absent: as the mesh's normals or its shape say
   double sheet_thickness_mm = 0;
   std::string like;  // program whose settings were taken (like_program.h); empty: none

@@ -75,7 +75,7 @@ std::string rcs_heading(const RcsRequest& request, const Scatterer& scatterer, c
       scatterer.facets().size(), scatterer.radius(), materials_text(request.materials), text_of(request.selection),
       sea_line(request.sea), request.max_bounces, request.edges ? "on" : "off",
       request.crease_deg ? fmt::format("{:.6g}", *request.crease_deg) : "auto", request.sheet_thickness_mm,
-      request.range_m, request.min_patch_m > 0 ? request.min_patch_m : default_min_patch(scatterer),
+      request.range_m, request.min_patch_m > 0 ? request.min_patch_m : min_patch(scatterer),
       method_text(request, scatterer), request.like.empty() ? "" : ", like " + request.like,
       cavity_line(request.cavities), transmitter_line(request.transmitter), warning_lines(warnings));
 }

@@ -67,7 +67,7 @@ void set_target_files(RcsRequest& request, std::span<const GeometryFile> files) 
 PreparedTarget prepare_mesh(const RcsRequest& request) {
   requested_sweep(request);  // throws InputError for a contradictory request
   const auto [lowest, highest] = std::minmax_element(request.frequency_hz.begin(), request.frequency_hz.end());
-  SolverMesh mesh = load_solver_mesh({.mesh = request.target,
+  TargetMesh mesh = load_target_mesh({.mesh = request.target,
                                       .placement = request,
                                       .loaded = request.mesh,
                                       .materials = request.materials,

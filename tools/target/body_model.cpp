@@ -199,9 +199,9 @@ std::shared_ptr<const Value> LoadedBodies::Kept<Value>::get(const std::string& f
 
 BodyModel LoadedBodies::model(const Scenario& scenario, const TargetSpec& spec, double scale,
                               std::optional<double> height_m) {
-  std::optional<SolverMesh> read;
-  const auto mesh = [&]() -> SolverMesh& {
-    if (!read) read = load_solver_mesh(source_of(scenario, spec, scale));
+  std::optional<TargetMesh> read;
+  const auto mesh = [&]() -> TargetMesh& {
+    if (!read) read = load_target_mesh(source_of(scenario, spec, scale));
     return *read;
   };
   BodyModel model;

@@ -45,6 +45,8 @@ struct Vec2 {
   friend constexpr bool operator==(const Vec2&, const Vec2&) = default;
 
   constexpr double dot(const Vec2& b) const { return x() * b.x() + y() * b.y(); }
+  // Component of the cross product along z.
+  friend constexpr double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
   constexpr double squaredNorm() const { return dot(*this); }
   double norm() const { return std::sqrt(squaredNorm()); }
   // The vector itself where its length is 0.

@@ -81,8 +81,6 @@ SidesFrom sides_of_cut(const DividedMesh& of) {
 
 Vec2 plan(const TriangleMesh& mesh, std::uint32_t v) { return mesh.vertices[v].xy(); }
 
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
 // Traces closed loops along the sides, which it uses up; chains that end are dropped, as those of open surfaces do. At
 // a vertex where outlines touch it takes the sharpest turn to the right, where the section is.
 std::vector<Loop> loops_of(const TriangleMesh& mesh, SidesFrom sides) {

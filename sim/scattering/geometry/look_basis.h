@@ -3,6 +3,8 @@
 
 // Look direction of an antenna with its polarisation basis.
 
+#include <cmath>
+
 #include "sim/core/numbers/linear.h"
 
 namespace seaglint {
@@ -18,10 +20,16 @@ struct RadarBasis {
 inline bool operator==(const RadarBasis& a, const RadarBasis& b) { return a.r == b.r && a.h == b.h && a.v == b.v; }
 
 // Unit vector from the target to the radar at this azimuth and elevation, rad, target frame (CONVENTIONS.md, "Frames").
-Vec3 direction_to_radar(double azimuth_rad, double elevation_rad);
+inline Vec3 direction_to_radar(double azimuth_rad, double elevation_rad) {
+  return {std::cos(elevation_rad) * std::cos(azimuth_rad), std::cos(elevation_rad) * std::sin(azimuth_rad),
+          std::sin(elevation_rad)};
+}
 
 // Basis of the look direction r_hat (unit): h = z^ x r^ / |z^ x r^|, h = y^ where r^ is vertical; v = r^ x h.
-RadarBasis radar_basis(const Vec3& r_hat);
+inline RadarBasis radar_basis(const Vec3& r_hat) {
+  const Vec3 across = Vec3::UnitZ().cross(r_hat), h = across.norm() < 1e-12 ? Vec3::UnitY() : across.normalized();
+  return {r_hat, h, r_hat.cross(h)};
+}
 
 // Tolerances of the geometry that the solver's rooms share. A vertex is exact to the rounding of coordinates of some
 // 100 m, 1e-14 m, times the operations of a clip; the smallest patch kept on the smallest targets is 1e-5 m wide.

@@ -10,7 +10,6 @@ namespace seaglint {
 
 namespace {
 
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 Vec2 left_of(const Vec2& along) { return {-along.y(), along.x()}; }
 
 // Line through two vertices, positive on its left, with a gradient as long as their distance. Derivatives of that scale

@@ -126,8 +126,7 @@ struct MovingLine {
 inline double signed_area(const MovingPolygon& polygon) {
   double twice = 0;
   for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
-    const Vec2 a = polygon[i].p - polygon[0].p, b = polygon[i + 1].p - polygon[0].p;
-    twice += a.x() * b.y() - a.y() * b.x();
+    twice += cross(polygon[i].p - polygon[0].p, polygon[i + 1].p - polygon[0].p);
   }
   return 0.5 * twice;
 }

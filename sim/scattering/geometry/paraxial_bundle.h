@@ -9,8 +9,6 @@
 
 namespace seaglint {
 
-// Functions of second order, and affine maps, of a point p in the projection plane.
-
 // value + gradient . p + p . hessian p / 2
 struct Quadratic {
   double value = 0;
@@ -49,8 +47,6 @@ struct Barycentric {
 
 // Quadratic that is zero at the vertices and takes the value middle[i] at the midpoint of side i -> i + 1.
 Quadratic edge_midpoint_quadratic(const Barycentric& lambda, const std::array<double, 3>& middle);
-
-// Paraxial ray bundle after reflection by curved surfaces.
 
 // Rays after curved reflectors, to second order about the parallel bundle that flat reflectors would leave (Hamilton's
 // characteristic function; G. A. Deschamps, Proc. IEEE 60 (1972) 1022-1035). A ray is identified by the point p where

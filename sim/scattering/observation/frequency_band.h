@@ -13,9 +13,6 @@
 
 namespace seaglint {
 
-// Part of a frequency sweep over which amplitudes vary slowly: they are evaluated at a few wavenumbers, the nodes of
-// the band, and interpolated by the polynomial through them.
-
 inline constexpr std::size_t kBandNodes = 4;
 using BandValues = std::array<Complex, kBandNodes>;  // of an amplitude, at the nodes
 
@@ -28,6 +25,8 @@ struct FormRange {
 inline constexpr double kFormRatio = 1.189207115002721;  // 2^(1/4), highest over lowest
 FormRange form_range(double k);                          // that contains k > 0
 
+// Part of a frequency sweep over which amplitudes vary slowly: they are evaluated at a few wavenumbers, the nodes of
+// the band, and interpolated by the polynomial through them.
 class FrequencyBand {
  public:
   // One wavenumber, which is the only node; rad/m, > 0.
@@ -53,7 +52,6 @@ class FrequencyBand {
 };
 
 // Division of a frequency sweep into bands whose nodes stand for their frequencies.
-
 class SweepPlan {
  public:
   // `wavenumbers`: of the sweep, in any order, at least one. Bands are at most kMaxBandRatio wide (highest over

@@ -14,10 +14,8 @@
 
 namespace seaglint {
 
-// Look directions of a moving radar, and of a radar at a finite range as observed from each body. In the far field only
-// the direction matters. The scene is fixed because the sea surface is: the radar's image descends as the radar climbs.
-
-// Look directions of the radar and of its image in the sea at one instant, target frame.
+// Look directions of the radar and of its image in the sea at one instant, target frame. The scene is fixed because the
+// sea surface is: the radar's image descends as the radar climbs.
 struct LineOfSight {
   RadarBasis radar, image;
 
@@ -33,8 +31,6 @@ LineOfSight line_of_sight_at(const IntervalSampling& sampling, const Vec3& r_hat
 
 // Both look directions from the point x, transported in the same way.
 LineOfSight line_of_sight_from(const LineOfSight& origin, const Vec3& x, double range_m);
-
-// Path of the look directions in body axes over the pulses that one aspect trace serves.
 
 // Tangent of the motion of both look directions per radian: r^_t + s transmit, r^_s + s receive, each normal to its own
 // direction; unit length together.

@@ -18,6 +18,10 @@ namespace seaglint {
 using ScatteringMatrix = std::array<Complex, 4>;
 using Matrices = std::vector<ScatteringMatrix>;  // per frequency
 
+inline void add_to(ScatteringMatrix& sum, const ScatteringMatrix& term) {
+  for (std::size_t i = 0; i < 4; ++i) sum[i] += term[i];
+}
+
 // Look directions of transmitter and receiver.
 struct BistaticGeometry {
   RadarBasis transmit;

@@ -13,8 +13,6 @@
 namespace seaglint {
 namespace {
 
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
 // -jk / 2 pi
 Complex radiation_factor(double k) { return {0, -k / (2 * kPi)}; }
 
@@ -330,7 +328,9 @@ void append_pattern_change(const Pattern& pattern, const PointBand& at, std::siz
 // Refers a point to the phase origin and to the sense of the observation.
 void refer_to(const Observation& observation, Point& point) {
   const auto& [transmit, receive, is_monostatic] = observation.antennas;
-  for (Complex& amplitude : point.amplitude) amplitude *= observation.weight;
+  if (observation.weight != 1) {
+    for (Complex& amplitude : point.amplitude) amplitude *= observation.weight;
+  }
   point.psi += observation.centre.dot(transmit.r + receive.r);
   point.gradient.transmit += observation.centre;
   point.gradient.receive += observation.centre;

@@ -45,17 +45,18 @@ struct Point {
   ContributionSource source;
 
   const ScatteringMatrix& traced_pattern(std::size_t node) const { return at_node.empty() ? pattern : at_node[node]; }
-  // In the sense of the point.
-  ScatteringMatrix pattern_at(std::size_t node) const {
+  // In the sense of the point, element i of hh, hv, vh, vv.
+  Complex pattern_at(std::size_t node, std::size_t i) const {
+    constexpr std::array<std::size_t, 4> kTransposed{0, 2, 1, 3};
     const ScatteringMatrix& traced = traced_pattern(node);
-    if (sense == PathSense::kOneWay) return traced;
-    if (sense == PathSense::kMean) return reciprocal_mean(traced, traced);
-    return {traced[0], traced[2], traced[1], traced[3]};
+    if (sense == PathSense::kOneWay) return traced[i];
+    const Complex& back = traced[kTransposed[i]];
+    return sense == PathSense::kExchanged ? back : 0.5 * (traced[i] + back);
   }
   // Without the phase, m.
   ScatteringMatrix matrix(std::size_t node) const {
-    ScatteringMatrix value = pattern_at(node);
-    for (Complex& element : value) element *= amplitude[node];
+    ScatteringMatrix value;
+    for (std::size_t i = 0; i < 4; ++i) value[i] = amplitude[node] * pattern_at(node, i);
     return value;
   }
 };

@@ -25,8 +25,6 @@ constexpr double kUnlikeRounding = 1 + 1e-6;
 // between the ends of a side, of unit length (circle of radius 1 / sqrt(3)).
 constexpr double kTriangleError = 1.0 / 6, kSideError = 1.0 / 8;
 
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
 // Integral of e^{jk w.(p - c)} over the polygon about its centroid c, by a series in k w: for k |w| size below 0.1 the
 // truncation error is below 1e-6 of the area.
 Complex small_phase_integral(const MovingPolygon& polygon, const Vec2& c, const Vec2& kw) {

@@ -18,12 +18,9 @@ Vec3 image_point(const Footprint& footprint, const Vec2& p, const RadarBasis& ba
 }  // namespace
 
 Pattern& Pattern::operator+=(const Pattern& other) {
-  const auto add = [](ScatteringMatrix& sum, const ScatteringMatrix& term) {
-    for (int i = 0; i < 4; ++i) sum[i] += term[i];
-  };
   if (at_node.empty()) at_node.assign(other.at_node.size(), value);
-  for (std::size_t q = 0; q < at_node.size(); ++q) add(at_node[q], other.at(q));
-  add(value, other.value);
+  for (std::size_t q = 0; q < at_node.size(); ++q) add_to(at_node[q], other.at(q));
+  add_to(value, other.value);
   return *this;
 }
 

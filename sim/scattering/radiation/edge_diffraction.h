@@ -47,8 +47,6 @@ std::array<double, 2> reflected_face_weights(const WedgeFrame& wedge, const Edge
 std::array<double, 4> endpoint_correction(const WedgeFace& face, const EdgeIllumination& in,
                                           const EdgeIllumination& out);
 
-// Contributions of sharp edges: single diffraction over all combinations of paths, and multiple diffraction.
-//
 // An interval of an edge is illuminated directly or after reflections; exit paths are found by tracing the receiver's
 // wave back to the edge (reciprocity). Each pair of an incident and an exit path with a common interval is one
 // contribution. For one antenna two reciprocal paths are one contribution.

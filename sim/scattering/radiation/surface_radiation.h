@@ -18,11 +18,9 @@ namespace seaglint {
 
 // Curvature terms of a footprint: phase of a surface that rises above its flat facet, phase and divergence of rays
 // reflected by curved reflectors, surface normals interpolated between the facet's vertices, and the taper of the
-// current at the smooth-surface shadow boundary (README.md, "Curved surfaces").
-
-// Of a triangle that contains everything one beam illuminates on a panel: the curved facet itself, or one
-// around the beam on a flat panel. Shared by all polygons of the footprint. Arrays are indexed by the vertices of
-// the triangle.
+// current at the smooth-surface shadow boundary (README.md, "Curved surfaces"). Of a triangle that contains everything
+// one beam illuminates on a panel: the curved facet itself, or one around the beam on a flat panel. Shared by all
+// polygons of the footprint. Arrays are indexed by the vertices of the triangle.
 struct CurvedFootprint {
   std::array<Vec2, 3> corner;
   Barycentric lambda;
@@ -58,7 +56,6 @@ std::shared_ptr<const CurvedFootprint> make_curved_footprint(const CurvatureCont
                                                              const Pattern& pattern);
 
 // Physical-optics contributions of a beam on a panel, for one receiver, and the boundary terms of their footprints.
-
 // Appends to `out`, which must outlive the object, as must the scene with the receiver.
 class SurfaceRadiator {
  public:

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "sim/scattering/scatterer/facets.h"
+#include "sim/geometry/surface/facets.h"
 
 namespace seaglint {
 

@@ -8,15 +8,14 @@
 #include <span>
 #include <vector>
 
+#include "sim/geometry/surface/facets.h"
+#include "sim/geometry/surface/smooth_surface.h"
 #include "sim/scattering/coefficients/wedge_diffraction.h"
-#include "sim/scattering/scatterer/facets.h"
-#include "sim/scattering/scatterer/smooth_surface.h"
 
 namespace seaglint {
 
 // Panels: convex polygons of coplanar neighbouring facets of one part and material. A flat wall is one reflector,
 // independent of its triangulation. A panel is named by its first facet, the representative of its other facets.
-
 class Panels {
  public:
   // Every facet of a curved surface is a panel of its own. The facets must outlive the panels.

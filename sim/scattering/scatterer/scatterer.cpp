@@ -266,4 +266,8 @@ Scatterer::Scatterer(CentredSurface of, std::vector<MaterialSpec> materials, std
   index_by_panel(edges_, facets_, panels_);
 }
 
+double merging_tolerance(double highest_hz) {
+  return std::exp2(std::floor(std::log2(kSpeedOfLight / highest_hz / 2000)));
+}
+
 }  // namespace seaglint

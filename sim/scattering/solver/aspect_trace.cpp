@@ -43,14 +43,6 @@ class InteractionRecorder : public InteractionVisitor {
   std::vector<EdgeIllumination> edge_illuminations;
 };
 
-Aspects aspects_of(const Scatterer& scatterer, const BistaticGeometry& geometry, const TracingSettings& settings,
-                   int threads) {
-  const auto along = [&](const RadarBasis& direction) {
-    return std::make_shared<const Aspect>(scatterer, direction, settings, threads);
-  };
-  return {along(geometry.transmit), {geometry.monostatic ? nullptr : along(geometry.receive)}};
-}
-
 // Edge illuminations from a receive direction that transmits in no pair: no contributions are computed, and beams end
 // after the reflections that an edge contribution allows.
 IlluminationByEdge edge_illumination_from(const Scatterer& scatterer, const std::shared_ptr<const Aspect>& direction,
@@ -90,10 +82,6 @@ Illumination::Illumination(const Scatterer& scatterer, Aspects aspects, const Tr
     highest_ = std::ranges::max(wavenumbers);
   }
 }
-
-Illumination::Illumination(const Scatterer& scatterer, const BistaticGeometry& geometry,
-                           const TracingSettings& settings, int threads, std::span<const double> wavenumbers)
-    : Illumination(scatterer, aspects_of(scatterer, geometry, settings, threads), settings, wavenumbers) {}
 
 std::size_t Illumination::parts_per_chunk() const {
   return std::max(wave_->least_parts_per_chunk(), (wave_->parts() + kMaxChunks - 1) / kMaxChunks);

@@ -33,10 +33,6 @@ class Illumination {
   Illumination(const Scatterer& scatterer, Aspects aspects, const TracingSettings& settings,
                std::span<const double> wavenumbers = {});
 
-  // For one receiver.
-  Illumination(const Scatterer& scatterer, const BistaticGeometry& geometry, const TracingSettings& settings,
-               int threads = 1, std::span<const double> wavenumbers = {});
-
   // Edge illuminations, and the number of beam segments traced.
   struct Summary {
     IlluminationByEdge edge_illuminations;

@@ -257,7 +257,7 @@ void IntervalSum::add(std::size_t chunk, std::span<const Contribution> contribut
     points.clear();
     decompose(contribution, observation, at_, points);
     for (const Point& point : points) {
-      const Complex amplitude = point.amplitude[0] * point.pattern_at(0)[channel_];
+      const Complex amplitude = point.amplitude[0] * point.pattern_at(0, channel_);
       if (std::norm(amplitude) < limits_.faint_m * limits_.faint_m) continue;
       const double limit = std::min(1.0, limits_.slide_m / point.gradient.sum().norm());
       grid_points.push_back({amplitude, point.psi, limit * path_.along_track.path_rate(point.gradient),

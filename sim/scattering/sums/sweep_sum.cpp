@@ -47,10 +47,10 @@ void BandSum::add(const Point& point) {
   const Complex step = small_phasor(band_.node_step() * from_centre);
   for (std::size_t n = 0; n < band_.nodes().size(); ++n, phase *= step) {
     const Complex value = point.amplitude[n] * phase;
-    const ScatteringMatrix pattern = point.pattern_at(n);
     for (std::size_t i = 0; i < 4; ++i) {
-      sum.values[n][2 * i] += value.real() * pattern[i].real() - value.imag() * pattern[i].imag();
-      sum.values[n][2 * i + 1] += value.real() * pattern[i].imag() + value.imag() * pattern[i].real();
+      const Complex pattern = point.pattern_at(n, i);
+      sum.values[n][2 * i] += value.real() * pattern.real() - value.imag() * pattern.imag();
+      sum.values[n][2 * i + 1] += value.real() * pattern.imag() + value.imag() * pattern.real();
     }
   }
 }
@@ -79,10 +79,6 @@ ScatteringMatrix BandSum::at(double k) const {
 }
 
 namespace {
-
-void add_to(ScatteringMatrix& sum, const ScatteringMatrix& term) {
-  for (int i = 0; i < 4; ++i) sum[i] += term[i];
-}
 
 // The points at a wavenumber of their band, as traced from the transmitter.
 ScatteringMatrix one_way_at(std::span<const Point> points, const FrequencyBand& band, double k) {

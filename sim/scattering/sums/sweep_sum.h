@@ -17,14 +17,13 @@
 
 namespace seaglint {
 
-// Sum of many points over a band: their phases are collected in cells of path length, in which the sum varies so slowly
-// with k that its values at the nodes of the band determine it. The cost per point does not depend on the number of
-// frequencies, which need not be equidistant.
-
 // Largest phase over half of the band between a point and the centre of its cell, rad. Together with that of a point's
 // own amplitude, at most a tenth, the interpolation error of a point is below 9e-5 (FrequencyBand::weights).
 inline constexpr double kCellHalfPhase = 0.25;
 
+// Sum of many points over a band: their phases are collected in cells of path length, in which the sum varies so slowly
+// with k that its values at the nodes of the band determine it. The cost per point does not depend on the number of
+// frequencies, which need not be equidistant.
 class BandSum {
  public:
   explicit BandSum(const FrequencyBand& band);
@@ -52,10 +51,8 @@ class BandSum {
   std::int64_t first_ = 0;
 };
 
-// Sum of contributions over the frequencies of a sweep, as points over its bands.
-
-// Of one pair of directions. `estimated`: frequency of the view's estimate, which changes no matrix. The plan must
-// outlive the object.
+// Sum of the contributions of one pair of directions over the frequencies of a sweep. `estimated`: frequency of the
+// view's estimate, which changes no matrix. The plan must outlive the object.
 class SweepSum {
  public:
   explicit SweepSum(const SweepPlan& plan, std::optional<std::size_t> estimated = std::nullopt);

@@ -15,8 +15,6 @@ namespace seaglint {
 
 // Panels in the prism that a beam sweeps, found in the bounding-volume hierarchy, and the directly visible surface of
 // every receiver.
-
-// Every receiver of the scene must have its visible surface.
 class PrismSearch : public PanelSearch {
  public:
   explicit PrismSearch(const TracingContext& scene) : scene_(scene) {}
@@ -44,11 +42,8 @@ struct PrismOverlap {
 };
 PrismOverlap prism_overlap(const BeamSegment& segment, const Prism& prism, const BvhPanel& panel);
 
-// Beam tracing: beams are followed from reflector to reflector, and the illuminated and visible polygons of every panel
-// on their path are passed to a visitor (P. S. Heckbert and P. Hanrahan, Proc. SIGGRAPH 1984, 119-127).
-
 // Traces all beams whose first reflector is the panel of one of these facets (its first facet) and returns the number
-// of segments behind it. The scene must have the surface visible to the transmitter. Calls after_each() when the beams
+// of segments behind it. Calls after_each() when the beams
 // of one facet are complete.
 std::size_t trace_beams(
     const TracingContext& scene, const PanelSearch& search, std::span<const int> facets, InteractionVisitor& visitor,

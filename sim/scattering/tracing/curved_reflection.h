@@ -8,8 +8,8 @@
 #include <cmath>
 #include <span>
 
+#include "sim/geometry/surface/smooth_surface.h"
 #include "sim/scattering/geometry/paraxial_bundle.h"
-#include "sim/scattering/scatterer/smooth_surface.h"
 #include "sim/scattering/tracing/interaction.h"
 
 namespace seaglint {

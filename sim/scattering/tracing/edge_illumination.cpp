@@ -35,11 +35,10 @@ void merge_intervals(std::vector<IlluminatedInterval>& intervals) {
   if (!intervals.empty()) intervals.resize(kept + 1);
 }
 
-// Intervals in which sides of the illuminated polygons coincide with an edge, given by its image's start and direction.
+// Intervals in which sides of the candidate's illuminated polygons coincide with an edge, given by its image's start
+// and direction. a: basis of the projection plane.
 std::vector<IlluminatedInterval> illuminated_intervals(const Vec3& image, const Vec3& along, double length,
-                                                       const FacetWave& wave,
-                                                       std::span<const MovingPolygon> illuminated) {
-  const RadarBasis& a = wave.antenna;
+                                                       const CandidatePanel& candidate, const RadarBasis& a) {
   const Vec2 start(image.dot(a.h), image.dot(a.v)), run(along.dot(a.h), along.dot(a.v));
   const double shortened = run.norm();  // projected length of a metre of edge
   std::vector<IlluminatedInterval> intervals;
@@ -48,13 +47,13 @@ std::vector<IlluminatedInterval> illuminated_intervals(const Vec3& image, const 
   const auto place = [&](const MovingVertex& vertex) { return run.dot(vertex.p - start) / (shortened * shortened); };
   // Slide of a vertex along the edge: its motion beyond that of a body-fixed point, -z d_i.
   const auto slip = [&](const MovingVertex& corner) -> Vec2 {
-    const double z = wave.plane.at(corner.p);
+    const double z = candidate.projection.plane.at(corner.p);
     return Vec2(run.dot(corner.d1 + Vec2(z, 0)), run.dot(corner.d2 + Vec2(0, z))) / (shortened * shortened);
   };
   const auto on_edge = [&](const MovingVertex& corner) {
     return std::abs(across.dot(corner.p - start)) <= kCoincident;
   };
-  for (const MovingPolygon& piece : illuminated) {
+  for (const MovingPolygon& piece : candidate.illuminated.polygons()) {
     bool here = on_edge(piece.back());
     for (std::size_t i = 0; i < piece.size(); ++i) {
       const MovingVertex &p = i == 0 ? piece.back() : piece[i - 1], &q = piece[i];
@@ -85,25 +84,6 @@ std::vector<IlluminatedInterval> illuminated_intervals(const Vec3& image, const 
 
 }  // namespace
 
-void find_edge_illumination(const SharpEdges& edges, int facet, const FacetWave& wave,
-                            std::span<const MovingPolygon> illuminated, std::vector<EdgeIllumination>& illuminations) {
-  if (illuminated.empty()) return;
-  for (const PanelEdge& side : edges.edges_of_panel(facet)) {
-    if (!side.may_record_edge(wave.direction)) continue;
-    const SharpEdge& edge = edges.edges[side.edge];
-    const WedgeFrame* wedge = illuminated_wedge(edge, wave.direction);
-    if (!wedge || !records_edge(edge, *wedge, side.is_first_face, wave.direction)) continue;
-    if (wedge->N < 1 && wave.bounce > 1) continue;  // PO of a concave edge includes its reflections
-    // Edges of materials are illuminated directly only; on other panels than smooth conductors no other edge is.
-    if (edge.conducts ? !wave.on_conductor : wave.bounce > 1) continue;
-    const Vec3 image = wave.image_transform.image(edge.a), along = wave.image_transform.L * edge.along();
-    for (const IlluminatedInterval& interval : illuminated_intervals(image, along, edge.length(), wave, illuminated)) {
-      illuminations.push_back({side.edge, interval.s, interval.slip, image, along, wave.direction, wave.E_h, wave.E_v,
-                               static_cast<std::uint8_t>(wave.bounce - 1), wave.first_reflector_normal});
-    }
-  }
-}
-
 bool records_edges(const TracingContext& scene, const BeamSegment& segment) {
   return scene.settings.edges && segment.bounce <= kMaxEdgeReflections + 1;
 }
@@ -111,19 +91,24 @@ bool records_edges(const TracingContext& scene, const BeamSegment& segment) {
 void record_edges(const TracingContext& scene, const Interaction& interaction,
                   std::vector<EdgeIllumination>& illuminations) {
   const auto& [segment, candidate] = interaction;
-  if (!segment.fields.empty()) return;
+  if (!segment.fields.empty() || candidate.illuminated.empty()) return;
   const bool on_conductor = scene.surface_of(candidate.projection.facet).empty();
-  const FacetWave wave{scene.transmit,
-                       segment.image_transform,
-                       candidate.projection.plane,
-                       segment.direction,
-                       segment.E_h,
-                       segment.E_v,
-                       segment.bounce,
-                       on_conductor,
-                       segment.first_reflector_normal};
-  find_edge_illumination(scene.scatterer.edges(), candidate.projection.facet, wave, candidate.illuminated.polygons(),
-                         illuminations);
+  const SharpEdges& edges = scene.scatterer.edges();
+  for (const PanelEdge& side : edges.edges_of_panel(candidate.projection.facet)) {
+    if (!side.may_record_edge(segment.direction)) continue;
+    const SharpEdge& edge = edges.edges[side.edge];
+    const WedgeFrame* wedge = illuminated_wedge(edge, segment.direction);
+    if (!wedge || !records_edge(edge, *wedge, side.is_first_face, segment.direction)) continue;
+    if (wedge->N < 1 && segment.bounce > 1) continue;  // PO of a concave edge includes its reflections
+    if (edge.conducts ? !on_conductor : segment.bounce > 1) continue;
+    const Vec3 image = segment.image_transform.image(edge.a), along = segment.image_transform.L * edge.along();
+    for (const IlluminatedInterval& interval :
+         illuminated_intervals(image, along, edge.length(), candidate, scene.transmit)) {
+      illuminations.push_back({side.edge, interval.s, interval.slip, image, along, segment.direction, segment.E_h,
+                               segment.E_v, static_cast<std::uint8_t>(segment.bounce - 1),
+                               segment.first_reflector_normal});
+    }
+  }
 }
 
 IlluminationByEdge::IlluminationByEdge(std::vector<std::vector<EdgeIllumination>> lists, std::size_t edge_count)

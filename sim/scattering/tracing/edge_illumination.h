@@ -31,28 +31,12 @@ struct EdgeIllumination {
 // Maximum number of reflections on the incident and the exit path together: the edges of corner reflectors need three.
 inline constexpr int kMaxEdgeReflections = 3;
 
-// A wave on a panel after reflections, as a beam segment carries it.
-struct FacetWave {
-  const RadarBasis& antenna;
-  const ImageTransform& image_transform;
-  const DepthPlane& plane;  // of the panel's image
-  Vec3 direction, E_h, E_v;
-  int bounce = 1;                              // 1-based number of the reflection at this panel
-  bool on_conductor = true;                    // the panel is a smooth perfect conductor
-  Vec3 first_reflector_normal = Vec3::Zero();  // as in EdgeIllumination
-};
-
-// Appends the intervals of the sharp edges of a panel (given by its representative facet) that bound the illuminated
-// part, `illuminated`: convex polygons in the projection plane.
-void find_edge_illumination(const SharpEdges& edges, int facet, const FacetWave& wave,
-                            std::span<const MovingPolygon> illuminated, std::vector<EdgeIllumination>& illuminations);
-
 // True when the waves of this beam segment are recorded at edges: at most kMaxEdgeReflections reflections before the
 // edge.
 bool records_edges(const TracingContext& scene, const BeamSegment& segment);
 
-// Appends the illumination of the panel's edges. Only perfectly conducting wedges are included, and waves that met only
-// perfect conductors before.
+// Appends the intervals of the panel's sharp edges that bound its illuminated polygons, for waves that met only perfect
+// conductors before: at perfectly conducting wedges of smooth conductors, and for direct waves at edges of materials.
 void record_edges(const TracingContext& scene, const Interaction& interaction,
                   std::vector<EdgeIllumination>& illuminations);
 

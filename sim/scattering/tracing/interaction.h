@@ -8,11 +8,11 @@
 #include <span>
 #include <vector>
 
+#include "sim/geometry/surface/facets.h"
 #include "sim/scattering/coefficients/material.h"
 #include "sim/scattering/geometry/moving_polygon.h"
 #include "sim/scattering/geometry/paraxial_bundle.h"
 #include "sim/scattering/observation/observation.h"
-#include "sim/scattering/scatterer/facets.h"
 #include "sim/scattering/scatterer/panel_bvh.h"
 #include "sim/scattering/scatterer/scatterer.h"
 #include "sim/scattering/tracing/tracing_settings.h"

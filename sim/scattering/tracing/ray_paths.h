@@ -15,15 +15,14 @@
 
 namespace seaglint {
 
-// Lattice of parallel rays over the projection of a target, in square tiles that are traced one by one: coarse cells,
-// which are halved where their rays differ, and rays aimed at every panel.
-
 // Square of the projection plane; its side is the finest spacing times 2^(kHalvings - level).
 struct LatticeCell {
   int level = 0;  // 0 <= x <= kHalvings
   std::int64_t column = 0, row = 0;
 };
 
+// Parallel rays over the projection of a target, in square tiles that are traced one by one: coarse cells, which are
+// halved where their rays differ, and rays aimed at every panel.
 class RayLattice {
  public:
   static constexpr int kHalvings = 3;            // of a coarse cell, down to the spacing
@@ -62,9 +61,6 @@ class RayLattice {
   std::vector<Tile> tiles_;    // by rows
   std::vector<Vec2> aimed_;    // by tile
 };
-
-// Sequences of reflectors that the rays of one tile meet, found by Embree, and the panels between a reflector and a
-// receiver.
 
 // All rays of the tile with the same sequence of reflectors, up to this one. They are parallel before and behind it, as
 // flat reflectors leave them.

@@ -18,7 +18,6 @@ namespace seaglint {
 
 // Adaptive rays of a tile: cells of the lattice are halved where their rays differ from those around, as long as that
 // finds reflectors or obstacles not met there before.
-
 class RayRefinement {
  public:
   // Both must outlive the object.
@@ -49,9 +48,7 @@ class RayRefinement {
 };
 
 // The panels that rays found, and their neighbours on the mesh, whose illuminated part may be too narrow for a ray, as
-// the search of the beam tracer.
-
-// Scene and paths must outlive it.
+// the search of the beam tracer. Scene and paths must outlive it.
 class RaySearch : public PanelSearch {
  public:
   RaySearch(const TracingContext& scene, const RayPaths& paths)
@@ -72,9 +69,6 @@ class RaySearch : public PanelSearch {
   mutable std::vector<std::uint64_t> found_by_;
   mutable std::uint64_t searches_ = 0;
 };
-
-// Shooting and bouncing rays: rays find the reflectors and obstacles of every tile of a lattice, and tubes of rays with
-// equal sequences illuminate them (H. Ling, R.-C. Chou and S.-W. Lee, IEEE Trans. AP-37, 1989, 194-205).
 
 // Traces the tiles first <= i < last of the lattice, whose projection plane is that of the scene's transmitter, and
 // returns the number of segments of tubes. Calls after_each() when the tubes of one tile are complete.

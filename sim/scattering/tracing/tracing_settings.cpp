@@ -53,24 +53,18 @@ double patch_side(double radius, const TracingSettings& settings) {
   return settings.min_patch_m > 0 ? std::min(coarsest, settings.min_patch_m) : coarsest;
 }
 
-double smallest_radius(const Scatterer& scatterer) { return std::ranges::min(scatterer.bodies().radius); }
-
 }  // namespace
 
 TracingSettings tracing_settings(const SolverSpec& solver) {
   return {solver.min_patch_m, solver.max_bounces, solver.edges, {}, solver.method, solver.ray_spacing_m};
 }
 
-double default_ray_spacing(const Scatterer& scatterer) { return kRaySpacing * scatterer.radius(); }
-
 double ray_spacing(const Scatterer& scatterer, const TracingSettings& settings) {
-  return settings.ray_spacing_m > 0 ? settings.ray_spacing_m : default_ray_spacing(scatterer);
+  return settings.ray_spacing_m > 0 ? settings.ray_spacing_m : kRaySpacing * scatterer.radius();
 }
 
-double default_min_patch(const Scatterer& scatterer) { return kMinPatchSide * smallest_radius(scatterer); }
-
 double min_patch(const Scatterer& scatterer, const TracingSettings& settings) {
-  return patch_side(smallest_radius(scatterer), settings);
+  return patch_side(std::ranges::min(scatterer.bodies().radius), settings);
 }
 
 double min_amplitude(const Scatterer& scatterer, const TracingSettings& settings, double k) {

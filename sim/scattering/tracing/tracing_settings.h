@@ -13,8 +13,6 @@
 
 namespace seaglint {
 
-// Selection of contributions by the part they leave the target from, their number of bounces and their mechanism.
-
 // Mechanism of a contribution. All but the first are edge diffraction.
 enum class Mechanism : std::uint8_t {
   kPhysicalOptics,       // surface current of the geometrical-optics field
@@ -51,8 +49,6 @@ struct ContributionFilter {
   bool accepts_cavity(int part) const;
 };
 
-// Settings of one illumination: depth of the beams, edge diffraction, and the smallest patches kept.
-
 struct TracingSettings {
   // Side of the smallest illuminated patch kept, m; beams narrower than 3.6 times it are not followed to further
   // reflectors. 0 or coarser than that of a body by default: that.
@@ -61,23 +57,19 @@ struct TracingSettings {
   bool edges = false;                 // edge diffraction
   ContributionFilter filter = {};     // contributions that are summed; beams end at the walls of cavities only
   SolverMethod method = SolverMethod::kBeams;
-  double ray_spacing_m = 0;  // distance between rays, m; 0: default_ray_spacing(). Used by rays alone
+  double ray_spacing_m = 0;  // distance between rays, m; 0: ray_spacing(). Used by rays alone
 };
 
 // Tracing settings of a target of a scenario.
 TracingSettings tracing_settings(const SolverSpec& solver);
 
-// Distance between rays by default, m: 1.5e-4 of the radius of the target's bounding sphere, 11 mm on the 144 m ship.
-double default_ray_spacing(const Scatterer& scatterer);
-double ray_spacing(const Scatterer& scatterer, const TracingSettings& settings);  // of the settings, or the default
+// Distance between rays, m: that of the settings, by default 1.5e-4 of the radius of the target's bounding sphere, 11
+// mm on the 144 m ship.
+double ray_spacing(const Scatterer& scatterer, const TracingSettings& settings = {});
 
-// Side of the smallest illuminated patch kept by default, m: 0.7e-4 of the radius of the smallest body's bounding
-// sphere, 5 mm on the 144 m ship.
-double default_min_patch(const Scatterer& scatterer);
-
-// Side of the smallest illuminated patch kept on the smallest body, m: that of the settings, or the default where that
-// is finer.
-double min_patch(const Scatterer& scatterer, const TracingSettings& settings);
+// Side of the smallest illuminated patch kept on the smallest body, m: that of the settings, at most 0.7e-4 of the
+// radius of that body's bounding sphere, 5 mm on the 144 m ship.
+double min_patch(const Scatterer& scatterer, const TracingSettings& settings = {});
 
 // A tenth of the amplitude k area / 2 pi of the smallest patch, m: end-point and edge contributions below it may be
 // left out. On the ship they are -65 dB of the echo together.

@@ -9,10 +9,10 @@
 #include <span>
 #include <vector>
 
+#include "sim/geometry/surface/facets.h"
 #include "sim/scattering/geometry/image_transform.h"
 #include "sim/scattering/geometry/look_basis.h"
 #include "sim/scattering/geometry/moving_polygon.h"
-#include "sim/scattering/scatterer/facets.h"
 #include "sim/scattering/scatterer/panel_bvh.h"
 #include "sim/scattering/tracing/tracing_settings.h"
 

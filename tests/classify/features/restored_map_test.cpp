@@ -8,7 +8,7 @@
 #include "classify/features/restored_map.h"
 #include "classify/features/scattering_centres.h"
 #include "radar/echo/echo.h"
-#include "sim/scattering/solver/point_response.h"
+#include "sim/canonical/point_response.h"
 #include "tests/measured.h"
 
 namespace seaglint {

@@ -11,8 +11,8 @@
 #include "classify/features/scattering_centres.h"
 #include "radar/echo/echo.h"
 #include "radar/rvmap/scr.h"
+#include "sim/canonical/point_response.h"
 #include "sim/core/numbers/random.h"
-#include "sim/scattering/solver/point_response.h"
 #include "tests/measured.h"
 
 namespace seaglint {

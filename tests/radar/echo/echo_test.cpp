@@ -7,9 +7,9 @@
 #include <cstdio>
 
 #include "radar/echo/sea_clutter.h"
+#include "sim/canonical/point_response.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
-#include "sim/scattering/solver/point_response.h"
 
 namespace seaglint {
 namespace {

@@ -10,8 +10,8 @@
 #include "radar/echo/echo.h"
 #include "radar/echo/receiver_noise.h"
 #include "radar/echo/sea_clutter.h"
+#include "sim/canonical/point_response.h"
 #include "sim/core/numbers/constants.h"
-#include "sim/scattering/solver/point_response.h"
 #include "tests/measured.h"
 
 namespace seaglint {

@@ -10,8 +10,8 @@
 #include "radar/rvmap/map_weights.h"
 #include "radar/rvmap/rv_map.h"
 #include "radar/waveform/figures_of_merit.h"
+#include "sim/canonical/point_response.h"
 #include "sim/core/numbers/constants.h"
-#include "sim/scattering/solver/point_response.h"
 #include "tests/measured.h"
 
 namespace seaglint {

@@ -9,9 +9,9 @@
 
 #include "radar/echo/echo.h"
 #include "radar/rvmap/map_weights.h"
+#include "sim/canonical/point_response.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/random.h"
-#include "sim/scattering/solver/point_response.h"
 #include "tests/measured.h"
 
 namespace seaglint {

@@ -14,9 +14,9 @@
 #include "radar/echo/echo.h"
 #include "radar/echo/sea_clutter.h"
 #include "radar/rvmap/rv_map.h"
+#include "sim/canonical/point_response.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
-#include "sim/scattering/solver/point_response.h"
 #include "tests/measured.h"
 
 namespace seaglint {

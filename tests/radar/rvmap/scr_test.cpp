@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "sim/scattering/solver/point_response.h"
+#include "sim/canonical/point_response.h"
 
 namespace seaglint {
 namespace {

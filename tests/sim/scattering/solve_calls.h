@@ -3,6 +3,7 @@
 
 // Short forms of solve() for the requests of tests and benchmarks.
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -78,6 +79,18 @@ inline ViewResult points_of(const Scatterer& scatterer, const BistaticGeometry& 
 // A contribution as it is traced, about the scatterer's centre.
 inline ScatteringMatrix scattered(const Contribution& contribution, const BistaticGeometry& antennas, double k) {
   return scattered(contribution, {.antennas = antennas, .sense = PathSense::kOneWay}, k);
+}
+
+// Illumination for one receiver.
+inline Illumination illumination(const Scatterer& scatterer, const BistaticGeometry& antennas,
+                                 const TracingSettings& settings, std::span<const double> wavenumbers = {}) {
+  const auto along = [&](const RadarBasis& direction) {
+    return std::make_shared<const Aspect>(scatterer, direction, settings, 1);
+  };
+  return {scatterer,
+          {along(antennas.transmit), {antennas.monostatic ? nullptr : along(antennas.receive)}},
+          settings,
+          wavenumbers};
 }
 
 inline void ignore_contributions(std::size_t, std::size_t, std::span<const Contribution>) {}

@@ -14,6 +14,7 @@
 #include "sim/scattering/points/decomposition.h"
 #include "sim/scattering/points/phase_integral.h"
 #include "sim/scattering/solver/aspect_trace.h"
+#include "tests/sim/scattering/solve_calls.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
 namespace seaglint {
@@ -25,7 +26,7 @@ constexpr Complex j(0, 1);
 
 std::vector<Contribution> boundary_terms(const Scatterer& scatterer, const Vec3& r) {
   std::vector<Contribution> all;
-  Illumination(scatterer, monostatic(radar_basis(r)), {0, 8, true})
+  illumination(scatterer, monostatic(radar_basis(r)), {0, 8, true})
       .trace(1, [&](std::size_t, std::size_t, std::span<const Contribution> contributions) {
         std::ranges::copy_if(contributions, std::back_inserter(all), &Contribution::interval);
       });

@@ -5,9 +5,9 @@
 
 #include "sim/core/numbers/rotation.h"
 #include "sim/core/process/error.h"
+#include "sim/geometry/placement/target_mesh.h"
 #include "sim/geometry/shapes/generators.h"
 #include "sim/scattering/coefficients/material.h"
-#include "sim/scattering/scatterer/prepare_target.h"
 #include "sim/scenario/material_file.h"
 #include "tests/measured.h"
 #include "tests/sim/scattering/solve_calls.h"
@@ -225,47 +225,6 @@ TEST(CoatedTarget, RoughPlateLosesItsCoherentEcho) {
   const auto s = echo(coated(make_plate(0.3, 0.2), rough), radar_basis(direction(30, 0)), k16);
   const double loss = std::exp(-2 * std::pow(k16 * 1e-3 * std::cos(radians(30)), 2));
   EXPECT_LT(std::abs(s[kVvChannel] - loss * smooth[kVvChannel]), kRounding);
-}
-
-TEST(MaterialParts, AreAssignedByPartNames) {
-  TriangleMesh mesh = make_plate(1, 1);
-  mesh.append(make_sphere(1, 1));
-  ASSERT_EQ(mesh.part_names.size(), 2u);
-  MaterialSpec a = impedance(1, 0), b = impedance(2, 0);
-  a.name = "a";
-  b.name = "b";
-  const std::vector<PartMaterial> parts{{"*", a}, {mesh.part_names[1], b}};
-  const auto materials = assign_materials(mesh, MaterialSpec{}, parts);
-  ASSERT_EQ(materials.size(), 3u);
-  EXPECT_EQ(materials[mesh.triangle_material.front()].name, "a");
-  EXPECT_EQ(materials[mesh.triangle_material.back()].name, "b");
-  const std::vector<PartMaterial> wrong{{"mast", a}};
-  EXPECT_THROW(assign_materials(mesh, MaterialSpec{}, wrong), InputError);
-  EXPECT_THROW(check_frequencies(std::vector{library("grp_sheet")}, 16e9, 35e9), InputError);
-  EXPECT_NO_THROW(check_frequencies(std::vector{library("grp_sheet")}, 16e9, 16.2e9));
-}
-
-// Parts come first; the name of the faces without a material is none.
-TEST(MaterialParts, AreAssignedByTheMaterialsOfTheFileWhereNoPartHasTheName) {
-  TriangleMesh file = make_plate(1, 1);
-  file.append(make_sphere(1, 1));
-  file.materials = {Material{}, Material{"glass"}};
-  for (std::size_t t = 0; t < file.triangles.size(); ++t) file.triangle_material[t] = t % 2;
-  MaterialSpec a = impedance(1, 0), b = impedance(2, 0);
-  a.name = "a";
-  b.name = "b";
-  const auto assigned = [&](const std::vector<PartMaterial>& choices) {
-    TriangleMesh mesh = file;
-    const auto materials = assign_materials(mesh, MaterialSpec{}, choices);
-    std::string names;
-    for (const std::size_t t : {0, 1, 2, 3}) names += materials[mesh.triangle_material[t]].name + ' ';
-    return names;
-  };
-  // The plate has triangles 0 and 1.
-  EXPECT_EQ(assigned({{"glass", a}}), "pec a pec a ");
-  EXPECT_EQ(assigned({{file.part_names[0], b}, {"gl*", a}}), "b a pec a ");
-  EXPECT_EQ(assigned({{"gl*", a}, {file.part_names[0], b}}), "b b pec a ");
-  EXPECT_THROW(assigned({{"pec", a}}), InputError);
 }
 
 }  // namespace

@@ -10,10 +10,10 @@
 
 #include "sim/core/numbers/rotation.h"
 #include "sim/geometry/shapes/generators.h"
+#include "sim/geometry/surface/smooth_surface.h"
 #include "sim/scattering/points/decomposition.h"
 #include "sim/scattering/points/phase_integral.h"
 #include "sim/scattering/radiation/surface_radiation.h"
-#include "sim/scattering/scatterer/smooth_surface.h"
 #include "tests/measured.h"
 #include "tests/sim/scattering/solve_calls.h"
 #include "tests/sim/scattering/solver_fixtures.h"

@@ -163,7 +163,7 @@ DoubleDiffractionSum double_diffraction_sum(const TriangleMesh& mesh, const Bist
   const auto reached = [&](const RadarBasis& basis, const auto& selected) {
     std::vector<EdgeIllumination> kept;
     const Illumination::Summary all =
-        Illumination(scatterer, monostatic(basis), {0, 1, true}).trace(1, ignore_contributions);
+        illumination(scatterer, monostatic(basis), {0, 1, true}).trace(1, ignore_contributions);
     for (const EdgeIllumination* illumination : all.edge_illuminations.all()) {
       const double height =
           std::max(std::abs(edge(*illumination).a.z() + c.z()), std::abs(edge(*illumination).b.z() + c.z()));
@@ -307,7 +307,7 @@ TEST(MultipleDiffraction, DropsOnlyWeakPaths) {
   for (const auto& [azimuth, elevation] : {std::pair{45.0, 35.0}, {20.0, 3.0}, {70.0, 60.0}, {1.0, 1.0}}) {
     const BistaticGeometry geometry = monostatic(radar_basis(direction(azimuth, elevation)));
     const auto illuminations =
-        Illumination(corner, geometry, {0, 4, true}).trace(1, ignore_contributions).edge_illuminations;
+        illumination(corner, geometry, {0, 4, true}).trace(1, ignore_contributions).edge_illuminations;
     const auto significant = [&](double limit, std::size_t& count) {
       std::vector<Contribution> contributions;
       trace_multiple_diffraction({corner, geometry, {}, illuminations, {0, 0, limit, k}}, illuminations.all(),
@@ -334,7 +334,7 @@ TEST(MultipleDiffraction, OfShortRunsIsNegligibleOnTheShip) {
   const MultipleDiffractionLimits own = multiple_diffraction_limits(ship, settings, k);
   for (const double azimuth : {10.0, 90.0, 130.0}) {
     const BistaticGeometry geometry = monostatic(radar_basis(direction(azimuth, 2)));
-    const auto illuminations = Illumination(ship, geometry, settings).trace(2, ignore_contributions).edge_illuminations;
+    const auto illuminations = illumination(ship, geometry, settings).trace(2, ignore_contributions).edge_illuminations;
     const auto waves = [&](const MultipleDiffractionLimits& limits) {
       std::vector<Contribution> contributions;
       trace_multiple_diffraction({ship, geometry, {}, illuminations, limits}, illuminations.all(), contributions);
@@ -368,7 +368,7 @@ TEST(MultipleDiffraction, DoNotDependOnTriangulation) {
     const BistaticGeometry geometry = monostatic(basis);
     const auto of_edges = [&](const Scatterer& plate, bool once) {
       const auto illuminations =
-          Illumination(plate, monostatic(basis), {0, 1, true}).trace(1, ignore_contributions).edge_illuminations;
+          illumination(plate, monostatic(basis), {0, 1, true}).trace(1, ignore_contributions).edge_illuminations;
       std::vector<Contribution> contributions;
       trace_multiple_diffraction({plate, geometry, {}, illuminations, {}}, illuminations.all(), contributions);
       std::array<Complex, 4> sum{};

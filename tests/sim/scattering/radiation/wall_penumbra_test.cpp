@@ -14,6 +14,7 @@
 #include "sim/scattering/radiation/edge_diffraction.h"
 #include "sim/scattering/radiation/multiple_diffraction.h"
 #include "sim/scattering/solver/aspect_trace.h"
+#include "tests/sim/scattering/solve_calls.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
 namespace seaglint {
@@ -169,7 +170,7 @@ TEST(WallPenumbra, BelongsToTheWallAndItsFloor) {
   const Scatterer scatterer(corner);
   const BistaticGeometry geometry = monostatic(radar_basis(direction(30, 2)));
   const auto illuminations =
-      Illumination(scatterer, geometry, {0, 4, true}).trace(1, ignore_contributions).edge_illuminations;
+      illumination(scatterer, geometry, {0, 4, true}).trace(1, ignore_contributions).edge_illuminations;
   std::vector<Contribution> contributions;
   trace_multiple_diffraction({scatterer, geometry, {}, illuminations, {}}, illuminations.all(), contributions);
   int walls = 0;

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "sim/geometry/mesh/mesh_diagnostics.h"
+#include "sim/geometry/placement/target_mesh.h"
 #include "sim/geometry/shapes/generators.h"
-#include "sim/scattering/scatterer/prepare_target.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
 namespace seaglint {

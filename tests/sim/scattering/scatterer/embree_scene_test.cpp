@@ -11,7 +11,7 @@
 
 #include "sim/core/numbers/random.h"
 #include "sim/geometry/shapes/generators.h"
-#include "sim/scattering/scatterer/facets.h"
+#include "sim/geometry/surface/facets.h"
 
 namespace seaglint {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Smooth surfaces with as many facets as their curvature requires.
-#include "sim/scattering/scatterer/merged_facets.h"
+#include "sim/geometry/surface/merged_facets.h"
 #include "sim/core/numbers/rotation.h"
 
 #include <gtest/gtest.h>

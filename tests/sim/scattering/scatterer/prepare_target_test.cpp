@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/scattering/scatterer/prepare_target.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "sim/core/process/error.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/shapes/generators.h"
 
@@ -16,7 +14,6 @@ namespace seaglint {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::HasSubstr;
 
 class PreparedCylinder : public testing::Test {
  protected:
@@ -37,7 +34,7 @@ class PreparedCylinder : public testing::Test {
 };
 
 TEST_F(PreparedCylinder, IsRepairedWithAWarning) {
-  const PreparedTarget target = prepare_target(load_solver_mesh(source_), {});
+  const PreparedTarget target = prepare_target(load_target_mesh(source_), {});
   EXPECT_EQ(target.mesh.triangles.size(), make_cylinder(0.5, 2, 16).triangles.size());
   EXPECT_FALSE(target.warnings.empty());
   ASSERT_EQ(target.materials.size(), 1u);
@@ -50,7 +47,7 @@ TEST_F(PreparedCylinder, HasMaterialsAndAWaterline) {
   ScattererSettings settings;
   settings.waterline_m = 0.25;
   settings.sea_reflects = true;
-  const PreparedTarget target = prepare_target(load_solver_mesh(source_), settings);
+  const PreparedTarget target = prepare_target(load_target_mesh(source_), settings);
   ASSERT_EQ(target.materials.size(), 2u);
   EXPECT_NE(target.materials[0].kind, SurfaceKind::kPec);
   EXPECT_EQ(target.materials[1].kind, SurfaceKind::kSubmerged);
@@ -64,20 +61,9 @@ TEST_F(PreparedCylinder, HasMaterialsAndAWaterline) {
 TEST_F(PreparedCylinder, EndsAtTheWaterlineWithoutSeaReflection) {
   ScattererSettings settings;
   settings.waterline_m = 0.25;
-  const PreparedTarget target = prepare_target(load_solver_mesh(source_), settings);
+  const PreparedTarget target = prepare_target(load_target_mesh(source_), settings);
   ASSERT_EQ(target.materials.size(), 1u);
   EXPECT_NEAR(bounds(target.mesh).lower.z(), 0.25, 1e-9);
-}
-
-TEST_F(PreparedCylinder, NamesThePlaceOfAnError) {
-  source_.materials_place = "targets.buoy";
-  source_.materials = {{"mast", "pec", ""}};
-  try {
-    load_solver_mesh(source_);
-    ADD_FAILURE() << "no error";
-  } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("targets.buoy: part 'mast'"));
-  }
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which facets are samples of a smooth surface, decided by their shape.
 #include "sim/core/numbers/rotation.h"
-#include "sim/scattering/scatterer/smooth_surface.h"
+#include "sim/geometry/surface/smooth_surface.h"
 
 #include <gtest/gtest.h>
 

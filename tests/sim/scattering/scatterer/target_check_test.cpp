@@ -15,28 +15,6 @@ using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-TEST(TargetCheck, IsSilentForAReflectorAt16GHz) {
-  EXPECT_THAT(check_target(make_icosahedral_reflector(), 16e9), ElementsAre());
-}
-
-TEST(TargetCheck, WarnsOfTargetsTooSmallTooLargeAndTooFar) {
-  EXPECT_THAT(check_target(make_sphere(0.0005, 2), 10e9), ElementsAre(HasSubstr("0.0578 wavelengths at 10 GHz")));
-  EXPECT_THAT(check_target(make_plate(100e3, 10), 10e9), ElementsAre(HasSubstr("1e+05 m across; is its unit right?")));
-  EXPECT_THAT(check_target(transformed(make_sphere(1, 2), Mat3::Identity(), Vec3(50, 0, 0)), 10e9),
-              ElementsAre(HasSubstr("from the origin")));
-  EXPECT_THROW(check_target(transformed(make_sphere(1, 2), Mat3::Identity(), Vec3(5e3, 0, 0)), 10e9), InputError);
-}
-
-TEST(TargetCheck, ReportsTheCostOfMillionsOfTriangles) {
-  TriangleMesh mesh = make_plate(1, 1);
-  mesh.triangles.resize(1'000'000, mesh.triangles[0]);
-  EXPECT_THAT(check_target(mesh, 10e9), ElementsAre());
-  mesh.triangles.resize(1'500'000, mesh.triangles[0]);
-  EXPECT_THAT(check_target(mesh, 10e9),
-              ElementsAre(AllOf(HasSubstr("1.5 million triangles: expect 1 to 3 GB of memory"),
-                                HasSubstr("about 12 s before the first view and 1 to 33 s for every view"))));
-}
-
 // A bar of 1 m with sides of 9 mm: a wavelength is 10 mm at 30 GHz, 30 mm at 10 GHz.
 TEST(TargetCheck, WarnsOfBarsThinnerThanAThirdOfAWavelength) {
   TriangleMesh mesh;

@@ -73,12 +73,12 @@ double error_against_independent_traces(const Scatterer& scatterer, const Trajec
 TEST(Contributions, SumToTheClosedFormAtTheTracedAspect) {
   const Scatterer reflector(make_icosahedral_reflector());
   const RadarBasis basis = radar_basis(direction(67, 2));
-  const Illumination illumination(reflector, monostatic(basis), {1.4e-3, 8});
+  const Illumination traced = illumination(reflector, monostatic(basis), {1.4e-3, 8});
   const double kc = wavenumber(16.1e9);
   for (const double aspect_change : {0.0, 1e-3, 1e-2}) {
     std::vector<Point> points;
     std::array<Complex, 4> exact{};
-    illumination.trace(1, [&](std::size_t, std::size_t, std::span<const Contribution> contributions) {
+    traced.trace(1, [&](std::size_t, std::size_t, std::span<const Contribution> contributions) {
       for (const Contribution& contribution : contributions) {
         decompose(contribution, {monostatic(basis)}, {FrequencyBand(kc), 0, aspect_change}, points);
         const auto s = scattered(contribution, {monostatic(basis)}, kc);

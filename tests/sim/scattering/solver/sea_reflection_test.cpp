@@ -5,12 +5,11 @@
 
 #include "sim/core/numbers/random.h"
 #include "sim/geometry/files/mesh_io.h"
+#include "sim/geometry/placement/target_mesh.h"
 #include "sim/geometry/shapes/generators.h"
 #include "sim/scattering/coefficients/material.h"
 #include "sim/scattering/observation/observation.h"
 #include "sim/scattering/observation/sea_reflection.h"
-#include "sim/scattering/scatterer/prepare_target.h"
-#include "sim/scattering/solver/point_response.h"
 #include "tests/measured.h"
 #include "tests/sim/scattering/solve_calls.h"
 #include "tests/sim/scattering/solver_fixtures.h"
@@ -230,29 +229,6 @@ TEST(SeaReflection, MatrixIsTheSumOfItsDirectAndMultipathParts) {
              m = over_sea(reflector, r, 0.75, SeaReflection(multipath, 0.3), k16);
   EXPECT_EQ(d, echo(reflector, radar_basis(r), k16));
   for (int i = 0; i < 4; ++i) EXPECT_LT(std::abs(a[i] - d[i] - m[i]), 1e-12);
-}
-
-TEST(SeaReflection, APointsResponseIsTheProductOfItsTwoPaths) {
-  PointSpec point;
-  point.position_m = {3, -2, 4.5};
-  point.amplitude_m = 2;
-  IntervalSampling sampling;
-  sampling.first_hz = 16e9;
-  sampling.step_hz = 1e6;
-  sampling.count = sampling.frequencies_per_pulse = 8;
-  sampling.pulse_first = {0};
-  sampling.pulse_time_s = {0};
-  const Vec3 r = direction(20, 3), x(3, -2, 4.5);
-  const SeaReflection sea(SeaReflectionSpec{}, 0.5);
-  const FrequencyResponse response = point_response_over_sea(std::array{point}, r, sampling, Polarisation::kHv, sea);
-  for (int b = 0; b < 8; ++b) {
-    const double k = wavenumber(16e9 + 1e6 * b);
-    const SeaReflectionCoefficients rho = sea.at(k, r.z());
-    const auto path = [&](const Complex& c) {
-      return std::polar(1.0, k * r.dot(x)) + c * std::polar(1.0, k * image_direction(r).dot(x));
-    };
-    EXPECT_LT(std::abs(response.at(0, b) - 2.0 * path(rho.h) * path(rho.v)), 1e-9) << b;
-  }
 }
 
 // The paper's interval: 8 carriers by 25 MHz, 40 frequencies each, 256 pulses by 250 us.

@@ -16,6 +16,7 @@
 #include "sim/scattering/points/phase_integral.h"
 #include "sim/scattering/radiation/surface_radiation.h"
 #include "sim/scattering/solver/aspect_trace.h"
+#include "tests/sim/scattering/solve_calls.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 #include "tests/sim/scattering/validation/random_body.h"
 
@@ -116,7 +117,7 @@ Excess largest_excess(const Scatterer& scatterer, double frequency_hz, std::span
   Excess excess;
   for (const Vec3& r_hat : views) {
     const BistaticGeometry pair = monostatic(radar_basis(r_hat));
-    Illumination(scatterer, pair, settings, 1, k)
+    illumination(scatterer, pair, settings, k)
         .trace(1, [&](std::size_t, std::size_t, std::span<const Contribution> contributions) {
           for (const Contribution& contribution : contributions) {
             const auto& curvature = contribution.footprint()->curvature;

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "sim/geometry/files/mesh_io.h"
-#include "sim/scattering/scatterer/prepare_target.h"
+#include "sim/geometry/placement/target_mesh.h"
 #include "sim/scenario/material_file.h"
 #include "tests/sim/scattering/solve_calls.h"
 #include "tests/sim/scattering/solver_fixtures.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/scattering/scatterer/merged_facets.h"
+#include "sim/geometry/surface/merged_facets.h"
 
 #include <fmt/format.h>
 
@@ -10,9 +10,7 @@
 #include <span>
 #include <utility>
 
-#include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
-#include "sim/scattering/scatterer/smooth_surface.h"
 
 namespace seaglint {
 namespace {
@@ -295,10 +293,6 @@ MergedFacets merge_smooth_facets(std::vector<Facet> facets, SmoothSides smooth, 
     if (merger.run()) return merger.result();
   }
   return {std::move(facets), std::move(smooth)};
-}
-
-double merging_tolerance(double highest_hz) {
-  return std::exp2(std::floor(std::log2(kSpeedOfLight / highest_hz / 2000)));
 }
 
 }  // namespace seaglint

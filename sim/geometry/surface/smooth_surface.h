@@ -9,11 +9,9 @@
 #include <span>
 #include <vector>
 
-#include "sim/scattering/scatterer/facets.h"
+#include "sim/geometry/surface/facets.h"
 
 namespace seaglint {
-
-// Sides of facets across which the target is one smooth surface.
 
 // Facet that continues a facet smoothly across each of its sides; -1 where the side is a knuckle, an edge or free.
 using SmoothSides = std::vector<std::array<std::int32_t, 3>>;
@@ -35,9 +33,6 @@ SmoothSides smooth_sides_by_normals(std::span<const Facet> facets);
 // not the shading of a box.
 inline constexpr double kMaxNormalDeviation = 0.53;  // rad: 30 deg, a cylinder of six sides, and the digits of normals
 bool normals_describe_surface(const TriangleMesh& mesh);
-
-// Smooth surface approximated by a mesh: vertex normals between creases, height of the surface above its facets, and
-// curvature.
 
 // Default crease angle. On fairings and hulls adjacent facets turn by less than 15 deg, on the sides of modelled pipes
 // and masts (16 sides and fewer), knuckles and box edges by 22 deg and more.
@@ -84,9 +79,8 @@ class SmoothSurface {
   std::span<const Facet> facets_;
 };
 
-// Vertices of the smooth surfaces that a mesh approximates, and the surface normals there.
-
-// A vertex belongs to one smooth fan of facets; one on a sharp edge occurs once for each side.
+// Vertices of the smooth surfaces that a mesh samples. A vertex belongs to one smooth fan of facets; one on a sharp
+// edge occurs once for each side.
 struct SmoothVertices {
   std::vector<std::array<std::int32_t, 3>> of_facet;  // vertices at the corners
   std::vector<Vec3> normal;                           // unit

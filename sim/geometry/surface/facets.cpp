@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/scattering/scatterer/facets.h"
+#include "sim/geometry/surface/facets.h"
 
 #include <algorithm>
 

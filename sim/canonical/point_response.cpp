@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/scattering/solver/point_response.h"
+#include "sim/canonical/point_response.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/scattering/scatterer/smooth_surface.h"
+#include "sim/geometry/surface/smooth_surface.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "sim/scattering/scatterer/smooth_surface.h"
+#include "sim/geometry/surface/smooth_surface.h"
 
 namespace seaglint {
 
@@ -26,11 +26,5 @@ inline constexpr double kMaxFacetTilt = 0.0262;  // rad, 1.5 deg
 // facets carry the normals of the fine mesh at their corners. Half-edge collapse with its link condition (H. Hoppe et
 // al., Proc. SIGGRAPH 1993, 19-26).
 MergedFacets merge_smooth_facets(std::vector<Facet> facets, SmoothSides smooth, double tolerance);
-
-// Tolerance for frequencies up to `highest_hz`, m: a 2000th to a 4000th of the wavelength, a two-way phase of 0.4 deg
-// at most. With four times that a rounded cylinder, whose heights err alike along its length, changes its broadside
-// echo by -34 dB in place of -58 and has 2 % fewer facets. A power of two, so that neighbouring bands have the same
-// facets.
-double merging_tolerance(double highest_hz);
 
 }  // namespace seaglint

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/geometry/placement/target_mesh.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "sim/core/numbers/constants.h"
+#include "sim/core/process/error.h"
+#include "sim/core/text/suggestion.h"
+#include "sim/geometry/mesh/mesh_diagnostics.h"
+#include "sim/geometry/placement/waterline.h"
+#include "sim/scenario/material_file.h"
+
+namespace seaglint {
+
+std::vector<MaterialSpec> assign_materials(TriangleMesh& mesh, const MaterialSpec& all,
+                                           std::span<const PartMaterial> parts) {
+  std::vector<MaterialSpec> materials{all};
+  // Number of the last entry that applies.
+  std::vector<std::uint16_t> of_part(mesh.part_names.size(), 0), of_file_material(mesh.materials.size(), 0);
+  for (const PartMaterial& entry : parts) {
+    const bool prefix = entry.part.ends_with('*');
+    const std::string name = prefix ? entry.part.substr(0, entry.part.size() - 1) : entry.part;
+    const auto number = static_cast<std::uint16_t>(materials.size());
+    const auto applies = [&](const std::string& other, std::uint16_t& last) {
+      const bool matches = prefix ? other.starts_with(name) : other == name;
+      if (matches) last = number;
+      return matches;
+    };
+    bool found = false, found_material = false;
+    for (std::size_t part = 0; part < of_part.size(); ++part)
+      found = applies(mesh.part_names[part], of_part[part]) || found;
+    // Faces without a material of their own have the default's name.
+    for (std::size_t m = 0; !found && m < of_file_material.size(); ++m) {
+      if (mesh.materials[m].name != Material{}.name)
+        found_material = applies(mesh.materials[m].name, of_file_material[m]) || found_material;
+    }
+    if (!found && !found_material) {
+      throw InputError(
+          fmt::format("part '{}': the mesh has no such part: {}", entry.part, suggestion(entry.part, mesh.part_names)));
+    }
+    materials.push_back(entry.material);
+  }
+  mesh.materials.clear();
+  for (const MaterialSpec& material : materials) mesh.materials.push_back({material.name});
+  mesh.triangle_material.resize(mesh.triangles.size(), 0);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    std::uint16_t& material = mesh.triangle_material[t];
+    material = material < of_file_material.size() ? of_file_material[material] : std::uint16_t{0};
+    if (t < mesh.triangle_part.size()) material = std::max(material, of_part[mesh.triangle_part[t]]);
+  }
+  return materials;
+}
+
+void cut_at_sea_level(TriangleMesh& mesh, std::vector<MaterialSpec>& materials, double height) {
+  WaterlineCut cut = cut_at_waterline(mesh, height);
+  mesh = std::move(cut.mesh);
+  MaterialSpec water;
+  water.name = "under_water";
+  water.kind = SurfaceKind::kSubmerged;
+  mesh.triangle_material.resize(mesh.triangles.size(), 0);
+  for (std::size_t t = 0; t < cut.submerged.size(); ++t) {
+    if (cut.submerged[t]) mesh.triangle_material[t] = static_cast<std::uint16_t>(materials.size());
+  }
+  mesh.materials.push_back({water.name});
+  materials.push_back(water);
+}
+
+void check_frequencies(std::span<const MaterialSpec> materials, double lowest_hz, double highest_hz) {
+  for (const MaterialSpec& material : materials) {
+    if (lowest_hz < 1e9 * material.lowest_ghz || highest_hz > 1e9 * material.highest_ghz) {
+      throw InputError(fmt::format("material {}: its source covers {} to {} GHz, asked for {:.6g} to {:.6g} GHz",
+                                   material.name, material.lowest_ghz, material.highest_ghz, 1e-9 * lowest_hz,
+                                   1e-9 * highest_hz));
+    }
+  }
+}
+
+namespace {
+
+// Smallest size in wavelengths: physical optics of a plate this wide has an error of 1 dB at normal incidence.
+constexpr double kMinWavelengths = 3;
+constexpr double kLongestTarget_m = 5e3;  // ten times the longest ships
+// Half-sizes from the origin, warning and error: the echo is exact there too, but such a centre of rotation is hardly
+// meant.
+constexpr double kFarOrigin = 10, kTooFarOrigin = 300;
+constexpr std::size_t kManyTriangles = 1'000'000;
+// Memory and time per million triangles on two cores: of a sphere, whose facets are merged, and of one with noise of
+// half a side, whose edges are all sharp.
+constexpr double kGigabytesOfSmooth = 0.4, kGigabytesOfSharp = 2;
+constexpr double kSecondsToBuild = 8, kSecondsOfSmooth = 0.1, kSecondsOfSharp = 22;
+
+}  // namespace
+
+std::vector<std::string> check_target(const TriangleMesh& mesh, double lowest_hz) {
+  std::vector<std::string> found;
+  const Bounds box = bounds(mesh);
+  const Vec3 size = box.upper - box.lower, centre = (box.upper + box.lower) / 2;
+  const double longest = size.norm(), wavelength = kSpeedOfLight / lowest_hz;
+  if (longest > kLongestTarget_m)
+    found.push_back(fmt::format("the target is {:.4g} m across; is its unit right?", longest));
+  if (longest < kMinWavelengths * wavelength) {
+    found.push_back(fmt::format(
+        "the target is {:.3g} m across, {:.3g} wavelengths at {:g} GHz; physical optics needs {:g} and more{}", longest,
+        longest / wavelength, lowest_hz * 1e-9, kMinWavelengths, longest < 0.01 ? "; is its unit right?" : ""));
+  }
+
+  const double distance = centre.norm() / std::max(longest / 2, 1e-300);
+  if (distance > kTooFarOrigin) {
+    throw InputError(
+        fmt::format("the target of {:.4g} m is centred {:.4g} m from the origin, its centre of rotation and phase "
+                    "centre: translate the mesh (offset_m, --offset-m)",
+                    longest, centre.norm()));
+  }
+  if (distance > kFarOrigin)
+    found.push_back(
+        fmt::format("the target of {:.4g} m is centred {:.4g} m from the origin, its centre of rotation and phase "
+                    "centre",
+                    longest, centre.norm()));
+
+  if (mesh.triangles.size() > kManyTriangles) {
+    const double millions = 1e-6 * static_cast<double>(mesh.triangles.size());
+    const auto of_all = [&](double per_million) { return std::ceil(per_million * millions); };
+    found.push_back(fmt::format(
+        "{:.1f} million triangles: expect {:.0f} to {:.0f} GB of memory, the more the more of its edges are "
+        "sharp, about {:.0f} s before the first view and {:.0f} to {:.0f} s for every view",
+        millions, of_all(kGigabytesOfSmooth), of_all(kGigabytesOfSharp), of_all(kSecondsToBuild),
+        of_all(kSecondsOfSmooth), of_all(kSecondsOfSharp)));
+  }
+  return found;
+}
+
+namespace {
+
+// Result of `work`; prefixes its error messages with the place.
+template <class Work>
+auto at_place(const std::string& place, const Work& work) {
+  try {
+    return work();
+  } catch (const InputError& error) {
+    if (place.empty()) throw;
+    std::vector<std::string> messages = messages_of(error);
+    for (std::string& message : messages) message = fmt::format("{}: {}", place, message);
+    throw_input_errors(std::move(messages));
+  }
+}
+
+std::vector<MaterialSpec> choose_materials(const TargetSource& source, TriangleMesh& mesh) {
+  MaterialSpec all;
+  std::vector<PartMaterial> parts;
+  for (const MaterialChoice& choice : source.materials) {
+    const MaterialSpec material = find_material(choice.material, source.material_folder, choice.place);
+    if (choice.part) {
+      parts.push_back({*choice.part, material});
+    } else {
+      all = material;
+    }
+  }
+  std::vector<MaterialSpec> materials =
+      at_place(source.materials_place, [&] { return assign_materials(mesh, all, parts); });
+  at_place(source.frequencies_place, [&] { check_frequencies(materials, source.lowest_hz, source.highest_hz); });
+  return materials;
+}
+
+}  // namespace
+
+TargetMesh load_target_mesh(const TargetSource& source) {
+  TargetMesh target{
+      source.loaded ? placed(*source.loaded, source.placement) : read_placed_mesh(source.mesh, source.placement),
+      {},
+      {}};
+  target.materials = choose_materials(source, target.mesh);
+  at_place(source.mesh_place, [&] {
+    RepairedMesh repaired = diagnose_and_repair(target.mesh);
+    target.warnings = diagnostic_messages(repaired.health);
+    target.mesh = std::move(repaired.mesh);
+    if (target.mesh.triangles.empty()) throw InputError("no triangle has an area: nothing scatters");
+    const std::vector<std::string> more = check_target(target.mesh, source.lowest_hz);
+    target.warnings.insert(target.warnings.end(), more.begin(), more.end());
+  });
+  return target;
+}
+
+}  // namespace seaglint

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// Mesh of a target from its file: placed, with the materials of its parts, repaired and checked.
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "sim/geometry/mesh/triangle_mesh.h"
+#include "sim/geometry/placement/mesh_placement.h"
+#include "sim/scenario/material_spec.h"
+#include "sim/scenario/target_spec.h"
+
+namespace seaglint {
+
+// Material of the whole target (no part), of one part, or with a trailing * of every part whose name has that prefix.
+// The last choice that matches a part applies.
+struct MaterialChoice {
+  std::optional<std::string> part;
+  std::string material = "pec";  // name in assets/materials, or a file
+  std::string place;             // source of the choice, prefix of error messages
+};
+
+// Mesh file, or a mesh, with the materials of its surfaces.
+struct TargetSource {
+  std::filesystem::path mesh;
+  MeshPlacement placement;
+  std::shared_ptr<const TriangleMesh> loaded;  // in metres, in place of the file and its unit; may be null
+  std::vector<MaterialChoice> materials;       // empty: perfect conductor
+  std::filesystem::path material_folder;       // folder searched first for material files
+  double lowest_hz = 1e9, highest_hz = 1e9;
+  // Prefixes of error messages about materials, their frequencies and the mesh; empty: none.
+  std::string materials_place, frequencies_place, mesh_place;
+};
+
+// Mesh in the form the solver requires, with its materials.
+struct TargetMesh {
+  TriangleMesh mesh;
+  std::vector<MaterialSpec> materials;  // in the order of mesh.materials
+  std::vector<std::string> warnings;    // one sentence per defect or possible mistake of the mesh
+};
+
+// Reads the mesh, assigns its materials and repairs it. Throws InputError for a mesh that is missing, invalid or
+// entirely degenerate, for what check_target() refuses, and for a material that is missing, invalid or not defined at
+// the frequencies.
+TargetMesh load_target_mesh(const TargetSource& source);
+
+struct PartMaterial {
+  std::string part;  // name of a part, else of a material of the mesh's file; with a trailing *, all with that prefix
+  MaterialSpec material;
+};
+
+// Assigns a material to every triangle: `all`, or the last entry of `parts` that matches it. Overwrites
+// mesh.materials and triangle_material and returns the specifications in the order of mesh.materials. Throws InputError
+// for a name that neither parts nor materials of the mesh have.
+std::vector<MaterialSpec> assign_materials(TriangleMesh& mesh, const MaterialSpec& all,
+                                           std::span<const PartMaterial> parts);
+
+// Cuts the mesh at z = height, m. Triangles below become a submerged material, appended to mesh.materials and
+// `materials`: they occlude but neither reflect nor radiate.
+void cut_at_sea_level(TriangleMesh& mesh, std::vector<MaterialSpec>& materials, double height);
+
+// Throws InputError when a material's source does not cover lowest_hz to highest_hz.
+void check_frequencies(std::span<const MaterialSpec> materials, double lowest_hz, double highest_hz);
+
+// One sentence per warning; empty for most targets. lowest_hz: lowest frequency of the sweep. Throws InputError when
+// the target is more than 300 half-sizes from its origin, so that its details are smaller than the smallest patch kept.
+std::vector<std::string> check_target(const TriangleMesh& mesh, double lowest_hz);
+
+}  // namespace seaglint
