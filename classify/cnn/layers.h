@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The layers of a Network and their gradients in libtorch, which takes 0.4 s and 560 MB of address space to load: it is
-// loaded when the first layers are made. C++17, as the library's source (torch_layers.h).
+// The layers of a Network and their gradients in libtorch: the shared library seaglint_layers, the only part of the
+// program with libtorch. It takes 0.4 s and 560 MB of address space to load and is loaded when the first layers are
+// made (network.h). C++17: as C++20 clang instantiates a vector of an incomplete type in libtorch 1.13.
 
 #include <cstddef>
 #include <memory>
@@ -47,10 +48,7 @@ class Layers {
                      std::vector<float>& logits) = 0;
 };
 
-// Loads libtorch, which stays loaded. Throws WorkError where it cannot be loaded.
-void load_layers_library();
-
-// The weights are the library's until parameters() are set. Throws WorkError where libtorch cannot be loaded.
-std::unique_ptr<Layers> make_layers(const LayerSizes& sizes);
-
 }  // namespace seaglint
+
+// The library's layers of these sizes, owned by the caller. Throws WorkError, std::bad_alloc.
+extern "C" seaglint::Layers* seaglint_torch_layers(const seaglint::LayerSizes& sizes);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "classify/cnn/network.h"
 
+#include <dlfcn.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,8 +12,8 @@
 #include <memory>
 #include <string>
 
-#include "classify/cnn/augmentation.h"
 #include "classify/cnn/layers.h"
+#include "classify/cnn/network_input.h"
 #include "sim/core/numbers/random.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
@@ -20,6 +21,25 @@
 namespace seaglint {
 
 namespace {
+
+using Maker = Layers* (*)(const LayerSizes&);  // seaglint_torch_layers
+
+// From the folder of the program or PREFIX/lib/seaglint (the run path of what links this).
+Maker load() {
+  void* library = dlopen("libseaglint_layers.so", RTLD_NOW | RTLD_LOCAL);
+  if (library == nullptr) throw WorkError(std::string("network: cannot load libtorch: ") + dlerror());
+  void* maker = dlsym(library, "seaglint_torch_layers");
+  if (maker == nullptr) throw WorkError(std::string("network: ") + dlerror());
+  return reinterpret_cast<Maker>(maker);
+}
+
+Maker maker() {
+  static const Maker loaded = load();
+  return loaded;
+}
+
+// The weights are the library's until parameters() are set.
+std::unique_ptr<Layers> make_layers(const LayerSizes& sizes) { return std::unique_ptr<Layers>(maker()(sizes)); }
 
 constexpr std::uint32_t kFormat = 0x53474e34;  // "SGN4"
 constexpr std::uint32_t kMostClasses = 10;
@@ -127,6 +147,8 @@ class BatchTraining {
 };
 
 }  // namespace
+
+void load_layers_library() { maker(); }
 
 struct Network::State {
   State(int size, double floor, std::size_t count)

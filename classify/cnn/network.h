@@ -45,7 +45,7 @@ struct TrainingHistory {
 class Network {
  public:
   // Trains with cross-entropy (binary; of more than two classes that of the softmax) and Adam (Kingma and Ba 2015) on
-  // varied versions of the maps (augmentation.h), at most spec.epochs passes; ends when spec.patience epochs have not
+  // varied versions of the maps (network_input.h), at most spec.epochs passes; ends when spec.patience epochs have not
   // lowered the loss of the validation rows. Weights, the order of the batches and the variations come from stream
   // kNetwork of (seed, index). Repeats bit for bit for any spec.threads on one kind of processor. Throws Interrupted
   // when *stop becomes true.
@@ -65,5 +65,8 @@ class Network {
   explicit Network(std::shared_ptr<State> state) : state_(std::move(state)) {}
   std::shared_ptr<State> state_;
 };
+
+// Loads libtorch, which stays loaded; making a network does the same. Throws WorkError where it cannot be loaded.
+void load_layers_library();
 
 }  // namespace seaglint

@@ -4,6 +4,8 @@
 // Input of the network: two images of a map's scattering centres, without their level, place and mean velocity. The
 // motions that separate a rigid body from free ones are fractions of a velocity cell, so that they show in the fitted
 // velocities of the centres, not in the cells of the map.
+//
+// Training maps are varied by changes that leave the class: each epoch trains on other versions of them.
 
 #include <cstddef>
 #include <span>
@@ -12,6 +14,8 @@
 #include "classify/features/scattering_centres.h"
 
 namespace seaglint {
+
+class Random;
 
 inline constexpr std::size_t kInputChannels = 2;
 inline constexpr std::size_t kInputRows = 32;     // velocity
@@ -36,5 +40,20 @@ struct ImageOffset {
 // rotation of the target, up to rounding. Zeros without centres.
 std::vector<float> network_input(std::span<const ScatteringCentre> centres, double floor_db,
                                  const ImageOffset& offset = {});
+
+// The centres of another observation of the same kind of target, in the same order. The ranges change sign in half of
+// the cases, as seen from the other end, and so do the velocities, as for the same motion run backwards. The ranges are
+// multiplied by a factor uniform in 0.8..1.25, another aspect or spacing. v += w (r - mean r) with w normal of 0.00125
+// rad/s adds a constant rotation of the whole, or the radar's own motion. Residuals from the line of velocity over
+// range keep their magnitude.
+CentreList observed_otherwise(std::span<const ScatteringCentre> centres, Random& random);
+
+// Adds errors of estimation, normal: 0.001 m/s in velocity, that of a centre 32 dB above clutter and noise in its cell
+// (Cramer-Rao bound, sqrt(3)/(2 pi) cells / sqrt(SNR)); 0.02 m in range and 1 dB in amplitude, above that bound, as
+// scatterers in one cell interfere.
+CentreList with_errors(CentreList centres, Random& random);
+
+// Range and velocity shift of the images, uniform within +-2 columns and +-0.5 rows.
+ImageOffset random_offset(Random& random);
 
 }  // namespace seaglint

@@ -7,9 +7,8 @@
 #include <string_view>
 
 #include "sim/core/process/error.h"
-#include "sim/core/text/number.h"
-#include "sim/core/text/text_rows.h"
 #include "sim/core/text/text_table.h"
+#include "sim/core/text/words.h"
 
 namespace seaglint {
 

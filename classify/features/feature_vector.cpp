@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "classify/features/feature_vector.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace seaglint {
@@ -9,12 +11,8 @@ namespace {
 
 constexpr double kCcfGuard = 1e-6;  // from the paper, avoids 0 / 0
 
-struct Line {
-  double slope = 0, offset = 0;
-};
-
 // Least squares v = slope r + offset; centres at one range leave the slope undefined: 0 then.
-Line fit_line(std::span<const ScatteringCentre> centres, const std::vector<double>& weight) {
+VelocityLine fit_line(std::span<const ScatteringCentre> centres, const std::vector<double>& weight) {
   double sum = 0, mean_r = 0, mean_v = 0;
   for (std::size_t i = 0; i < centres.size(); ++i) {
     sum += weight[i];
@@ -47,10 +45,10 @@ FeatureVector compute_features(std::span<const ScatteringCentre> centres, const 
   std::vector<double> weight, equal(centres.size(), 1.0);
   for (const ScatteringCentre& centre : centres) weight.push_back(total > 0 ? count * centre.amplitude_m / total : 1);
 
-  const Line line = fit_line(centres, spec.weighted_fit ? weight : equal);
+  const VelocityLine line = fit_line(centres, spec.weighted_fit ? weight : equal);
   double mean_r = 0, mean_v = 0;
   for (std::size_t i = 0; i < centres.size(); ++i) {
-    const double residual = centres[i].velocity_mps - (line.slope * centres[i].range_m + line.offset);
+    const double residual = line.residual(centres[i]);
     features.mwr += weight[i] * residual * residual / count;
     mean_r += centres[i].range_m / count;
     mean_v += centres[i].velocity_mps / count;
@@ -64,6 +62,78 @@ FeatureVector compute_features(std::span<const ScatteringCentre> centres, const 
   features.sigma_v = std::sqrt(variance_v);
   const double s_r = features.sigma_r / spec.range_scale_m, s_v = features.sigma_v / spec.velocity_scale_mps;
   features.ccf = std::abs((s_r - s_v) / (s_r + s_v + kCcfGuard));
+  return features;
+}
+
+namespace {
+
+constexpr std::size_t kMostCentres = 64;  // 2,016 pairs
+constexpr double kOneRange_m = 1e-6;      // ranges within a micrometre count as equal
+
+struct Weighted {
+  double value = 0, weight = 0;
+};
+
+// The smallest value up to which the weights reach half of their sum; 0 without values.
+double weighted_median(std::vector<Weighted> all) {
+  std::sort(all.begin(), all.end(), [](const Weighted& a, const Weighted& b) {
+    return std::pair(a.value, a.weight) < std::pair(b.value, b.weight);
+  });
+  double total = 0, sum = 0;
+  for (const Weighted& entry : all) total += entry.weight;
+  for (const Weighted& entry : all) {
+    sum += entry.weight;
+    if (2 * sum >= total) return entry.value;
+  }
+  return 0;
+}
+
+}  // namespace
+
+VelocityLine robust_velocity_line(std::span<const ScatteringCentre> centres) {
+  const auto used = centres.first(std::min(centres.size(), kMostCentres));
+  std::vector<Weighted> slopes, offsets;
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    for (std::size_t k = i + 1; k < used.size(); ++k) {
+      const double apart_m = used[k].range_m - used[i].range_m;
+      if (std::abs(apart_m) < kOneRange_m) continue;
+      slopes.push_back({(used[k].velocity_mps - used[i].velocity_mps) / apart_m,
+                        used[i].amplitude_m * used[k].amplitude_m * std::abs(apart_m)});
+    }
+  }
+  VelocityLine line;
+  line.slope = weighted_median(std::move(slopes));
+  for (const ScatteringCentre& centre : used)
+    offsets.push_back({centre.velocity_mps - line.slope * centre.range_m, centre.amplitude_m});
+  line.offset = weighted_median(std::move(offsets));
+  return line;
+}
+
+namespace {
+
+constexpr double kOnLine_mps = 0.01;
+
+}  // namespace
+
+MotionFeatures motion_features(std::span<const ScatteringCentre> centres) {
+  MotionFeatures features;
+  double sum = 0;
+  for (const ScatteringCentre& centre : centres) sum += centre.amplitude_m;
+  if (!(sum > 0)) return features;
+
+  // The median velocity is the line of centres that are all at one range.
+  std::vector<ScatteringCentre> at_one_range(centres.begin(), centres.end());
+  for (ScatteringCentre& centre : at_one_range) centre.range_m = 0;
+  const VelocityLine line = robust_velocity_line(centres), level = robust_velocity_line(at_one_range);
+  double spread = 0;
+  for (const ScatteringCentre& centre : centres) {
+    const double weight = centre.amplitude_m / sum, residual = std::abs(line.residual(centre));
+    features.residual_mps += weight * residual;
+    spread += weight * std::abs(centre.velocity_mps - level.offset);
+    if (residual <= kOnLine_mps) features.on_line += weight;
+  }
+  features.rotation_per_s = std::abs(line.slope);
+  if (spread > 0) features.explained = std::max(0.0, 1 - features.residual_mps / spread);
   return features;
 }
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Hand-made features of a map's scattering centres (paper, section III-B): MWR, CCF and the spreads.
+// Features of a map's scattering centres: the hand-made ones of the paper, section III-B (MWR, CCF and the spreads),
+// and those of rigidity, by the robust line of velocity over range.
 
+#include <array>
 #include <span>
 
 #include "classify/features/scattering_centres.h"
@@ -25,5 +27,45 @@ struct FeatureVector {
 //   CCF = |(s_r - s_v) / (s_r + s_v + 1e-6)|   s_r = sigma_r / range_scale_m, s_v = sigma_v / velocity_scale_mps
 // Without centres all are 0.
 FeatureVector compute_features(std::span<const ScatteringCentre> centres, const FeatureSpec& spec);
+
+// The line of velocity over range on which the scattering centres of an elongated rigid body lie, v = offset + slope r.
+// A point x of a rigid body that rotates at w has the range rate r^.v_0 + w.(x cross r^), linear in its place across
+// the line of sight and in its height; where both are proportional to range, as along a ship's length, it is linear in
+// range.
+struct VelocityLine {
+  double slope = 0;   // 1/s
+  double offset = 0;  // m/s, velocity at range 0
+
+  double residual(const ScatteringCentre& centre) const {
+    return centre.velocity_mps - (offset + slope * centre.range_m);
+  }
+};
+
+// Robust and weighted: slope = weighted median of the slopes of all pairs of centres, weight A_i A_j |r_i - r_j| (Sen
+// 1968; Jaeckel 1972), offset = median of v_i - slope r_i with weight A_i. It follows the line of most of the power
+// whatever the velocities of the rest. Centres at one range have slope 0; without centres all is 0. Of more than 64
+// centres the first 64 count, the strongest of clean_map().
+VelocityLine robust_velocity_line(std::span<const ScatteringCentre> centres);
+
+// Features of rigidity beyond the paper's four: what is left of the centres' velocities when the rotation of a rigid
+// body is taken out by the robust line. Deviations count by magnitude, so that one centre on a clutter peak, which
+// dominates the squares of MWR, does not hide a line. Weights are w_i = A_i / sum A, residuals e_i those of the robust
+// line. Without centres all are 0.
+struct MotionFeatures {
+  // |slope| of the line, 1/s: rotation of the whole, small for bodies that move independently about one mean.
+  double rotation_per_s = 0;
+  // sum w_i |e_i|, m/s: velocities that no rotation explains; 0 for an elongated rigid body, up to the centres' errors.
+  double residual_mps = 0;
+  // 1 - sum w_i |e_i| / sum w_i |v_i - weighted median v|, at least 0: the part of the spread that rotation explains,
+  // whatever the wave height; 0 without spread.
+  double explained = 0;
+  // Sum of the weights with |e_i| <= 0.01 m/s: the part of the amplitude that moves as one body within the error of a
+  // centre.
+  double on_line = 0;
+};
+MotionFeatures motion_features(std::span<const ScatteringCentre> centres);
+
+inline constexpr std::array kMotionFeatureNames = {"rotation_per_s", "line_residual_mps", "line_explained",
+                                                   "line_fraction"};
 
 }  // namespace seaglint

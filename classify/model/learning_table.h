@@ -11,7 +11,8 @@
 
 #include "classify/cnn/network_input.h"
 #include "classify/dataset/directory/dataset_reader.h"
-#include "classify/model/booster.h"
+#include "classify/dataset/format/sample.h"
+#include "classify/model/classifiers.h"
 #include "classify/model/data_rows.h"
 #include "classify/model/division.h"
 #include "sim/core/process/parallel.h"
@@ -68,10 +69,23 @@ void append(LearningTable& table, LearningTable&& more);
 void require_learnable(const LearningTable& table, const std::string& data);
 
 // Reads every shard once and passes it to `use` if given; `classes`: those of the scenario. Throws InputError when a
-// shard is invalid, a sample has a fault (classify/dataset/format/sample_faults.h; with its number) or a label that is
+// shard is invalid, a sample has a fault (classify/dataset/format/sample.h; with its number) or a label that is
 // no class.
 LearningTable load_learning_table(const DatasetReader& data, const StopFlag* stop = nullptr,
                                   const std::function<void(const Shard&)>& use = {},
                                   const std::vector<std::string>& classes = default_classes());
+
+// What a map has outside of its target: clutter, noise, and what the processing leaks into them (range side lobes of
+// the hop pedestal). Where it separates targets of equal geometry, the data set has a leak.
+inline constexpr double kBlankedMarginM = 6;                  // beyond the outermost centres
+inline constexpr int kBlankedDistances = 4;                   // bands of the distance from the blanked ranges
+inline constexpr int kBlankedVelocities = 8;                  // bands of the velocity, equal numbers of cells
+inline constexpr double kBlankedDistancesM[] = {10, 25, 50};  // their limits; the last band has the rest of the map
+
+// Mean power of bands of the cells whose ranges are outside of [first centre - margin, last centre + margin], dB above
+// the mean of all these cells: [distance][velocity], kBlankedDistances kBlankedVelocities values. 0 where a band has no
+// cell, and everywhere when no range is left or the rest has no power. The level itself, which is the signal-to-clutter
+// ratio, is left out (other probes have it).
+std::vector<double> blanked_levels_db(const Sample& sample, const StoredAxes& axes);
 
 }  // namespace seaglint

@@ -11,10 +11,8 @@
 
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
-#include "sim/core/text/json_keys.h"
-#include "sim/core/text/json_number.h"
-#include "sim/core/text/json_problem.h"
-#include "sim/core/text/shown.h"
+#include "sim/core/process/printable.h"
+#include "sim/core/text/json.h"
 #include "sim/scenario/writer.h"
 
 namespace seaglint {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "classify/dataset/format/sample.h"
-#include "classify/model/value_range.h"
+#include "classify/model/data_rows.h"
 #include "sim/scenario/scenario.h"
 
 namespace seaglint {

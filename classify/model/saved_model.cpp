@@ -6,13 +6,13 @@
 #include <optional>
 
 #include "classify/cnn/network_input.h"
-#include "classify/dataset/format/checksum.h"
-#include "classify/dataset/format/sample_faults.h"
-#include "classify/features/motion_features.h"
+#include "classify/dataset/format/manifest.h"
+#include "classify/dataset/format/sample.h"
+#include "classify/features/feature_vector.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
-#include "sim/core/text/number.h"
 #include "sim/core/text/text_table.h"
+#include "sim/core/text/words.h"
 
 namespace seaglint {
 

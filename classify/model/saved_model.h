@@ -13,16 +13,12 @@
 #include <vector>
 
 #include "classify/cnn/network.h"
-#include "classify/model/booster.h"
+#include "classify/model/classifiers.h"
 #include "classify/model/data_rows.h"
 #include "classify/model/model_card.h"
 #include "classify/model/study.h"
 
 namespace seaglint {
-
-// Trees on hand-made features, on the network's outputs, on both, on hand-made and motion_features().
-inline constexpr std::array kModelNames{"handmade", "cnn", "fused", "extended"};
-inline constexpr std::size_t kModels = kModelNames.size();
 
 struct SavedModel {
   ModelCard card;

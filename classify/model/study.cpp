@@ -6,12 +6,11 @@
 #include <algorithm>
 #include <array>
 
-#include "classify/cnn/layers.h"
-#include "classify/model/logistic.h"
+#include "classify/model/classifiers.h"
 #include "classify/model/model_card.h"
-#include "sim/core/process/address_space.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
+#include "sim/core/process/out_of_memory.h"
 #include "sim/core/process/progress.h"
 
 namespace seaglint {
@@ -19,9 +18,7 @@ namespace seaglint {
 namespace {
 
 constexpr Protocol kProtocols[2] = {Protocol::kRandom, Protocol::kGroup};
-constexpr std::size_t kGroups = 4;
-constexpr const char* kGroupNames[kGroups] = {"handmade", "cnn", "fused", "extended"};
-constexpr bool kHasNetwork[kGroups] = {false, true, true, false};
+constexpr bool kHasNetwork[kModels] = {false, true, true, false};
 
 Fusion other_fusion(Fusion fusion) { return fusion == Fusion::kSplit ? Fusion::kInSample : Fusion::kSplit; }
 
@@ -41,18 +38,18 @@ struct Job {
   std::uint64_t repeat = 0;
   Protocol protocol = Protocol::kGroup;
   Fusion fusion = Fusion::kSplit;
-  std::array<bool, kGroups> groups{true, true, true, true};  // of features that are wanted
+  std::array<bool, kModels> groups{true, true, true, true};  // of features that are wanted
 
   bool is_wanted() const { return std::ranges::find(groups, true) != groups.end(); }
   bool has_network() const { return groups[1] || groups[2]; }
 };
 
 struct JobResult {
-  std::vector<Prediction> predictions[kGroups];
-  std::vector<Prediction> linear[kGroups];  // of logistic regression
-  std::size_t train_rows[kGroups] = {};
+  std::vector<Prediction> predictions[kModels];
+  std::vector<Prediction> linear[kModels];  // of logistic regression
+  std::size_t train_rows[kModels] = {};
   std::optional<Network> network;
-  std::optional<Booster> boosters[kGroups];
+  std::optional<Booster> boosters[kModels];
   FeatureMatrix embeddings;
   Split split;
 };
@@ -80,7 +77,7 @@ std::vector<Job> all_jobs(const LearningSpec& spec, StudyScope scope = StudyScop
       for (int repeat = 0; repeat < spec.split_repeats; ++repeat) {
         jobs.push_back({static_cast<std::uint64_t>(repeat), protocol, fusion});
         if (scope == StudyScope::kFull) continue;
-        for (std::size_t group = 0; group < kGroups; ++group)
+        for (std::size_t group = 0; group < kModels; ++group)
           jobs.back().groups[group] = protocol == Protocol::kGroup && fusion == primary_fusion(group, spec);
       }
     }
@@ -144,8 +141,8 @@ JobResult run_job(const Job& job, const LearningTable& table, const LearningSpec
     result.embeddings = embedding_matrix(result.network->embed(table.centres));
     fused = join_columns(table.handmade, result.embeddings);
   }
-  const FeatureMatrix* features[kGroups] = {&table.handmade, &result.embeddings, &fused, &table.extended};
-  for (std::size_t group = 0; group < kGroups; ++group) {
+  const FeatureMatrix* features[kModels] = {&table.handmade, &result.embeddings, &fused, &table.extended};
+  for (std::size_t group = 0; group < kModels; ++group) {
     if (!job.groups[group]) continue;
     result.train_rows[group] = rows.trees.size();
     const Booster booster = Booster::train(select_rows(*features[group], rows.trees), select(table.labels, rows.trees),
@@ -177,8 +174,8 @@ void refit(Study& study, const LearningTable& table, const LearningSpec& spec, s
 
   const FeatureMatrix embeddings = embedding_matrix(study.network->embed(table.centres));
   const FeatureMatrix fused = join_columns(table.handmade, embeddings);
-  const FeatureMatrix* features[kGroups] = {&table.handmade, &embeddings, &fused, &table.extended};
-  for (std::size_t group = 0; group < kGroups; ++group) {
+  const FeatureMatrix* features[kModels] = {&table.handmade, &embeddings, &fused, &table.extended};
+  for (std::size_t group = 0; group < kModels; ++group) {
     const bool reads_unseen = kHasNetwork[group] && spec.fusion == Fusion::kSplit;
     const std::vector<std::size_t>& fitted = reads_unseen ? rows.validation : rows.split.train;
     study.trees[group] = Booster::train(select_rows(*features[group], fitted), select(table.labels, fitted), spec, stop,
@@ -318,7 +315,7 @@ Study run_study(const LearningTable& table, const LearningSpec& spec, double tra
     return (protocol * 2 + other) * repeats;
   };
   const auto evaluated = [&](Evaluator& evaluate, std::size_t first, std::size_t group,
-                             std::vector<Prediction>(JobResult::*kind)[kGroups],
+                             std::vector<Prediction>(JobResult::*kind)[kModels],
                              Outcome* primary = nullptr) -> std::optional<Evaluation> {
     if (!jobs[first].groups[group]) {
       evaluate.skip();
@@ -336,9 +333,9 @@ Study run_study(const LearningTable& table, const LearningSpec& spec, double tra
   Study study;
   study.classes = table.classes;
   Evaluator evaluate(spec, seed, drawn_conditions(table.maps));
-  for (std::size_t group = 0; group < kGroups; ++group) {
+  for (std::size_t group = 0; group < kModels; ++group) {
     FeatureGroupResult result;
-    result.name = kGroupNames[group];
+    result.name = kModelNames[group];
     for (std::size_t protocol = 0; protocol < 2; ++protocol) {
       Outcome outcome;
       outcome.protocol = kProtocols[protocol];
@@ -361,7 +358,7 @@ Study run_study(const LearningTable& table, const LearningSpec& spec, double tra
     study.groups.push_back(std::move(result));
   }
   study.probes = run_probes(table, spec, train_fraction, seed, scope, evaluate, progress, stop);
-  for (std::size_t group = 0; group < kGroups; ++group) {
+  for (std::size_t group = 0; group < kModels; ++group) {
     std::size_t place = 0;
     for (std::size_t protocol = 0; protocol < 2; ++protocol) {
       const auto linear = evaluated(evaluate, first_job(protocol, group, true), group, &JobResult::linear);
@@ -381,13 +378,13 @@ Study run_study(const LearningTable& table, const LearningSpec& spec, double tra
 
 std::vector<std::string> model_files() {
   std::vector<std::string> files{kNetworkFile, kSplitsFile, kModelFile};
-  for (const char* name : kGroupNames) files.push_back(fmt::format("{}.json", name));
+  for (const char* name : kModelNames) files.push_back(fmt::format("{}.json", name));
   return files;
 }
 
 void save_models(const Study& study, const LearningTable& table, const std::filesystem::path& model_directory) {
-  for (std::size_t group = 0; group < kGroups; ++group)
-    study.trees[group].save(model_directory / fmt::format("{}.json", kGroupNames[group]));
+  for (std::size_t group = 0; group < kModels; ++group)
+    study.trees[group].save(model_directory / fmt::format("{}.json", kModelNames[group]));
   study.network->save(model_directory / kNetworkFile);
   write_file(model_directory / kSplitsFile, splits_csv(table, study.splits));
 }

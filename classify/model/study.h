@@ -5,6 +5,7 @@
 // motion_features()), each with the same trees, under two protocols (random rows as in the paper, whole seas) and two
 // fusions of network and trees, with probes for leaks of the class.
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -16,6 +17,10 @@
 #include "classify/model/scores.h"
 
 namespace seaglint {
+
+// Trees on hand-made features, on the network's outputs, on both, on hand-made and motion_features().
+inline constexpr std::array kModelNames{"handmade", "cnn", "fused", "extended"};
+inline constexpr std::size_t kModels = kModelNames.size();
 
 struct Evaluation {
   Scores scores;

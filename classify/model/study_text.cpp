@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sim/core/process/error.h"
-#include "sim/core/text/json_number.h"
+#include "sim/core/text/json.h"
 
 namespace seaglint {
 

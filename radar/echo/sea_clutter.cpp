@@ -1,16 +1,239 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "radar/echo/sea_clutter.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <deque>
+#include <span>
 
-#include "radar/echo/gamma_texture.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/fourier.h"
 #include "sim/core/numbers/random.h"
+#include "sim/core/process/error.h"
+#include "sim/sea/wave_field.h"
 
 namespace seaglint {
+namespace {
+
+constexpr double kSurfaceTension = 0.074;  // N/m, sea water
+constexpr double kWindDrift = 0.03;        // of the wind 10 m above the water
+constexpr double kFullyDeveloped = 0.22;   // Hs = 0.22 U^2 / g
+
+// Phase speed of the Bragg-resonant waves, k_B = 2 k cos(grazing).
+double bragg_speed_mps(double wavelength_m, double cos_grazing) {
+  const double k = 4 * kPi / wavelength_m * cos_grazing;
+  return std::sqrt(kGravity / k + kSurfaceTension / kSeaWaterDensity * k);
+}
+
+// Two-way gain e^{-8 ln2 phi^2 / width^2} is a normal density of deviation width / (4 sqrt(ln 2)).
+double beam_deviation_rad(const RadarSpec& radar) {
+  return radians(radar.link_budget.beamwidth_deg) / (4 * std::sqrt(std::log(2.0)));
+}
+
+// coth(k h): ratio of horizontal to vertical orbital amplitude at the surface, 1 in deep water.
+double orbit_ratio(const WaveComponent& wave, double depth) {
+  return 1 / std::tanh(std::min(20.0, wave.wavenumber * depth));
+}
+
+// Mean velocity of the water particles at the surface, along the wave direction (Stokes 1847; Phillips, "The Dynamics
+// of the Upper Ocean", 2nd ed. 1977, section 3.3):
+// a^2 w k cosh(2 k h) / (2 sinh^2 k h) = a^2 w k (1 + coth^2 k h) / 2.
+double stokes_drift(const WaveComponent& wave, double depth) {
+  const double coth = orbit_ratio(wave, depth);
+  return wave.amplitude * wave.amplitude * wave.omega * wave.wavenumber * (1 + coth * coth) / 2;
+}
+
+// Mean water velocity at the moving surface: the mean of eta1 du1/dz, 1/2 a^2 w k along each component's direction, in
+// any depth; the remainder of the Stokes drift, the same times coth^2 kh, is Lagrangian. Zero at order 1.
+Vec2 mean_at_the_surface(const WaveField& waves) {
+  Vec2 mean = Vec2::Zero();
+  for (const WaveComponent& wave : std::span(waves.components()).first(waves.second_order_count()))
+    mean += 0.5 * wave.amplitude * wave.amplitude * wave.omega * wave.wavenumber * wave.direction;
+  return mean;
+}
+
+}  // namespace
+
+VelocityMoments clutter_velocity_moments(const ClutterSpec& spec, const ClutterScene& scene, double wavelength_m) {
+  SEAGLINT_CHECK(scene.waves != nullptr, "clutter that follows the sea needs its waves");
+  const double cos_grazing = std::hypot(scene.r_hat.x(), scene.r_hat.y()), sin_grazing = scene.r_hat.z();
+  const Vec2 look = Vec2(scene.r_hat.x(), scene.r_hat.y());  // norm cos_grazing
+
+  // Orbital velocity of a wave of amplitude a: a w vertical, a w coth(k h) along its direction.
+  Vec2 stokes = Vec2::Zero();
+  double variance = 0;
+  for (const WaveComponent& wave : scene.waves->components()) {
+    const double speed = wave.amplitude * wave.omega;
+    stokes += stokes_drift(wave, scene.waves->depth()) * wave.direction;
+    const double horizontal = look.dot(wave.direction) * orbit_ratio(wave, scene.waves->depth());
+    variance += 0.5 * speed * speed * (horizontal * horizontal + sin_grazing * sin_grazing);
+  }
+  const double past_mps =
+      scene.r_hat.dot(scene.target_velocity_mps);  // still water moves astern relative to the target
+  if (!(stokes.norm() > 0)) return {past_mps, 0};
+  const double wind = std::sqrt(kGravity * scene.significant_wave_height_m / kFullyDeveloped);
+  const double along_waves = bragg_speed_mps(wavelength_m, cos_grazing) + kWindDrift * wind + stokes.norm();
+  const double factor = scene.radar.polarisation == Polarisation::kVv ? 1 : spec.hh_velocity_factor;
+  return {past_mps - factor * along_waves * look.dot(stokes.normalized()), std::sqrt(variance)};
+}
+
+double platform_doppler_spread_mps(const ClutterScene& scene) {
+  const Vec3 velocity = Vec3(scene.radar.platform.velocity_mps) + scene.target_velocity_mps;
+  const Vec3 sideways = Vec3::UnitZ().cross(scene.r_hat);
+  const double level = sideways.norm();
+  return level > 0 ? std::abs(velocity.dot(sideways)) / level * beam_deviation_rad(scene.radar) : 0;
+}
+
+FloatingScatterers floating_scatterers(const ClutterScene& scene, const std::vector<double>& range_m, double duration_s,
+                                       std::uint64_t seed, std::uint64_t index) {
+  SEAGLINT_CHECK(scene.waves != nullptr && duration_s > 0, "clutter on the waves needs waves and an interval");
+  Random random({seed, Stream::kClutterPlace, index});
+  const double cos_grazing = std::hypot(scene.r_hat.x(), scene.r_hat.y());
+  const Vec2 away = -Vec2(scene.r_hat.x(), scene.r_hat.y()) / cos_grazing, across(-away.y(), away.x());
+  const double deviation_m = scene.radar.range_km * 1e3 * beam_deviation_rad(scene.radar);
+  const Vec2 sailed_m = scene.start_s * scene.target_velocity_mps.xy();  // position of the target in the waves
+  const Vec2 mean = mean_at_the_surface(*scene.waves);
+  FloatingScatterers floating;
+  for (const double range : range_m) {
+    const Vec2 place = sailed_m + away * (range / cos_grazing) + across * (deviation_m * random.normal());
+    const auto radial = [&](double time_s) {
+      const Vec3 velocity = scene.waves->surface(place.x(), place.y(), time_s).velocity;
+      return -scene.r_hat.dot(velocity - Vec3(mean.x(), mean.y(), 0));
+    };
+    const double first = radial(scene.start_s), last = radial(scene.start_s + duration_s);
+    floating.velocity_mps.push_back(first);
+    floating.acceleration_mps2.push_back((last - first) / duration_s);
+  }
+  return floating;
+}
+
+double nrl_reflectivity_db(Polarisation polarisation, double grazing_rad, double frequency_hz, double sea_state) {
+  SEAGLINT_CHECK(polarisation == Polarisation::kHh || polarisation == Polarisation::kVv, "the model knows hh and vv");
+  const bool hh = polarisation == Polarisation::kHh;
+  const std::array<double, 5> c =
+      hh ? std::array{-73.00, 20.78, 7.351, 25.65, 0.00540} : std::array{-50.79, 25.93, 0.7093, 21.58, 0.00211};
+  const double alpha = degrees(grazing_rad), f = frequency_hz * 1e-9;
+  return c[0] + c[1] * std::log10(std::sin(grazing_rad)) + (27.5 + c[2] * alpha) * std::log10(f) / (1 + 0.95 * alpha) +
+         c[3] * std::pow(1 + sea_state, 1 / (2 + 0.085 * alpha + 0.033 * sea_state)) + c[4] * alpha * alpha;
+}
+
+double douglas_sea_state(double significant_wave_height_m) {
+  constexpr std::array kUpperLimit{0.1, 0.5, 1.25, 2.5, 4.0, 6.0};  // m, upper limits of classes 1 to 6
+  SEAGLINT_CHECK(significant_wave_height_m >= 0 && significant_wave_height_m <= kUpperLimit.back(),
+                 fmt::format("{} m", significant_wave_height_m));
+  double lower = 0, state = 0;
+  for (const double upper : kUpperLimit) {
+    const double width = state == 0 ? 1.5 : 1;  // 0 m is 0, the upper limit of class 1 is 1.5
+    if (significant_wave_height_m <= upper)
+      return state + width * (significant_wave_height_m - lower) / (upper - lower);
+    state += width;
+    lower = upper;
+  }
+  return state;
+}
+
+double clutter_patch_area_m2(const RadarSpec& radar, double grazing_rad, double range_extent_m) {
+  const double two_way_rad = radians(radar.link_budget.beamwidth_deg) * std::sqrt(kPi / (8 * std::log(2.0)));
+  return radar.range_km * 1e3 * two_way_rad * range_extent_m / std::cos(grazing_rad);
+}
+
+namespace {
+
+constexpr int kMaxTerms = 10000;  // a = 1000 needs about 400
+constexpr double kEpsilon = 1e-16;
+
+// ln Gamma(a) by Stirling's series (Abramowitz and Stegun 6.1.41) after a shift to a >= 10. std::lgamma writes a global
+// sign.
+double log_gamma(double a) {
+  double shift = 0;
+  while (a < 10) {
+    shift += std::log(a);
+    a += 1;
+  }
+  const double x = 1 / (a * a);
+  const double series =
+      (1.0 / 12 - x * (1.0 / 360 - x * (1.0 / 1260 - x * (1.0 / 1680 - x * (1.0 / 1188 - x * 691.0 / 360360))))) / a;
+  return (a - 0.5) * std::log(a) - a + 0.5 * std::log(2 * kPi) + series - shift;
+}
+
+// x^a e^{-x} / Gamma(a)
+double front_factor(double a, double x) { return std::exp(a * std::log(x) - x - log_gamma(a)); }
+
+// Abramowitz and Stegun 6.5.29: P = x^a e^{-x} / Gamma(a) sum_n x^n / (a (a+1) ... (a+n)); for x < a + 1.
+double p_by_series(double a, double x) {
+  double term = 1 / a;
+  double sum = term;
+  for (int n = 1; n < kMaxTerms && term > kEpsilon * sum; ++n) {
+    term *= x / (a + n);
+    sum += term;
+  }
+  return front_factor(a, x) * sum;
+}
+
+// Abramowitz and Stegun 6.5.31, the even part of the continued fraction by Lentz's method; for x >= a + 1.
+double q_by_fraction(double a, double x) {
+  double b = x + 1 - a;
+  double c = 1e300;
+  double d = 1 / b;
+  double value = d;
+  for (int n = 1; n < kMaxTerms; ++n) {
+    const double numerator = -n * (n - a);
+    b += 2;
+    d = 1 / (numerator * d + b);
+    c = b + numerator / c;
+    value *= c * d;
+    if (std::abs(c * d - 1) < 4 * kEpsilon) break;
+  }
+  return front_factor(a, x) * value;
+}
+
+}  // namespace
+
+double gamma_p(double a, double x) {
+  SEAGLINT_CHECK(a > 0 && x >= 0, fmt::format("a = {}, x = {}", a, x));
+  if (x == 0) return 0;
+  return x < a + 1 ? p_by_series(a, x) : 1 - q_by_fraction(a, x);
+}
+
+double gamma_q(double a, double x) {
+  SEAGLINT_CHECK(a > 0 && x >= 0, fmt::format("a = {}, x = {}", a, x));
+  if (x == 0) return 1;
+  return x < a + 1 ? 1 - p_by_series(a, x) : q_by_fraction(a, x);
+}
+
+double gamma_texture(double shape, double normal) {
+  SEAGLINT_CHECK(shape >= 0.1 && shape <= 1000, fmt::format("shape = {}", shape));
+  // The smaller tail is used to preserve precision: P in the lower half, Q in the upper.
+  const bool lower = normal < 0;
+  const double tail = 0.5 * std::erfc(std::abs(normal) / std::sqrt(2.0));
+  // Solved for y = ln x, where both tails are smooth: Newton's method on ln(tail), safeguarded by bisection. First
+  // guess: Wilson and Hilferty (1931), or the first term of the series where that is not positive.
+  const double root = 1 - 1 / (9 * shape) + normal / (3 * std::sqrt(shape));
+  double y = root > 0.1 ? std::log(shape) + 3 * std::log(root) : (std::log(tail * shape) + log_gamma(shape)) / shape;
+  double low = -1e4, high = std::log(shape + 1e4);
+  for (int i = 0; i < 200; ++i) {
+    y = std::clamp(y, low, high);
+    const double x = std::exp(y);
+    const double value = x == 0 ? (lower ? 0.0 : 1.0) : lower ? gamma_p(shape, x) : gamma_q(shape, x);
+    const bool too_large = lower ? value > tail : value < tail;
+    (too_large ? high : low) = y;
+    if (value <= 0) {
+      y = 0.5 * (low + high);
+      continue;
+    }
+    // d ln P / dy = x^a e^{-x} / (Gamma(a) P), and the same with the other sign for Q.
+    const double slope = front_factor(shape, x) / value * (lower ? 1 : -1);
+    const double step = std::log(tail / value) / slope;
+    const double next = y + step;
+    if (std::abs(step) < 1e-13 * std::max(1.0, std::abs(y))) break;
+    y = next > low && next < high ? next : 0.5 * (low + high);
+  }
+  return std::exp(y) / shape;
+}
+
 namespace {
 
 // Scatterers per synthetic range resolution c/(2 B_s): with two the speckle of a resolution cell is Gaussian and their

@@ -1,17 +1,83 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Sea clutter response: K-distributed sum of many scatterers with individual Doppler evolution.
+// Sea clutter: radial velocity of its scatterers from waves and wind, its absolute level, and its response, a
+// K-distributed sum of many scatterers with individual Doppler evolution.
 
 #include <cstdint>
 #include <vector>
 
-#include "radar/echo/clutter_motion.h"
 #include "radar/waveform/pulse_train.h"
-#include "sim/core/numbers/random.h"
+#include "sim/core/numbers/linear.h"
 #include "sim/scenario/radar_spec.h"
 
 namespace seaglint {
+
+class WaveField;
+
+// Sea around the target during one interval.
+struct ClutterScene {
+  RadarSpec radar;             // polarisation, range, antenna beam, transmitter
+  Vec3 r_hat = Vec3::UnitX();  // to the radar, target frame
+  double significant_wave_height_m = 0;
+  const WaveField* waves = nullptr;         // required unless clutter.doppler is prescribed
+  double start_s = 0;                       // start of the interval on the time axis of the waves
+  Vec3 target_velocity_mps = Vec3::Zero();  // of the target through the water; its frame and the radar move with it
+  std::uint64_t texture_key = 0;            // intervals of one key have one texture, evolving in time
+};
+
+struct VelocityMoments {
+  double mean_mps = 0;    // positive = receding
+  double spread_mps = 0;  // standard deviation
+};
+
+// Mean and standard deviation of the radial velocity, after Trizna, "A model for Doppler peak spectral shift for low
+// grazing angle sea scatter", IEEE J. Oceanic Eng. 10 (1985) 368: mean for vv: phase speed of the Bragg waves, wind
+// drift and Stokes drift, all along the wave direction; other polarisations times hh_velocity_factor (empirical in that
+// paper). Spread: radial orbital velocity of the waves. The wind is that of a fully developed sea of this height
+// (Pierson and Moskowitz, J. Geophys. Res. 69 (1964) 5181), with a surface drift of 3 % of its speed (Wu, J. Fluid
+// Mech. 68 (1975) 49). Without waves only the motion of the water relative to a target under way remains.
+VelocityMoments clutter_velocity_moments(const ClutterSpec& spec, const ClutterScene& scene, double wavelength_m);
+
+// Doppler spread due to the relative motion of radar and target: scatterers off the axis of the antenna beam have an
+// additional radial velocity, whose standard deviation is the speed across the line of sight times that of the two-way
+// Gaussian beam, width / (4 sqrt(ln 2)).
+double platform_doppler_spread_mps(const ClutterScene& scene);
+
+// Radial motion of scatterers on the waves: displacement v t + a t^2/2 at time t after the start of the interval.
+struct FloatingScatterers {
+  std::vector<double> velocity_mps;
+  std::vector<double> acceleration_mps2;
+};
+
+// Water motion of scene.waves at scatterers of the given slant ranges from the reference point (positive = farther),
+// each at a random cross-range position (two-way Gaussian beam), stream kClutterPlace of (seed, index), minus the mean
+// at the moving surface, since clutter_velocity_moments() includes the whole Stokes drift. Velocity is evaluated at
+// both ends of the interval.
+FloatingScatterers floating_scatterers(const ClutterScene& scene, const std::vector<double>& range_m, double duration_s,
+                                       std::uint64_t seed, std::uint64_t index);
+
+// Mean reflectivity sigma0 of the sea, dB m^2/m^2. Gregers-Hansen and Mital, "An improved empirical model for radar sea
+// clutter reflectivity", NRL/MR/5310-12-9346 (2012), its closed form and coefficients: fitted to measurements between
+// 0.5 and 35 GHz, 0.1 and 60 deg of grazing, Douglas sea state 0 to 6, within 2 to 3 dB. hh or vv.
+double nrl_reflectivity_db(Polarisation polarisation, double grazing_rad, double frequency_hz, double sea_state);
+
+// Douglas sea state of a significant wave height, WMO code table 3700: interpolated linearly between the limits of
+// class n, which have the values n - 1/2 and n + 1/2; 0 at 0 m. Up to 6 m (state 6.5).
+double douglas_sea_state(double significant_wave_height_m);
+
+// Area of the clutter patch within range_extent_m of slant range, m^2: range_extent_m r theta_e / cos(grazing), theta_e
+// the two-way width of a Gaussian antenna beam, sqrt(pi / (8 ln 2)) of its one-way half-power width.
+double clutter_patch_area_m2(const RadarSpec& radar, double grazing_rad, double range_extent_m);
+
+// Regularised incomplete gamma functions P(a, x) and Q = 1 - P, a > 0, x >= 0; relative error below 1e-12 for a <=
+// 1000.
+double gamma_p(double a, double x);
+double gamma_q(double a, double x);
+
+// Quantile Phi(normal) of the gamma distribution with mean 1 and the given shape (0.1 <= shape <= 1000); monotone in
+// normal, so that correlated normal values give correlated texture. Relative error below 1e-9 for |normal| <= 6.
+double gamma_texture(double shape, double normal);
 
 // Gamma-distributed texture of mean 1 and shape spec.texture_shape on `cells` points of a ring at one time. Correlation
 // of its Gaussian generator: e^{-d^2 / (2 l^2)} along the ring, d and l in cells, and e^{-(t /

@@ -6,14 +6,121 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
-#include "radar/rvmap/map_weights.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/fourier.h"
 #include "sim/core/process/error.h"
-#include "sim/core/process/function_versions.h"
+#include "sim/core/process/parallel.h"
 
 namespace seaglint {
+namespace {
+
+constexpr int kTaylorTerms = 4;  // nbar
+constexpr double kTaylorSidelobeDb = 35;
+
+// Taylor, "Design of line-source antennas for narrow beamwidth and low side lobes", IRE Trans. AP-3 (1955) 16;
+// coefficients as in Carrara, Goodman and Majewski, "Spotlight Synthetic Aperture Radar" (1995), appendix D.2.
+double taylor(double u) {
+  const double a = std::acosh(std::pow(10, kTaylorSidelobeDb / 20)) / kPi;
+  const double s2 = kTaylorTerms * kTaylorTerms / (a * a + (kTaylorTerms - 0.5) * (kTaylorTerms - 0.5));
+  const auto value = [&](double x) {
+    double sum = 1;
+    for (int m = 1; m < kTaylorTerms; ++m) {
+      double numerator = 1, denominator = 1;
+      for (int i = 1; i < kTaylorTerms; ++i) {
+        numerator *= 1 - m * m / (s2 * (a * a + (i - 0.5) * (i - 0.5)));
+        if (i != m) denominator *= 1 - static_cast<double>(m * m) / (i * i);
+      }
+      const double coefficient = (m % 2 == 1 ? 1 : -1) * numerator / (2 * denominator);
+      sum += 2 * coefficient * std::cos(2 * kPi * m * x);
+    }
+    return sum;
+  };
+  return value(u) / value(0);
+}
+
+// Weight at u in (-1/2, 1/2). Hann and Hamming: Harris, "On the use of windows", Proc. IEEE 66 (1978), eq. 26b and 30b.
+double taper_at(Taper taper, double u) {
+  switch (taper) {
+    case Taper::kNone: return 1;
+    case Taper::kHann: return 0.5 + 0.5 * std::cos(2 * kPi * u);
+    case Taper::kHamming: return 0.54 + 0.46 * std::cos(2 * kPi * u);
+    case Taper::kTaylor: return taylor(u);
+  }
+  return 1;
+}
+
+}  // namespace
+
+std::vector<double> taper_samples(Taper taper, std::size_t count) {
+  std::vector<double> samples(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    samples[i] = taper_at(taper, (static_cast<double>(i) + 0.5) / static_cast<double>(count) - 0.5);
+  }
+  return samples;
+}
+
+MapWeights map_weights(const PulseTrain& train, const MapSpec& spec) {
+  MapWeights weights;
+  weights.pulse = taper_samples(spec.velocity_taper, train.pulses());
+  std::vector<double> sum(train.carriers);
+  for (std::size_t n = 0; n < train.pulses(); ++n) sum[train.code[n]] += weights.pulse[n];
+  for (std::size_t n = 0; n < train.pulses(); ++n) weights.pulse[n] /= sum[train.code[n]];
+
+  std::vector<int> covering(train.band_bins());
+  for (int i = 0; i < train.carriers; ++i) {
+    if (sum[i] == 0) {
+      ++weights.unused_carriers;
+      continue;
+    }
+    for (std::size_t b = 0; b < train.frequencies(); ++b) ++covering[i * train.bins_per_hop + b];
+  }
+  weights.bin = taper_samples(spec.range_taper, covering.size());
+  for (std::size_t k = 0; k < covering.size(); ++k) weights.bin[k] *= covering[k] > 0 ? 1.0 / covering[k] : 0;
+  // Response of a point of amplitude 1: |P|^2 / mean |P|^2 after a matched filter, 1 after an inverse filter.
+  const std::vector<Complex> filter = compression_filter(train, spec.compression);
+  double total = 0;
+  for (int i = 0; i < train.carriers; ++i) {
+    if (sum[i] == 0) continue;
+    for (std::size_t b = 0; b < train.frequencies(); ++b) {
+      total += weights.bin[i * train.bins_per_hop + b] * std::real(filter[b] * train.chirp_spectrum[b]);
+    }
+  }
+  for (double& weight : weights.bin) weight /= total;
+  return weights;
+}
+
+std::vector<Complex> compression_filter(const PulseTrain& train, Compression compression) {
+  double mean = 0;
+  for (const Complex& p : train.chirp_spectrum) mean += std::norm(p) / static_cast<double>(train.frequencies());
+  std::vector<Complex> filter(train.frequencies());
+  for (std::size_t b = 0; b < filter.size(); ++b) {
+    const Complex p = train.chirp_spectrum[b];
+    if (compression == Compression::kMatched) {
+      filter[b] = std::conj(p) / mean;
+    } else if (std::norm(p) > 1e-9 * mean) {
+      filter[b] = std::conj(p) / std::norm(p);
+    }
+  }
+  return filter;
+}
+
+std::vector<Complex> compress_pulses(std::span<const Complex> echo, const PulseTrain& train, Compression compression) {
+  const std::size_t frequencies = train.frequencies();
+  SEAGLINT_CHECK(
+      echo.size() == train.pulses() * frequencies,
+      fmt::format("echo of {} values for {} pulses x {} frequencies", echo.size(), train.pulses(), frequencies));
+  const std::vector<Complex> filter = compression_filter(train, compression);
+  std::vector<Complex> compressed(echo.size());
+  for (std::size_t n = 0; n < train.pulses(); ++n) {
+    for (std::size_t b = 0; b < frequencies; ++b) {
+      compressed[n * frequencies + b] = filter[b] * echo[n * frequencies + b];
+    }
+  }
+  return compressed;
+}
+
 namespace {
 
 constexpr double kMaxCells = 1 << 26;
@@ -168,6 +275,85 @@ RvMap form_rv_map(std::span<const Complex> echo, const PulseTrain& train, const 
     }
   }
   return map;
+}
+
+namespace {
+
+constexpr double kBoxDepthDb =
+    10;  // dB: above the random-hop pedestal (-15 dB and below), below the stronger centres of a ship
+
+double largest_power(const RvMap& map) {
+  double largest = 0;
+  for (const Complex& value : map.values) largest = std::max(largest, std::norm(value));
+  return largest;
+}
+
+double box_power(const RvMap& map, const MapExtent& box) {
+  double sum = 0;
+  for (std::size_t v = box.velocity_first; v <= box.velocity_last; ++v) {
+    for (std::size_t r = box.range_first; r <= box.range_last; ++r) sum += std::norm(map.at(v, r));
+  }
+  return sum /
+         static_cast<double>((box.velocity_last - box.velocity_first + 1) * (box.range_last - box.range_first + 1));
+}
+
+double decibel(double ratio) { return 10 * std::log10(ratio); }
+
+}  // namespace
+
+MapExtent target_extent(const RvMap& target) {
+  const double threshold = largest_power(target) * std::pow(10, -kBoxDepthDb / 10);
+  MapExtent box{target.columns(), 0, target.velocity_mps.size(), 0};
+  for (std::size_t v = 0; v < target.velocity_mps.size(); ++v) {
+    for (std::size_t r = 0; r < target.columns(); ++r) {
+      if (std::norm(target.at(v, r)) < threshold) continue;
+      box.range_first = std::min(box.range_first, r);
+      box.range_last = std::max(box.range_last, r);
+      box.velocity_first = std::min(box.velocity_first, v);
+      box.velocity_last = std::max(box.velocity_last, v);
+    }
+  }
+  return box;
+}
+
+ReceivedInterval form_received_interval(const Echo& echo, const PulseTrain& train, const ClutterSpec& clutter,
+                                        const MapSpec& spec, bool intra_pulse_motion) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  ReceivedInterval received;
+  received.echo = echo.target;
+  received.map = form_rv_map(echo.target, train, spec, intra_pulse_motion);
+  received.scr = {kNone, kNone, kNone, kNone};
+  const auto add = [&](const std::vector<Complex>& part, const RvMap& map, double gain) {
+    for (std::size_t i = 0; i < part.size(); ++i) received.echo[i] += gain * part[i];
+    for (std::size_t i = 0; i < map.values.size(); ++i) received.map.values[i] += gain * map.values[i];
+  };
+
+  double gain_db = 0;
+  if (!echo.clutter.empty()) {
+    const RvMap clutter_map = form_rv_map(echo.clutter, train, spec, intra_pulse_motion);
+    const double clutter_cell = mean_power(clutter_map.values);
+    const double target_peak = largest_power(received.map);
+    if (!(target_peak > 0 && clutter_cell > 0)) {
+      throw InputError(
+          fmt::format("map: no power in the map's window (target {} m^2, clutter {} m^2)", target_peak, clutter_cell));
+    }
+    MeasuredRatios& scr = received.scr;
+    scr.per_pulse_db = decibel(mean_power(echo.target) / mean_power(echo.clutter));
+    scr.peak_cell_db = decibel(target_peak / clutter_cell);
+    scr.scr_extent_db = decibel(box_power(received.map, target_extent(received.map)) / clutter_cell);
+    const double measured = clutter.scr_definition == ScrDefinition::kPerPulse   ? scr.per_pulse_db
+                            : clutter.scr_definition == ScrDefinition::kPeakCell ? scr.peak_cell_db
+                                                                                 : scr.scr_extent_db;
+    if (clutter.level == ClutterLevel::kScr) gain_db = measured - clutter.scr_db;
+    for (double* ratio : {&scr.per_pulse_db, &scr.peak_cell_db, &scr.scr_extent_db}) *ratio -= gain_db;
+    add(echo.clutter, clutter_map, std::pow(10, gain_db / 20));
+  }
+  if (!echo.noise.empty()) {
+    const double noise_db = clutter.noise_level == NoiseLevel::kCnr ? gain_db : 0;
+    received.scr.snr_per_pulse_db = decibel(mean_power(echo.target) / mean_power(echo.noise)) - noise_db;
+    add(echo.noise, form_rv_map(echo.noise, train, spec, intra_pulse_motion), std::pow(10, noise_db / 20));
+  }
+  return received;
 }
 
 }  // namespace seaglint

@@ -3,10 +3,12 @@
 
 // Exact range-velocity map of an interval: sums over the pulses of each carrier, then an inverse FFT over the
 // synthesised band. Every frequency of every pulse is compensated at its own frequency and time, without approximation.
+// The signal-to-clutter ratio of the map is measured in three definitions (README.md).
 
 #include <span>
 #include <vector>
 
+#include "radar/echo/echo.h"
 #include "radar/waveform/pulse_train.h"
 #include "sim/core/numbers/linear.h"
 #include "sim/scenario/radar_spec.h"
@@ -37,5 +39,53 @@ MapGrid map_grid(const PulseTrain& train, const MapSpec& spec);
 // Map of an echo [pulse][frequency] (README.md). A point scatterer of amplitude a (m) has the peak |RV| = a for all
 // tapers and gaps; its phase there is that of its response at the band centre at the first pulse.
 RvMap form_rv_map(std::span<const Complex> echo, const PulseTrain& train, const MapSpec& spec, bool intra_pulse_motion);
+
+// Weights of the map as an explicit sum, for the map at one point or the response of one scatterer:
+//   RV(r, v) = sum_n sum_b w_n u_k X_n(f_b) e^{+j 4 pi (f_n + f_b) v (t_n + f_b/mu) / c} e^{+j 4 pi (f_n + f_b - f_c) r
+//   / c}
+// with k = C_n bins_per_hop + b the bin of the synthesised band and f_c the centre of that band (f_b/mu only with
+// intra-pulse motion).
+struct MapWeights {
+  std::vector<double> pulse;  // w_n: velocity taper over its sum for the pulses of the same carrier
+  std::vector<double> bin;    // u_k: range taper over the number of carriers that cover bin k, 0 in gaps; a point of
+                              // amplitude 1 has peak 1
+  int unused_carriers = 0;    // carriers without pulses
+};
+
+MapWeights map_weights(const PulseTrain& train, const MapSpec& spec);
+
+// Pulse compression filter on the baseband grid, X = filter Y: P* / |P|^2 (inverse, zero where |P|^2 is below 1e-9 of
+// its mean) or P* / mean |P|^2 (matched).
+std::vector<Complex> compression_filter(const PulseTrain& train, Compression compression);
+
+// Pulse compression of an echo, [pulse][frequency].
+std::vector<Complex> compress_pulses(std::span<const Complex> echo, const PulseTrain& train, Compression compression);
+
+// Samples of a taper of unit peak at the centres of `count` equal cells. Taylor: nbar 4, sidelobes -35 dB.
+std::vector<double> taper_samples(Taper taper, std::size_t count);
+
+// Target extent: the smallest rectangle of map cells that contains every cell within 10 dB of the peak; indices, both
+// ends included.
+struct MapExtent {
+  std::size_t range_first = 0, range_last = 0, velocity_first = 0, velocity_last = 0;
+};
+MapExtent target_extent(const RvMap& target);
+
+// Received signal of an interval with the clutter at the level of the scenario.
+struct ReceivedInterval {
+  std::vector<Complex> echo;  // target + clutter + noise, [pulse][frequency]
+  RvMap map;                  // map of that echo
+  MeasuredRatios scr;
+};
+
+// Sum of target, clutter and noise with its map, and the measured target-to-clutter ratio in three definitions and
+// target-to-noise ratio per pulse. clutter.level scr: the clutter, with noise that is relative to it, is first scaled
+// so that the ratio of clutter.scr_definition is scr_db exactly in this map:
+//   per_pulse  mean |Y_target|^2 over mean |Y_clutter|^2, all pulses and in-band frequencies
+//   peak_cell  maximum |RV|^2 of the target over the mean |RV|^2 of the clutter's map
+//   extent     mean |RV|^2 of the target inside target_extent over the mean |RV|^2 of the clutter's map
+// Throws InputError when clutter is present and the target or the clutter is zero in the map.
+ReceivedInterval form_received_interval(const Echo& echo, const PulseTrain& train, const ClutterSpec& clutter,
+                                        const MapSpec& spec, bool intra_pulse_motion);
 
 }  // namespace seaglint

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Frequency-agile LFM pulse train of one coherent interval.
+// Frequency-agile LFM pulse train of one coherent interval, with its resolution, ambiguity and pedestal.
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "sim/core/numbers/linear.h"
@@ -26,7 +27,7 @@ struct PulseTrain {
   std::vector<double> baseband_hz;  // uniform grid inside |f| <= B/2, symmetric about 0, cell centres; step divides df
   double baseband_step_hz = 0;
   int bins_per_hop = 1;  // df / step, exact
-  // odd: steps of this grid per step of the map's grid (radar/echo/sampled_echo.h)
+  // odd: steps of this grid per step of the map's grid (radar/echo/echo.h)
   int grid_refinement = 1;
   std::vector<Complex> chirp_spectrum;  // P(f) on baseband_hz: the transmit waveform, |P| about 1
 
@@ -64,5 +65,16 @@ std::vector<Complex> chirp_spectrum(double bandwidth_hz, double pulse_width_s, d
 
 // Times and frequencies at which the pulse train samples the target response in an interval that starts at start_s.
 IntervalSampling interval_sampling(const PulseTrain& train, double start_s);
+
+// Mean power of the point response at (range_offset_m, velocity_offset_mps) from its peak of 1, averaged over all codes
+// with the times and pulses per carrier of this train: coherent sidelobes plus random-hop pedestal, for one frequency
+// per pulse and no taper. Closed form of radar/waveform/README.md.
+double expected_response_power(const PulseTrain& train, double range_offset_m, double velocity_offset_mps);
+
+// Warning about gaps between the bands of the carriers and the resulting sidelobes; empty without gaps.
+std::string band_gap_warning(const PulseTrain& train);
+
+// Resolutions, ambiguities, blind range and expected pedestal, one line each, for `seaglint check`.
+std::string figures_of_merit_text(const PulseTrain& train, const RadarSpec& spec);
 
 }  // namespace seaglint

@@ -9,7 +9,7 @@
 #include <map>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/geometry/mesh/disjoint_sets.h"
+#include "sim/geometry/mesh/topology.h"
 
 namespace seaglint {
 namespace {

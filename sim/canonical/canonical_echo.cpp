@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/core/numbers/sinc.h"
+#include "sim/core/numbers/real_functions.h"
 #include "sim/core/process/error.h"
 
 namespace seaglint {

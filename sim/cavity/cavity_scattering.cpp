@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/cavity/aperture_field.h"
+#include "sim/cavity/cavity_aperture.h"
 #include "sim/cavity/wall_currents.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
@@ -86,6 +86,11 @@ Cavity::Cavity(const TriangleMesh& mesh, std::size_t part, const Scatterer& whol
       scene_(whole.facets()),
       radius_(whole.radius()),
       patches_per_wavelength_(patches_per_wavelength) {}
+
+struct Cavity::Discretisation {
+  std::vector<ApertureCell> aperture;
+  std::vector<WallPatch> walls;
+};
 
 Cavity::Discretisation Cavity::shape(double k) const {
   const double wavelength = 2 * kPi / k, patch = wavelength / patches_per_wavelength_;

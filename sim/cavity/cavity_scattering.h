@@ -8,8 +8,6 @@
 #include <span>
 #include <vector>
 
-#include "sim/cavity/cavity_aperture.h"
-#include "sim/cavity/wall_patches.h"
 #include "sim/core/process/parallel.h"
 #include "sim/geometry/mesh/triangle_mesh.h"
 #include "sim/scattering/observation/observation.h"
@@ -44,10 +42,7 @@ class Cavity {
                                                           int threads, const StopFlag* stop = nullptr) const;
 
  private:
-  struct Discretisation {
-    std::vector<ApertureCell> aperture;
-    std::vector<WallPatch> walls;
-  };
+  struct Discretisation;  // of aperture and walls
   Discretisation shape(double k) const;
 
   Vec3 centre_;         // of the complete target, body frame

@@ -48,6 +48,10 @@ bool total_transmits_v(const FieldTableSettings& settings, const std::string& fi
                   file, format));
 }
 
+std::string total_note(bool transmitted_v) {
+  return fmt::format("total of both received polarisations, {} transmitted", transmitted_v ? "v" : "h");
+}
+
 bool fold_direction(double& theta_deg, double& phi_deg) {
   theta_deg = std::remainder(theta_deg, 360);
   const bool negative = theta_deg < 0;
@@ -58,6 +62,12 @@ bool fold_direction(double& theta_deg, double& phi_deg) {
   phi_deg = std::fmod(phi_deg, 360);
   if (phi_deg < 0) phi_deg += 360;
   return negative;
+}
+
+FieldValue level_value(double frequency_hz, double theta_deg, double phi_deg, double level_dbsm, int line) {
+  FieldValue value{frequency_hz, theta_deg, phi_deg, level_dbsm, {}, line};
+  fold_direction(value.theta_deg, value.phi_deg);
+  return value;
 }
 
 FieldValue field_value(Polarisation element, double frequency_hz, double theta_deg, double phi_deg, Complex component_m,

@@ -116,10 +116,14 @@ void require_elements(const FieldTableSettings& settings, const std::string& fil
 // Whether v is transmitted, for a file that holds totals alone. Throws InputError unless the settings want both
 // elements of one polarisation transmitted.
 bool total_transmits_v(const FieldTableSettings& settings, const std::string& file, const char* format);
+std::string total_note(bool transmitted_v);  // "total of both received polarisations, v transmitted"
 
 // Maps a direction to theta 0..180, phi 0..360; true if theta was below 0 or above 180, on the other half of the great
 // circle, where theta^ and phi^ both have the opposite sign.
 bool fold_direction(double& theta_deg, double& phi_deg);
+
+// A level at this direction of the file, without a phase.
+FieldValue level_value(double frequency_hz, double theta_deg, double phi_deg, double level_dbsm, int line);
 
 // A value at this direction of the file from the spherical component, theta^ or phi^, of the scattered field at 1 m
 // (V/m; sigma = 4 pi |E|^2) for a field of 1 V/m transmitted along theta^ or phi^. theta^ = -v and phi^ = h, so that

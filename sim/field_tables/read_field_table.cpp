@@ -8,32 +8,15 @@
 #include <cmath>
 
 #include "sim/core/process/error.h"
-#include "sim/core/text/words.h"
-#include "sim/field_tables/cst_curves.h"
-#include "sim/field_tables/cst_source.h"
-#include "sim/field_tables/cst_table.h"
-#include "sim/field_tables/export_name.h"
-#include "sim/field_tables/feko_table.h"
-#include "sim/field_tables/hfss_table.h"
-#include "sim/field_tables/own_table.h"
-#include "sim/field_tables/pyaedt_file.h"
-#include "sim/field_tables/rows/pandas_table.h"
-#include "sim/field_tables/text_columns.h"
+#include "sim/field_tables/column_tables.h"
+#include "sim/field_tables/cst_tables.h"
+#include "sim/field_tables/export_text.h"
+#include "sim/field_tables/far_fields.h"
+#include "sim/field_tables/hfss_exports.h"
+#include "sim/field_tables/pandas_table.h"
 
 namespace seaglint {
 namespace {
-
-bool has_cst_header(const TextSource& source) {
-  constexpr int kMaxLines = 20;
-  std::string_view rest = source.text();
-  for (int n = 0; n < kMaxLines && !rest.empty();) {
-    const std::string_view line = next_line(rest);
-    if (trimmed(line).empty() || is_comment(line)) continue;
-    ++n;
-    if (is_cst_header(line)) return true;
-  }
-  return false;
-}
 
 struct Reader {
   const char* name;
@@ -43,11 +26,9 @@ struct Reader {
 };
 
 constexpr std::array<Reader, 8> kReaders{{
-    {"a CST farfield source", "no first line '// CST Farfield Source File'",
-     [](const TextSource& source) { return is_cst_source(source.text()); }, read_cst_source},
-    {"a FEKO far field", "no first line '##File Type: Far field'",
-     [](const TextSource& source) { return is_feko_table(source.text()); }, read_feko_table},
-    {"a CST farfield table", "no line of names 'Theta [deg.] Phi [deg.] Abs(Theta)[...] ...'", has_cst_header,
+    {"a CST farfield source", "no first line '// CST Farfield Source File'", is_cst_source, read_cst_source},
+    {"a FEKO far field", "no first line '##File Type: Far field'", is_feko_table, read_feko_table},
+    {"a CST farfield table", "no line of names 'Theta [deg.] Phi [deg.] Abs(Theta)[...] ...'", is_cst_table,
      read_cst_table},
     {"CST curves", "no line of names '\"Frequency / GHz\" ...' above a rule", is_cst_curves, read_cst_curves},
     {"an HFSS table", "no columns IWavePhi, IWaveTheta and MonostaticRCS, nor BistaticRCS", is_hfss_table,

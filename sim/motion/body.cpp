@@ -11,8 +11,7 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
-#include "sim/core/text/named_file.h"
-#include "sim/motion/ship/long_waves.h"
+#include "sim/core/text/names.h"
 #include "sim/motion/ship/rao_files.h"
 
 namespace seaglint {

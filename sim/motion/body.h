@@ -11,7 +11,7 @@
 #include "sim/motion/float/float.h"
 #include "sim/motion/recorded/attitude_series.h"
 #include "sim/motion/ship/rao_table.h"
-#include "sim/motion/ship/ship_particulars.h"
+#include "sim/motion/ship/ship.h"
 #include "sim/motion/strip_theory/hull_sections.h"
 #include "sim/scenario/target_spec.h"
 

@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/core/numbers/periodogram.h"
+#include "sim/core/numbers/fourier.h"
 
 namespace seaglint {
 namespace {

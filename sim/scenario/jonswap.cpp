@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/core/numbers/quadrature.h"
+#include "sim/core/numbers/real_functions.h"
 #include "sim/core/numbers/reproducible_functions.h"
 
 namespace seaglint {

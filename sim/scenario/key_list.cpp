@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "sim/core/process/error.h"
-#include "sim/core/text/suggestion.h"
+#include "sim/core/text/names.h"
 #include "sim/scenario/fields.h"
 #include "sim/scenario/key_meanings.h"
 #include "sim/scenario/scenario.h"

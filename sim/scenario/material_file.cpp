@@ -6,11 +6,9 @@
 #include <algorithm>
 #include <system_error>
 
-#include "sim/core/process/data_folder.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
-#include "sim/core/text/named_file.h"
-#include "sim/core/text/suggestion.h"
+#include "sim/core/text/names.h"
 #include "sim/scenario/fields.h"
 #include "sim/scenario/files/error_list.h"
 #include "sim/scenario/files/scenario_document.h"

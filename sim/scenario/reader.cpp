@@ -12,9 +12,9 @@
 #include <string>
 
 #include "sim/core/process/error.h"
-#include "sim/core/text/number.h"
-#include "sim/core/text/shown.h"
-#include "sim/core/text/suggestion.h"
+#include "sim/core/process/printable.h"
+#include "sim/core/text/names.h"
+#include "sim/core/text/words.h"
 #include "sim/scenario/fields.h"
 #include "sim/scenario/files/document.h"
 #include "sim/scenario/files/error_list.h"

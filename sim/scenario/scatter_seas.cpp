@@ -11,7 +11,7 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/dispersion.h"
-#include "sim/core/text/named_file.h"
+#include "sim/core/text/names.h"
 #include "sim/scenario/cases.h"
 #include "sim/scenario/files/error_list.h"
 #include "sim/scenario/files/override.h"

@@ -118,7 +118,7 @@ struct PartMaterialSpec {
 };
 
 // How a mesh file becomes the mesh of a body in metres: p = scale R unit q + offset, q a point of the file
-// (sim/geometry/placement/mesh_placement.h).
+// (sim/geometry/placement/target_mesh.h).
 struct MeshPlacement {
   std::string unit = "m";  // of the mesh file: m, cm, mm, km, in, ft
   // Which axis of the file is forward and which is up: +x, -x, +y, -y, +z or -z, perpendicular to each other. Of glTF,

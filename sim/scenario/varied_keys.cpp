@@ -8,7 +8,7 @@
 #include <set>
 #include <utility>
 
-#include "sim/core/text/shown.h"
+#include "sim/core/process/printable.h"
 #include "sim/scenario/fields.h"
 
 namespace seaglint {

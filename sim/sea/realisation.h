@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Random realisation of a sea state: its wave components.
+// Random realisation of a sea state: its wave components, with the directions that the spreading of the energy
+// prescribes.
 
 #include <cstdint>
 
@@ -9,6 +10,15 @@
 #include "sim/sea/wave_field.h"
 
 namespace seaglint {
+
+// Exponent s of cos^2s, by omega over the peak frequency: that of the spec, or Mitsuyasu's s (f/fp)^5 below the peak
+// and s (f/fp)^-2.5 above (Mitsuyasu et al. 1975, in Goda's form).
+double spreading_exponent(const SpreadingSpec& spec, double omega_over_peak);
+
+// Quantile of the directional distribution: the angle from the mean direction below which, from -pi on, the fraction
+// `probability` in (0, 1) of the energy lies; error 1e-10 rad, bit-identical on all machines. For the wrapped normal,
+// the quantile of the normal distribution before wrapping.
+double spreading_quantile(const SpreadingSpec& spec, double probability, double omega_over_peak);
 
 // Components of wind sea and swell, in strata uniform in omega from the lowest frequency with energy to the cut-off.
 // Each component has a random frequency within its stratum (so that the series is not periodic), the energy of the

@@ -1,15 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Second-order interactions of all pairs of waves: any directions, any depth.
+// One plane wave of the sea, and the second-order interactions of all pairs of waves: any directions and depth, or in
+// closed form.
 
 #include <cstddef>
 #include <span>
 #include <vector>
 
-#include "sim/sea/wave_component.h"
+#include "sim/core/numbers/dispersion.h"
+#include "sim/core/numbers/linear.h"
 
 namespace seaglint {
+
+// a cos(w t - k d.x + phase), d the unit vector of its propagation direction.
+struct WaveComponent {
+  double omega = 0;       // rad/s
+  double amplitude = 0;   // m
+  double phase = 0;       // rad, at x = 0, t = 0
+  double wavenumber = 0;  // rad/m, by the dispersion relation at the depth
+  Vec2 direction{1, 0};   // of propagation, unit vector, in T
+};
 
 // Second-order part of the surface at one point and time.
 struct SecondOrder {
@@ -45,5 +56,25 @@ class PairInteractions {
   // B+ + B-, B+ - B-, P+ + P-, P+ - P- of all pairs, column by column.
   std::vector<double> elevation_even_, elevation_odd_, potential_even_, potential_odd_;
 };
+
+// Waves of one direction in deep water: the double sums reduce to running sums, exact in O(N).
+
+// Surface along the propagation direction xi.
+struct LongCrestedSurface {
+  double elevation_linear = 0;  // m
+  double elevation = 0;         // m
+  double slope = 0;             // d/d xi
+  double velocity = 0;          // m/s, along xi
+  double vertical_velocity = 0;
+  double acceleration = 0;  // m/s^2, along xi
+  double vertical_acceleration = 0;
+};
+
+// cosine, sine: of the phase angle of each component; the first `quadratic` components, ascending in omega, enter the
+// quadratic sums. The second function leaves velocity and acceleration at 0.
+LongCrestedSurface long_crested_kinematics(const WaveComponent* component, const double* cosine, const double* sine,
+                                           std::size_t count, std::size_t quadratic);
+LongCrestedSurface long_crested_elevation(const WaveComponent* component, const double* cosine, const double* sine,
+                                          std::size_t count, std::size_t quadratic);
 
 }  // namespace seaglint

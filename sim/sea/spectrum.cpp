@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/core/numbers/quadrature.h"
+#include "sim/core/numbers/real_functions.h"
 #include "sim/core/numbers/reproducible_functions.h"
 #include "sim/core/process/error.h"
 #include "sim/scenario/jonswap.h"

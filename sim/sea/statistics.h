@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Statistics of one realisation, and distributions of crest heights.
+// Statistics of one realisation and of many, and distributions of crest heights.
 
+#include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
+#include "sim/core/process/parallel.h"
 #include "sim/scenario/sea_spec.h"
 #include "sim/sea/wave_field.h"
 
@@ -50,5 +53,24 @@ struct ForristallCrests {
 };
 // For long-crested or directionally spread waves; deep water: ursell = 0.
 ForristallCrests forristall_crests(double significant_wave_height, double steepness, double ursell, bool long_crested);
+
+// Spectrum, moments and crest heights over many realisations.
+struct SeaEnsemble {
+  int realisations = 0;
+  double significant_wave_height_m = 0;  // 4 standard deviations of the elevation
+  double skewness = 0;
+  double kurtosis = 0;  // 3 for a Gaussian sea
+  double zero_crossing_period_s = 0;
+  std::vector<double> crests;           // m, ascending
+  std::vector<double> omega;            // rad/s
+  std::vector<double> prescribed;       // density of the prescribed spectrum, m^2 s/rad
+  std::vector<double> realised;         // of the elevation series, averaged over bands and realisations
+  std::vector<double> realised_linear;  // of the linear part alone
+};
+
+// Realisations 0 to count - 1 of a scenario's sea state `state_index`, elevation series of `duration_s` at one point.
+// The result does not depend on the number of threads.
+SeaEnsemble make_ensemble(const SeaState& state, std::size_t state_index, std::uint64_t seed, int count,
+                          double duration_s, double step_s, int threads, const StopFlag& stop);
 
 }  // namespace seaglint

@@ -11,7 +11,7 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/reproducible_functions.h"
 #include "sim/core/process/error.h"
-#include "sim/sea/long_crested.h"
+#include "sim/sea/second_order.h"
 
 namespace seaglint {
 

@@ -11,10 +11,9 @@
 #include <vector>
 
 #include "sim/core/numbers/linear.h"
-#include "sim/core/numbers/unit_phasors.h"
+#include "sim/core/numbers/reproducible_functions.h"
 #include "sim/scenario/sea_spec.h"
 #include "sim/sea/second_order.h"
-#include "sim/sea/wave_component.h"
 
 namespace seaglint {
 

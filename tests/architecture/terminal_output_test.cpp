@@ -19,8 +19,7 @@ using testing::IsEmpty;
 
 // The functions themselves, and the progress bar, whose own text moves the cursor.
 bool may_print(const std::string& file) {
-  static const std::set<std::string> files{"sim/core/process/standard_error.cpp",
-                                           "sim/core/process/standard_output.cpp", "sim/core/process/progress.cpp"};
+  static const std::set<std::string> files{"sim/core/process/printable.cpp", "sim/core/process/progress.cpp"};
   return files.contains(file) || file.starts_with("tests/");
 }
 

@@ -7,8 +7,7 @@
 #include <functional>
 
 #include "classify/features/scattering_centres.h"
-#include "radar/rvmap/map_weights.h"
-#include "radar/rvmap/scr.h"
+#include "radar/rvmap/rv_map.h"
 #include "sim/canonical/point_response.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/random.h"

@@ -7,7 +7,7 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/file.h"
-#include "sim/field_export/write_feko.h"
+#include "sim/field_export/field_export.h"
 #include "sim/field_tables/read_field_table.h"
 #include "tests/temporary_folder.h"
 #include "tools/compare/comparison.h"

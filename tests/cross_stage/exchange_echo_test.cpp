@@ -12,7 +12,7 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/mesh/mesh_builder.h"
-#include "sim/geometry/shapes/solids.h"
+#include "sim/geometry/shapes/generators.h"
 #include "sim/scattering/scatterer/prepare_target.h"
 #include "tests/sim/scattering/solve_calls.h"
 #include "tests/temporary_folder.h"

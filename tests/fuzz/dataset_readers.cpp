@@ -5,7 +5,7 @@
 
 #include "classify/dataset/cards/croissant.h"
 #include "classify/dataset/directory/croissant_audit.h"
-#include "classify/dataset/directory/input_list.h"
+#include "classify/dataset/directory/dataset_reader.h"
 #include "classify/dataset/format/manifest.h"
 #include "classify/dataset/format/npz.h"
 #include "classify/dataset/format/shard.h"

@@ -3,7 +3,7 @@
 
 #include "tests/fuzz/readers.h"
 #include "tests/fuzz/refusal.h"
-#include "tools/evaluate/echo_file.h"
+#include "tools/evaluate/classify.h"
 
 namespace seaglint {
 

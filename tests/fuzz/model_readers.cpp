@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "classify/cnn/network.h"
-#include "classify/model/booster.h"
+#include "classify/model/classifiers.h"
 #include "classify/model/model_card.h"
 #include "sim/core/process/file.h"
 #include "tests/fuzz/readers.h"

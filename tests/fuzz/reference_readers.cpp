@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 
+#include "sim/field_tables/pandas_table.h"
 #include "sim/field_tables/read_field_table.h"
-#include "sim/field_tables/rows/pandas_table.h"
 #include "tests/fuzz/readers.h"
 #include "tests/fuzz/refusal.h"
 

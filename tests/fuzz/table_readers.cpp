@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "sim/core/text/number.h"
+#include "sim/core/text/words.h"
 #include "sim/motion/recorded/attitude_series.h"
 #include "sim/motion/ship/rao_files.h"
 #include "sim/motion/strip_theory/hull_sections.h"

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "classify/dataset/format/checksum.h"
+#include "classify/dataset/format/manifest.h"
 #include "tests/pipeline/program.h"
 
 namespace seaglint {

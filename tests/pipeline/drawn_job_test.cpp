@@ -17,10 +17,10 @@
 #include "sim/core/process/file.h"
 #include "sim/scenario/key_list.h"
 #include "tests/temporary_folder.h"
-#include "tools/benchmark/benchmark.h"
 #include "tools/evaluate/evaluate.h"
 #include "tools/report/report.h"
-#include "tools/report/run.h"
+#include "tools/run/benchmark.h"
+#include "tools/run/run.h"
 
 namespace seaglint {
 namespace {

@@ -6,10 +6,8 @@
 
 #include "sim/core/process/error.h"
 #include "tools/bindings/bindings.h"
-#include "tools/bindings/interruptible.h"
-#include "tools/bindings/mesh_request.h"
 #include "tools/compare/comparison_text.h"
-#include "tools/options/reference_arguments.h"
+#include "tools/options/rcs_arguments.h"
 
 namespace py = pybind11;
 

@@ -3,7 +3,6 @@
 #include <pybind11/stl.h>
 
 #include "tools/bindings/bindings.h"
-#include "tools/bindings/interruptible.h"
 #include "tools/evaluate/evaluate.h"
 
 namespace py = pybind11;

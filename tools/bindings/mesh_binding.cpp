@@ -5,10 +5,10 @@
 
 #include <memory>
 
-#include "sim/core/text/named_file.h"
+#include "sim/core/text/names.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/mesh/triangle_mesh.h"
-#include "sim/geometry/placement/mesh_placement.h"
+#include "sim/geometry/placement/target_mesh.h"
 #include "tools/bindings/bindings.h"
 #include "tools/rcs/rcs_request.h"
 

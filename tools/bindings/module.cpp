@@ -2,8 +2,8 @@
 #include <pybind11/pybind11.h>
 
 #include "seaglint_version.h"
-#include "sim/core/process/data_folder.h"
 #include "sim/core/process/error.h"
+#include "sim/core/text/names.h"
 #include "tools/bindings/bindings.h"
 
 namespace py = pybind11;

@@ -5,11 +5,8 @@
 
 #include <memory>
 
-#include "tools/bindings/arrays.h"
 #include "tools/bindings/bindings.h"
-#include "tools/bindings/interruptible.h"
-#include "tools/bindings/mesh_request.h"
-#include "tools/rcs/like_program.h"
+#include "tools/rcs/rcs_request.h"
 #include "tools/rcs/rcs_uncertainty.h"
 #include "tools/rcs/rcs_views.h"
 

@@ -6,11 +6,9 @@
 #include <algorithm>
 #include <memory>
 
-#include "classify/dataset/format/drawn_columns.h"
+#include "classify/dataset/format/layout.h"
 #include "sim/core/process/error.h"
-#include "tools/bindings/arrays.h"
 #include "tools/bindings/bindings.h"
-#include "tools/bindings/interruptible.h"
 #include "tools/pipeline/pipeline.h"
 
 namespace py = pybind11;

@@ -2,7 +2,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include "sim/core/text/named_file.h"
+#include "sim/core/text/names.h"
 #include "sim/scenario/sample_plan.h"
 #include "sim/scenario/scenario.h"
 #include "sim/scenario/writer.h"

@@ -11,10 +11,8 @@
 #include "sim/motion/statistics.h"
 #include "sim/sea/realisation.h"
 #include "sim/sea/statistics.h"
-#include "tools/bindings/arrays.h"
 #include "tools/bindings/bindings.h"
-#include "tools/bindings/interruptible.h"
-#include "tools/options/series_times.h"
+#include "tools/options/command_options.h"
 #include "tools/pipeline/moving_bodies.h"
 #include "tools/pipeline/warnings.h"
 

@@ -5,7 +5,6 @@
 #include "classify/dataset/directory/dataset_writer.h"
 #include "sim/scenario/scenario.h"
 #include "tools/bindings/bindings.h"
-#include "tools/bindings/interruptible.h"
 #include "tools/pipeline/train.h"
 #include "tools/pipeline/warnings.h"
 

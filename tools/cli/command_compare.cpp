@@ -10,19 +10,14 @@
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/core/process/printable.h"
-#include "sim/core/process/standard_error.h"
-#include "sim/core/process/standard_output.h"
-#include "tools/cli/arguments.h"
-#include "tools/cli/command.h"
-#include "tools/compare/comparison_page.h"
+#include "tools/cli/command_line.h"
 #include "tools/compare/comparison_text.h"
-#include "tools/compare/range_profiles.h"
+#include "tools/compare/curve_features.h"
 #include "tools/figure/figure.h"
 #include "tools/options/rcs_arguments.h"
-#include "tools/page/plot_json.h"
-#include "tools/pipeline/output_files.h"
+#include "tools/page/html.h"
 #include "tools/pipeline/warnings.h"
-#include "tools/rcs/sweep_files.h"
+#include "tools/rcs/rcs_table.h"
 
 namespace seaglint {
 namespace {

@@ -3,21 +3,23 @@
 
 #include <fmt/format.h>
 #include <signal.h>
-
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <set>
 #include <string>
+#include <system_error>
 
+#include "classify/dataset/directory/dataset_writer.h"
+#include "classify/model/model_card.h"
 #include "seaglint_version.h"
 #include "sim/core/process/error.h"
+#include "sim/core/process/file.h"
 #include "sim/core/process/printable.h"
-#include "sim/core/process/standard_error.h"
-#include "sim/core/process/standard_output.h"
-#include "tools/cli/command.h"
+#include "sim/core/text/names.h"
 
 namespace seaglint {
 
@@ -126,6 +128,60 @@ int run_command_line(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     return fail(1, "out of memory");
   }
+}
+
+std::filesystem::path find_data_set(const std::filesystem::path& directory) {
+  const bool below = !exists(directory / kManifestFile) && exists(directory / "data" / kScenarioFile);
+  return below ? directory / "data" : directory;
+}
+
+std::filesystem::path find_model(const std::filesystem::path& directory) {
+  const bool below = !exists(directory / kModelFile) && exists(directory / "model" / kModelFile);
+  return below ? directory / "model" : directory;
+}
+
+void add_threads_option(CommandOptions& command, CommandContext& context) {
+  command.add_option("--threads", context.threads, "Number of threads; 0 = all processors").integer_within(0, 1024);
+}
+
+void add_scenario_arguments(CommandOptions& command, ScenarioArguments& arguments) {
+  command.add_option("SCENARIO", arguments.file, "Scenario file (YAML)").required();
+  command.add_option("--set", arguments.set, "Replace a value of the scenario, e.g. --set radar.pulses=64 (repeatable)")
+      .repeatable("KEY.PATH=VALUE");
+}
+
+std::vector<Override> read_overrides(const std::vector<std::string>& set) {
+  std::vector<Override> overrides;
+  for (const std::string& text : set) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos) throw InputError(fmt::format("--set {}: must be key.path=value", text));
+    overrides.push_back({text.substr(0, equals), text.substr(equals + 1)});
+  }
+  return overrides;
+}
+
+Scenario ScenarioArguments::read() const { return read_scenario(find_input(file, "scenarios"), read_overrides(set)); }
+
+void require_outputs(const std::vector<std::string>& outputs, const std::vector<std::filesystem::path>& inputs) {
+  const auto place = [](const std::filesystem::path& file) {
+    std::error_code error;
+    const std::filesystem::path found = std::filesystem::weakly_canonical(file, error);
+    return error ? file : found;
+  };
+  std::set<std::filesystem::path> read, written;
+  for (const std::filesystem::path& file : inputs) read.insert(place(file));
+  for (const std::string& file : outputs) {
+    if (file.empty()) continue;
+    if (read.contains(place(file))) throw InputError(fmt::format("{}: is read here, and would be written over", file));
+    if (!written.insert(place(file)).second) throw InputError(fmt::format("{}: would be written twice", file));
+    require_writable(file);
+  }
+}
+
+std::vector<std::filesystem::path> files_of(const Scenario& scenario) {
+  std::vector<std::filesystem::path> files;
+  for (const InputFile& named : input_files(scenario)) files.push_back(named.path);
+  return files;
 }
 
 }  // namespace seaglint

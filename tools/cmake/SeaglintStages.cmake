@@ -38,7 +38,7 @@ function(add_stage folder)
   list(TRANSFORM patterns APPEND "/*.h" OUTPUT_VARIABLE header_patterns)
   list(TRANSFORM patterns APPEND "/*.cpp")
   file(GLOB sources CONFIGURE_DEPENDS ${patterns})
-  list(FILTER sources EXCLUDE REGEX "/(tools/main|classify/cnn/torch_layers)\\.cpp$")  # of other targets
+  list(FILTER sources EXCLUDE REGEX "/(tools/main|classify/cnn/layers)\\.cpp$")  # of other targets
   file(GLOB headers CONFIGURE_DEPENDS ${header_patterns})
   get_property(upstream GLOBAL PROPERTY SEAGLINT_STAGE_TARGETS)
 

@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/core/numbers/principal_axes.h"
+#include "sim/core/numbers/rotation.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/parallel.h"
 

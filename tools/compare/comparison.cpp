@@ -20,16 +20,14 @@
 #include "sim/core/numbers/quantile.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/parallel.h"
-#include "tools/compare/cut_angles.h"
+#include "tools/compare/cross_check.h"
+#include "tools/compare/paired_cut.h"
 #include "tools/compare/suggestions.h"
-#include "tools/compare/table_sweeps.h"
-#include "tools/compare/view_groups.h"
-#include "tools/cross_check/contribution_groups.h"
-#include "tools/rcs/paired_cut.h"
+#include "tools/compare/view_grids.h"
 #include "tools/rcs/rcs_request.h"
+#include "tools/rcs/rcs_table.h"
 #include "tools/rcs/rcs_target.h"
 #include "tools/rcs/rcs_views.h"
-#include "tools/rcs/sweep_files.h"
 
 namespace seaglint {
 namespace {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// A comparison as a table, as JSON and as CSV.
+// A comparison as a table, as JSON, as CSV and as a self-contained page.
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -10,6 +11,8 @@
 #include "tools/compare/comparison.h"
 
 namespace seaglint {
+
+// A comparison as a table, as JSON and as CSV.
 
 // "seaglint solved with flat facets, no edge diffraction, ...", empty for tables.
 std::string solver_text(const std::vector<ExportComparison>& comparisons);
@@ -30,5 +33,20 @@ nlohmann::ordered_json comparison_json(const std::vector<ExportComparison>& comp
 // One row per pair: file, line, polarisation, frequency, direction, both levels, their difference, and both amplitudes
 // where they have phases (the export's in the fitted phase). A last column known_dbsm where any target is recognised.
 std::string comparison_csv(const std::vector<ExportComparison>& comparisons, int threads);
+
+// A comparison as a self-contained page.
+
+struct ComparisonFigure {
+  std::filesystem::path file;  // empty: none
+  std::string plot;            // the same for the page's script (plot_json.h); empty: the picture alone
+};
+
+// The figures that exist are embedded: curves with their differences, range profiles.
+struct ComparisonFigures {
+  ComparisonFigure curves, profiles;
+};
+
+std::string comparison_page(const std::vector<ExportComparison>& comparisons, const ComparisonSettings& settings,
+                            const ComparisonFigures& figures);
 
 }  // namespace seaglint

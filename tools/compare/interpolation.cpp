@@ -15,7 +15,7 @@
 #include "sim/core/numbers/dbsm.h"
 #include "sim/core/process/error.h"
 #include "sim/scattering/observation/observation.h"
-#include "tools/compare/cut_angles.h"
+#include "tools/compare/view_grids.h"
 
 namespace seaglint {
 namespace {

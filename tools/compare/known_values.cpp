@@ -11,7 +11,7 @@
 #include "sim/canonical/canonical_echo.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/dbsm.h"
-#include "tools/compare/range_profiles.h"
+#include "tools/compare/curve_features.h"
 #include "tools/rcs/rcs_views.h"
 
 namespace seaglint {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "sim/canonical/canonical_body.h"
-#include "tools/rcs/paired_cut.h"
+#include "tools/compare/paired_cut.h"
 
 namespace seaglint {
 

@@ -5,15 +5,20 @@
 #include <fmt/format.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <cmath>
+#include <cstddef>
 #include <cstdlib>
 #include <cstring>
+#include <mutex>
 #include <sstream>
 #include <string_view>
 #include <thread>
@@ -21,13 +26,116 @@
 
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
-#include "sim/core/process/memory_file.h"
-#include "tools/figure/deferred_signals.h"
 
 namespace seaglint {
+
+namespace {
+
+constexpr std::array kHeld{SIGINT, SIGTERM};
+
+// Signal handlers can access static storage only.
+std::atomic<int> noted_signal{0};
+static_assert(std::atomic<int>::is_always_lock_free);
+
+void note(int signal) { noted_signal = signal; }
+
+// Number of DeferredSignals objects, and the previous handlers.
+struct Holding {
+  std::mutex mutex;
+  int holders = 0;
+  std::array<struct sigaction, kHeld.size()> before{};
+};
+
+Holding& holding() {
+  static Holding all;
+  return all;
+}
+
+}  // namespace
+
+DeferredSignals::DeferredSignals() {
+  Holding& all = holding();
+  const std::lock_guard lock(all.mutex);
+  if (all.holders++ > 0) return;
+  noted_signal = 0;
+  struct sigaction action {};
+  action.sa_handler = note;
+  action.sa_flags = SA_RESTART;
+  for (std::size_t i = 0; i < kHeld.size(); ++i) {
+    sigaction(kHeld[i], nullptr, &all.before[i]);
+    if (all.before[i].sa_handler != SIG_IGN) sigaction(kHeld[i], &action, nullptr);
+  }
+}
+
+DeferredSignals::~DeferredSignals() {
+  Holding& all = holding();
+  const std::lock_guard lock(all.mutex);
+  if (--all.holders > 0) return;
+  for (std::size_t i = 0; i < kHeld.size(); ++i) sigaction(kHeld[i], &all.before[i], nullptr);
+  if (noted_signal != 0) raise(noted_signal);
+}
+
+bool DeferredSignals::pending() { return noted_signal != 0; }
+
 namespace {
 
 namespace fs = std::filesystem;
+
+// A file in memory without a name, for input and output of child processes.
+class MemoryFile {
+ public:
+  explicit MemoryFile(std::string_view content = {});  // throws WorkError with the system error
+  ~MemoryFile();
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+
+  // At the beginning of the file; closed in child processes unless it is duplicated for them.
+  int descriptor() const { return descriptor_; }
+
+  // The whole content; throws WorkError.
+  std::string content() const;
+
+ private:
+  int descriptor_;
+};
+
+[[noreturn]] void fail_in_memory() { throw WorkError(fmt::format("file in memory: {}", std::strerror(errno))); }
+
+// Calls transfer(done), which returns a number of bytes as read() does, until all are transferred.
+template <class Transfer>
+void transfer_all(std::size_t bytes, Transfer transfer) {
+  for (std::size_t done = 0; done < bytes;) {
+    const ssize_t count = transfer(done);
+    if (count < 0 && errno == EINTR) continue;
+    if (count == 0) errno = EIO;
+    if (count <= 0) fail_in_memory();
+    done += static_cast<std::size_t>(count);
+  }
+}
+
+MemoryFile::MemoryFile(std::string_view content) : descriptor_(::memfd_create("seaglint", MFD_CLOEXEC)) {
+  if (descriptor_ < 0) fail_in_memory();
+  try {
+    transfer_all(content.size(), [&](std::size_t done) {
+      return ::pwrite(descriptor_, content.data() + done, content.size() - done, static_cast<off_t>(done));
+    });
+  } catch (...) {
+    ::close(descriptor_);
+    throw;
+  }
+}
+
+MemoryFile::~MemoryFile() { ::close(descriptor_); }
+
+std::string MemoryFile::content() const {
+  struct stat status {};
+  if (::fstat(descriptor_, &status) != 0) fail_in_memory();
+  std::string bytes(static_cast<std::size_t>(status.st_size), '\0');
+  transfer_all(bytes.size(), [&](std::size_t done) {
+    return ::pread(descriptor_, bytes.data() + done, bytes.size() - done, static_cast<off_t>(done));
+  });
+  return bytes;
+}
 
 // Nine samples of matplotlib's viridis (Smith and van der Walt, CC0).
 constexpr const char* kViridis =
@@ -285,6 +393,26 @@ void write_figure(const std::string& title, std::span<const LinePlot> plots, int
     index += plot.series.size();
   }
   draw(file, size, "", data, commands + "unset multiplot\n");
+}
+
+Heatmap rv_figure(const RvMap& map, std::span<const ScatteringCentre> centres, const std::string& title,
+                  double floor_db) {
+  double peak = 0;
+  for (const Complex& value : map.values) peak = std::max(peak, std::abs(value));
+  Heatmap figure;
+  figure.title = title;
+  figure.x.label = "range against the reference point (m), positive = farther";
+  figure.y.label = "velocity (m/s), positive = receding";
+  figure.colour = {"|RV| against the peak (dB)", AxisRange{floor_db, 0}, false};
+  figure.x_cells = map.range_m;
+  figure.y_cells = map.velocity_mps;
+  for (const Complex& value : map.values) {
+    const double ratio = peak > 0 ? std::abs(value) / peak : 0;
+    figure.values.push_back(ratio > 0 ? std::max(floor_db, 20 * std::log10(ratio)) : floor_db);
+  }
+  for (const ScatteringCentre& centre : centres) figure.markers.push_back({centre.range_m, centre.velocity_mps});
+  figure.marker_name = "scattering centres";
+  return figure;
 }
 
 }  // namespace seaglint

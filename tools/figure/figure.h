@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Figures by gnuplot: heat maps, lines and scatters to .png or .svg, chosen by the file's name.
+// Figures by gnuplot: heat maps, lines and scatters to .png or .svg, chosen by the file's name; the figure of a range-
+// velocity map.
 
 #include <array>
 #include <filesystem>
@@ -11,7 +12,27 @@
 #include <utility>
 #include <vector>
 
+#include "classify/features/scattering_centres.h"
+#include "radar/rvmap/rv_map.h"
+
 namespace seaglint {
+
+// Defers Ctrl-C while a child process or temporary files exist, until they have ended or are removed.
+
+// While an object of this type exists, on any thread, SIGINT and SIGTERM are only recorded. The destructor of the last
+// one restores the previous handlers and raises a recorded signal again. A signal that was ignored stays ignored.
+class DeferredSignals {
+ public:
+  DeferredSignals();
+  ~DeferredSignals();
+  DeferredSignals(const DeferredSignals&) = delete;
+  DeferredSignals& operator=(const DeferredSignals&) = delete;
+
+  // True if a signal was recorded since the oldest existing object was constructed: stop, clean up, throw Interrupted.
+  static bool pending();
+};
+
+// Figures by gnuplot: heat maps, lines and scatters to .png or .svg, chosen by the file's name.
 
 using AxisRange = std::pair<double, double>;  // low, high
 
@@ -84,5 +105,11 @@ void write_figure(const std::string& title, std::span<const LinePlot> plots, int
 inline void write_figure(const std::string& title, const PlotPanels& panels, const std::filesystem::path& file) {
   write_figure(title, panels.plots, panels.columns, file, panels.size);
 }
+
+// Figure of a range-velocity map.
+
+// |RV| in dB relative to its peak, down to floor_db (< 0), with the scattering centres as circles.
+Heatmap rv_figure(const RvMap& map, std::span<const ScatteringCentre> centres, const std::string& title,
+                  double floor_db = -40);
 
 }  // namespace seaglint

@@ -12,7 +12,7 @@
 #include "sim/core/numbers/dispersion.h"
 #include "sim/motion/ship/rao_files.h"
 #include "sim/motion/ship/rao_table.h"
-#include "sim/motion/ship/ship_response.h"
+#include "sim/motion/ship/ship.h"
 #include "sim/motion/statistics.h"
 #include "tools/figure/figure.h"
 

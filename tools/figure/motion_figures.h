@@ -10,7 +10,7 @@
 #include "sim/geometry/mesh/triangle_mesh.h"
 #include "sim/motion/kinematics/trajectory.h"
 #include "sim/motion/ship/rao_files.h"
-#include "sim/motion/ship/ship_particulars.h"
+#include "sim/motion/ship/ship.h"
 #include "sim/sea/wave_field.h"
 
 namespace seaglint {

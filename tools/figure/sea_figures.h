@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <string>
 
-#include "sim/sea/ensemble.h"
 #include "sim/sea/statistics.h"
 #include "sim/sea/wave_field.h"
 

@@ -19,6 +19,9 @@ class Option;
 
 namespace seaglint {
 
+// The commands of a program with their options and positional arguments: declaration, help text, parsing, error texts.
+// Only command_options.cpp includes CLI11, whose templates cost several seconds per source.
+
 // One option or positional argument of a command. Every function returns the option, so that calls chain; a value
 // that violates a restriction is refused with the option's name.
 class CommandOption {
@@ -95,5 +98,14 @@ class ProgramOptions : public CommandOptions {
  private:
   std::unique_ptr<CLI::App> program_;
 };
+
+// Times of a command that writes a time series.
+
+// Adds --duration-s and --step-s; the present values are the defaults.
+void add_time_options(CommandOptions& command, double& duration_s, double& step_s);
+
+// Number of times 0, step, ... up to the duration, including the duration when it is within 1e-9 of a step. Throws
+// InputError beyond ten million.
+std::size_t uniform_time_count(double duration_s, double step_s);
 
 }  // namespace seaglint

@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Building blocks of a self-contained HTML page.
+// Self-contained HTML pages: their building blocks, and figures as JSON that page.js draws in place of their pictures.
 
+#include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "tools/figure/figure.h"
+
 namespace seaglint {
+
+// Building blocks of a self-contained HTML page.
 
 std::string escape_html(std::string_view text);
 std::string base64(std::string_view bytes);  // RFC 4648, section 4
@@ -34,5 +40,19 @@ std::string_view page_script();       // page.js: unpacks plotly, draws the plot
 std::string_view report_script();     // report.js: maps and features of a report
 std::string_view hot_spots_script();  // hot_spots.js: targets of a report
 std::string_view plotly_gzip();       // plotly.js (MIT licence) of Debian's python3-plotly, minified, gzip in Base64
+
+// Figures as JSON, which page.js of an HTML page draws in place of their pictures: with readouts, zoom and a legend
+// that shows and hides series.
+
+// {"columns", "panels": [{"title", "x": {"label", "range", "log"}, "y", "equal", "series": [{"name", "style", "x", "y",
+// "low", "high"}]}]}: numbers to six digits, null where a value is not finite, no `<`.
+std::string plot_json(std::span<const LinePlot> plots, int columns);
+std::string plot_json(const LinePlot& plot);
+
+// Bytes compressed by zlib (RFC 1950), in Base64: unpacked by `inflate` of page.js.
+std::string packed(std::span<const std::uint8_t> bytes);
+
+// Single-precision numbers, little-endian, packed; `digits` significant binary digits are kept, 1 to 24.
+std::string packed_floats(std::span<const double> values, int digits = 24);
 
 }  // namespace seaglint

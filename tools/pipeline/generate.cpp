@@ -2,20 +2,24 @@
 #include "tools/pipeline/generate.h"
 
 #include <fmt/format.h>
-
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <mutex>
+#include <type_traits>
 #include <vector>
 
 #include "classify/dataset/directory/dataset_writer.h"
+#include "classify/dataset/format/layout.h"
 #include "seaglint_version.h"
-#include "sim/core/process/address_space.h"
 #include "sim/core/process/error.h"
+#include "sim/core/process/out_of_memory.h"
+#include "sim/core/process/printable.h"
 #include "sim/core/process/progress.h"
-#include "tools/pipeline/constant_keys.h"
-#include "tools/pipeline/map_coverage.h"
-#include "tools/pipeline/motion_summary.h"
+#include "sim/scenario/writer.h"
+#include "tools/pipeline/moving_bodies.h"
+#include "tools/pipeline/scenario_check.h"
 #include "tools/pipeline/warnings.h"
 
 namespace seaglint {
@@ -115,6 +119,147 @@ GenerateResult generate_dataset(const Pipeline& pipeline, const std::filesystem:
   }
   result.missing = missing.size();
   return result;
+}
+
+namespace {
+
+// The scenario with one value for everything that echoes do not depend on.
+std::string echo_yaml(Scenario scenario) {
+  std::erase_if(scenario.variations,
+                [](const Variation& variation) { return variation.key_path.starts_with("clutter."); });
+  scenario.name = "echoes";
+  scenario.clutter = {};
+  scenario.map = {};
+  scenario.features = {};
+  scenario.learning = {};
+  const DatasetSpec standard;
+  scenario.dataset.train_fraction = standard.train_fraction;
+  scenario.dataset.complex_maps = scenario.dataset.echoes = false;
+  scenario.dataset.maps_per_shard = standard.maps_per_shard;
+  return effective_yaml(scenario);
+}
+
+}  // namespace
+
+StoredEchoes::StoredEchoes(const DatasetReader& reader) : reader_(reader) {
+  const auto first = shards_.get(0, [&] { return reader_.shard(0); });
+  if (first->samples.front().echo.empty()) {
+    throw InputError(fmt::format("{}: has no echoes; make it with dataset.echoes: true", reader.directory().string()));
+  }
+}
+
+IntervalResult StoredEchoes::response(std::size_t sample, const PulseTrain& train) const {
+  const std::vector<ManifestShard>& files = reader_.manifest().shards;
+  const auto after = std::find_if(files.begin(), files.end(),
+                                  [&](const ManifestShard& file) { return sample < file.first_sample + file.samples; });
+  const auto shard = shards_.get(static_cast<std::size_t>(after - files.begin()), [&] {
+    const std::lock_guard lock(hdf5_mutex());
+    return reader_.shard(static_cast<std::size_t>(after - files.begin()));
+  });
+  const Sample& stored = shard->samples[sample - after->first_sample];
+  IntervalResult response;
+  response.response.pulses = static_cast<int>(train.pulses());
+  response.response.frequencies_per_pulse = static_cast<int>(train.frequencies());
+  const std::size_t values = train.pulses() * train.frequencies();
+  if (stored.echo.size() != 2 * values) {
+    throw InputError(fmt::format("{}: sample {}: the echo has {} values, its pulses {}",
+                                 (reader_.directory() / after->file).string(), sample, stored.echo.size() / 2, values));
+  }
+  for (std::size_t i = 0; i < values; ++i)
+    response.response.values.emplace_back(stored.echo[2 * i], stored.echo[2 * i + 1]);
+  response.traces = static_cast<int>(stored.record.aspect_traces);
+  return response;
+}
+
+void require_same_echoes(const Pipeline& pipeline, const Scenario& stored) {
+  const std::string there = echo_yaml(stored), here = echo_yaml(pipeline.scenario());
+  if (there != here) {
+    throw InputError(fmt::format(
+        "--set: only clutter, map, features and learning can be set, the stored echoes depend on the rest: {}",
+        first_difference(there, here)));
+  }
+  const double before_m = range_window_m(stored, SamplePlan(stored), pipeline.targets());
+  if (before_m != pipeline.window_m()) {
+    throw InputError(
+        fmt::format("map.range_span_m: the stored echoes are those of a range window of {:.6g} m, here {:.6g} m",
+                    before_m, pipeline.window_m()));
+  }
+}
+
+namespace {
+
+// Tolerance for another kind of processor, which may round transforms differently: fraction of the map's peak and of a
+// measured column.
+constexpr double kOtherProcessor = 1e-5;
+
+bool agree(double a, double b, double tolerance) {
+  return a == b || (std::isnan(a) && std::isnan(b)) ||
+         std::abs(a - b) <= tolerance * std::max(std::abs(a), std::abs(b));
+}
+
+// Columns of a regenerated row that differ from the stored ones.
+std::string different_columns(const SampleRecord& stored, const SampleRecord& again, double tolerance) {
+  std::string names;
+  for (const SampleColumn& column : sample_columns()) {
+    const bool same = std::visit(
+        [&](auto member) {
+          const auto &a = stored.*member, &b = again.*member;
+          if constexpr (std::is_same_v<std::decay_t<decltype(a)>, double>) {
+            return agree(a, b, tolerance);
+          } else {
+            return a == b;
+          }
+        },
+        column.member);
+    if (!same) names += (names.empty() ? "" : ", ") + std::string(column.name);
+  }
+  if (!same_drawn(stored, again)) names += (names.empty() ? "" : ", ") + std::string("drawn values");
+  return names;
+}
+
+// Largest difference of two maps; infinite when their sizes differ or one contains NaN.
+double largest_difference(const std::vector<float>& a, const std::vector<float>& b) {
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  if (a.size() != b.size()) return kInfinite;
+  double largest = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const double difference = std::abs(static_cast<double>(a[i]) - b[i]);
+    if (std::isnan(difference)) return kInfinite;
+    largest = std::max(largest, difference);
+  }
+  return largest;
+}
+
+}  // namespace
+
+StoredSample stored_sample(const DatasetReader& reader, std::size_t number) {
+  const std::vector<ManifestShard>& shards = reader.manifest().shards;
+  const auto after = std::find_if(shards.begin(), shards.end(),
+                                  [&](const ManifestShard& s) { return number < s.first_sample + s.samples; });
+  Shard shard = reader.shard(static_cast<std::size_t>(after - shards.begin()));
+  return {std::move(shard.samples[number - after->first_sample]), std::move(shard.axes), std::move(shard.origin)};
+}
+
+double reproduction_tolerance(const Provenance& origin) {
+  return origin == Provenance{kVersion, processor_kind()} ? 0 : kOtherProcessor;
+}
+
+std::vector<std::string> differences(const Sample& stored, const Sample& again, double tolerance) {
+  std::vector<std::string> found;
+  const auto compare = [&](const char* name, const std::vector<float>& a, const std::vector<float>& b) {
+    const double largest = largest_difference(a, b);
+    if (!(largest <= tolerance * stored.record.peak_m))
+      found.push_back(fmt::format("its {} differs by up to {:.3g} of its peak", name, largest / stored.record.peak_m));
+  };
+  compare("map", stored.magnitude, again.magnitude);
+  if (!stored.complex_values.empty() && !again.complex_values.empty())
+    compare("complex map", stored.complex_values, again.complex_values);
+  if (!stored.echo.empty() && !again.echo.empty() && tolerance == 0 && stored.echo != again.echo)
+    found.emplace_back("its echo differs");
+  if (stored.hop_code != again.hop_code) found.emplace_back("its hop code differs");
+  if (const std::string columns = different_columns(stored.record, again.record, tolerance); !columns.empty())
+    found.push_back("other " + columns);
+  return found;
 }
 
 }  // namespace seaglint

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "classify/dataset/directory/planned_record.h"
-#include "classify/features/restored_map.h"
+#include "classify/dataset/directory/dataset_writer.h"
+#include "classify/features/scattering_centres.h"
 #include "sim/canonical/point_response.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"

@@ -13,7 +13,7 @@
 #include "classify/features/feature_vector.h"
 #include "classify/features/scattering_centres.h"
 #include "radar/echo/echo.h"
-#include "radar/rvmap/scr.h"
+#include "radar/rvmap/rv_map.h"
 #include "radar/waveform/pulse_train.h"
 #include "sim/core/process/parallel.h"
 #include "sim/core/process/shared_results.h"

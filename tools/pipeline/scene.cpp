@@ -12,8 +12,7 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
-#include "sim/geometry/placement/mesh_placement.h"
-#include "sim/motion/simulate.h"
+#include "sim/geometry/placement/target_mesh.h"
 #include "sim/motion/target_motion.h"
 #include "sim/scattering/observation/observation.h"
 #include "sim/sea/realisation.h"

@@ -10,7 +10,7 @@
 #include "sim/scenario/sample_plan.h"
 #include "sim/scenario/scenario.h"
 #include "sim/sea/wave_field.h"
-#include "tools/target/body_model.h"
+#include "tools/pipeline/body_model.h"
 
 namespace seaglint {
 

@@ -15,7 +15,6 @@
 #include "seaglint_version.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
-#include "sim/core/process/temporary_file.h"
 #include "sim/scenario/writer.h"
 #include "tools/pipeline/warnings.h"
 

@@ -7,7 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "tools/pipeline/pipeline.h"
+
 namespace seaglint {
+
+// Warnings about the validity of a scenario's results.
 
 struct Body;
 struct Bounds;
@@ -55,5 +59,12 @@ std::vector<std::string> data_set_warnings(const DatasetReader& reader);
 
 // Prints each sentence as a warning.
 void warn(std::span<const std::string> sentences);
+
+// Parts of a scenario's targets that lie outside its maps.
+
+// One line for every target and view whose bodies at rest, with the translations of a recorded motion, points or their
+// velocities reach beyond the map's range or velocity span, with the numbers; at most ten lines, then the count of the
+// rest. Echoes outside the map are cut off or, beyond the unambiguous span, aliased into it.
+std::vector<std::string> map_coverage_warnings(const Pipeline& pipeline);
 
 }  // namespace seaglint

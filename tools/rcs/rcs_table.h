@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+// Files of a sweep: the table of `rcs`, exports in the forms of other programs.
+
+#include <filesystem>
 #include <span>
 #include <string>
+#include <vector>
 
+#include "sim/field_tables/field_table.h"
 #include "sim/scattering/scatterer/scatterer.h"
 #include "tools/rcs/rcs_request.h"
-#include "tools/rcs/rcs_sweep.h"
+#include "tools/rcs/rcs_views.h"
 
 namespace seaglint {
 
@@ -21,5 +26,24 @@ std::string rcs_heading(const RcsRequest& request, const Scatterer& scatterer, c
 // flat model has the columns of its uncertainty.
 std::string rcs_table(const RcsRequest& request, const Scatterer& scatterer, const RcsSweep& sweep,
                       std::span<const std::string> warnings = {});
+
+// Solved values in the files of other programs.
+
+inline constexpr const char* kExportFormats[] = {"feko", "cst", "pyaedt", "npz"};
+
+// For before the solution: throws InputError for a format that holds no bistatic values.
+void require_export_formats(const std::vector<std::string>& formats, bool is_bistatic);
+
+// Adds hh, hv, vh, vv of the sweep's last model to those of the same transmitter.
+void append_cuts(const RcsSweep& sweep, std::vector<RcsCut>& cuts);
+
+// Writes cuts with equal directions and frequencies of all four elements per transmitter, in `folder`, and returns the
+// files: `feko` STEM_v.ffe and STEM_h.ffe, by the polarisation transmitted; `cst` a table `STEM (f = 9.5), theta = ...,
+// VP.txt` per frequency and polarisation transmitted; `pyaedt` `STEM VV.json` with `STEM VV.h5` per element; `npz`
+// STEM.npz (NumPy) with frequency_hz, azimuth_deg, elevation_deg of the receiver, transmit_azimuth_deg,
+// transmit_elevation_deg (equal if monostatic), each [value], S [value][received h, v][transmitted h, v] in metres, and
+// description.json. Throws InputError for `pyaedt` of bistatic cuts, WorkError where a file cannot be written.
+std::vector<std::filesystem::path> write_cuts_as(const std::string& format, const std::vector<RcsCut>& cuts,
+                                                 const std::filesystem::path& folder, const std::string& stem);
 
 }  // namespace seaglint

@@ -2,7 +2,6 @@
 #include "tools/rcs/rcs_uncertainty.h"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,10 +10,21 @@
 #include <optional>
 #include <utility>
 
+#include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/dbsm.h"
+#include "sim/core/numbers/random.h"
+#include "sim/core/numbers/rotation.h"
+#include "sim/core/process/error.h"
+#include "sim/core/process/progress.h"
+#include "sim/geometry/mesh/mesh_builder.h"
+#include "sim/scattering/solver/solve.h"
+#include "sim/scattering/tracing/tracing_settings.h"
 #include "tools/figure/figure.h"
+#include "tools/rcs/rcs_target.h"
+#include "tools/rcs/rcs_views.h"
 
 namespace seaglint {
+
 namespace {
 
 constexpr double kLargeDifference_db = 1;
@@ -23,8 +33,6 @@ constexpr double kNegligible_db = 30;
 constexpr double kLargestPrinted_db = 60, kLargestPrintedShare = 1000;
 constexpr std::array<std::size_t, 2> kElement{0, 3};  // of a matrix: hh, vv
 constexpr std::array<const char*, 2> kName{"hh", "vv"};
-
-double largest(const std::array<double, 2>& values) { return std::max(values[0], values[1]); }
 
 Complex echo(const RcsSweep& sweep, std::size_t view, std::size_t element) {
   return sweep.models.back().matrices[view][sweep.estimated][kElement[element]];
@@ -77,31 +85,6 @@ std::string count_of(const RcsSweep& sweep, const Exceeded& found) {
 }
 
 }  // namespace
-
-ViewUncertainty summary_of(const ViewEstimate& estimate) {
-  using Sums = ViewEstimate::Sums;
-  const auto in_cavity = [](const Sums& sums) {
-    return std::max(std::abs(sums.in_cavity[0]), std::abs(sums.in_cavity[1]));
-  };
-  ViewUncertainty view;
-  const std::size_t cavity = estimate.largest_part(in_cavity);
-  view.cavity_part = static_cast<std::uint16_t>(cavity);
-  view.flat_part =
-      static_cast<std::uint16_t>(estimate.largest_part([](const Sums& sums) { return largest(sums.flat_change); }));
-  view.displaced_part =
-      static_cast<std::uint16_t>(estimate.largest_part([](const Sums& sums) { return largest(sums.displaced_power); }));
-  view.non_reciprocal_part =
-      static_cast<std::uint16_t>(estimate.largest_part([](const Sums& sums) { return sums.non_reciprocal_size; }));
-  const Sums all = estimate.all();
-  view.non_reciprocal = static_cast<float>(std::abs(all.non_reciprocal));
-  for (const std::size_t e : {0u, 1u}) {
-    view.flat_less_smooth[e] = std::complex<float>(all.flat_less_smooth[e]);
-    view.displaced[e] = static_cast<float>(std::sqrt(all.displaced_power[e]));
-    if (cavity < estimate.parts().size())
-      view.in_cavity[e] = std::complex<float>(estimate.parts()[cavity].in_cavity[e]);
-  }
-  return view;
-}
 
 double flat_over_smooth_db(const RcsSweep& sweep, std::size_t view, std::size_t element) {
   const Complex smooth = echo(sweep, view, element);
@@ -233,6 +216,295 @@ bool draw_uncertainty(const RcsSweep& sweep, const std::string& title, const std
   if (!cut) return false;
   write_figure(title, std::array{plot_of(sweep, *cut, 0), plot_of(sweep, *cut, 1)}, 2, file, {1500, 480});
   return true;
+}
+
+namespace {
+
+constexpr std::array<std::size_t, 2> kElements{0, 3};  // hh, vv of a matrix
+constexpr const char* kElementNames[2] = {"hh", "vv"};
+constexpr double kFloorDb = 60;  // of levels below the highest of their element
+constexpr double kMostDb = 60;   // printed
+
+double level(const RcsSweep::Model& model, std::size_t view, std::size_t frequency, std::size_t element) {
+  return dbsm(model.matrices[view][frequency][kElements[element]], kMinPrinted_m2);
+}
+
+// What is halved for a method.
+struct HalvedSize {
+  double RcsRequest::*member;
+  const char* quantity;  // in a sentence: halvings of ...
+  const char* step;      // head of the line of a step; {} is the size
+  const char* column;    // of the changes, after hh_ and vv_
+};
+
+const HalvedSize& halved_size(SolverMethod method) {
+  static constexpr HalvedSize kPatches{&RcsRequest::min_patch_m, "the patches", "patches of {:.4g} m and more",
+                                       "patch_change_db"};
+  static constexpr HalvedSize kSpacing{&RcsRequest::ray_spacing_m, "the distance between rays", "rays {:.4g} m apart",
+                                       "spacing_change_db"};
+  return method == SolverMethod::kRays ? kSpacing : kPatches;
+}
+
+// Only what the comparison of two steps needs.
+RcsRequest plain(RcsRequest request) {
+  request.uncertainty = request.physical_optics_too = false;
+  request.exports = {};
+  return request;
+}
+
+bool is_plain(const RcsRequest& request) {
+  return !request.uncertainty && !request.physical_optics_too && !request.exports.wanted();
+}
+
+std::string line_of(const ConvergenceStep& step, const RcsSweep& sweep, SolverMethod method, bool first) {
+  const std::string traced =
+      fmt::format("{}: {:.3g} M segments", fmt::format(fmt::runtime(halved_size(method).step), step.size_m),
+                  1e-6 * static_cast<double>(step.segments));
+  if (first) return traced + "\n";
+  const LevelChange& change = step.change;
+  return fmt::format(
+      "{}, change of mean {:.4f} dB, largest {:+.4f} dB ({}, {:.6g} GHz, azimuth {:g} deg, elevation {:g} deg)\n",
+      traced, change.mean_db, change.largest_db, kElementNames[change.element],
+      1e-9 * sweep.frequency_hz[change.frequency], sweep.azimuth_of(change.view), sweep.elevation_of(change.view));
+}
+
+}  // namespace
+
+LevelChange level_change(const RcsSweep& sweep, const RcsSweep::Model& fine, const RcsSweep::Model& coarse) {
+  LevelChange change;
+  const std::size_t frequencies = sweep.frequency_hz.size();
+  for (std::size_t element = 0; element < kElements.size(); ++element) {
+    double highest = -1e300;
+    for (std::size_t row = 0; row < sweep.rows(); ++row)
+      highest = std::max(highest, level(fine, row / frequencies, row % frequencies, element));
+    const double floor = highest - kFloorDb;
+    for (std::size_t row = 0; row < sweep.rows(); ++row) {
+      const std::size_t view = row / frequencies, q = row % frequencies;
+      const double difference =
+          std::max(level(fine, view, q, element), floor) - std::max(level(coarse, view, q, element), floor);
+      change.mean_db += std::abs(difference) / static_cast<double>(kElements.size() * sweep.rows());
+      if (std::abs(difference) <= std::abs(change.largest_db)) continue;
+      change.largest_db = difference;
+      change.view = view;
+      change.frequency = q;
+      change.element = element;
+    }
+  }
+  return change;
+}
+
+ConvergedSweep converge_rcs(const RcsRequest& request, const RcsTarget& target, double tolerance_db, int threads,
+                            const StopFlag* stop, const std::function<void(const std::string&)>& say) {
+  if (!target.cavities.empty())
+    throw InputError("--converge halves the patches of beams; cavities have --cavity-patches-per-wavelength");
+  ConvergedSweep converged;
+  RcsRequest step = plain(request);
+  const auto forecast = [&](const std::string& line) { say(line + "\n"); };
+  converged.result = compute_rcs(step, target, threads, stop, forecast);
+  const TracingSettings settings = settings_of(request, target, request.edges);
+  const Scatterer& scatterer = *target.prepared.scatterer;
+  double& size_m = step.*halved_size(request.method).member;
+  size_m = request.method == SolverMethod::kRays ? ray_spacing(scatterer, settings) : min_patch(scatterer, settings);
+  converged.series.push_back({size_m, converged.result.segments, {}});
+  say(line_of(converged.series.back(), converged.result.sweep, request.method, true));
+  std::optional<RcsSweep::Model> coarser;
+  while (!converged.converged && converged.series.size() <= kMostHalvings) {
+    size_m /= 2;
+    RcsResult finer;
+    try {
+      finer = compute_rcs(step, target, threads, stop, forecast);
+    } catch (const InputError& error) {  // more rays than the method has
+      if (!coarser) throw;
+      converged.limit = error.what();
+      break;
+    }
+    coarser = std::move(converged.result.sweep.models.back());
+    converged.result = std::move(finer);
+    const RcsSweep& sweep = converged.result.sweep;
+    converged.series.push_back({size_m, converged.result.segments, level_change(sweep, sweep.models.back(), *coarser)});
+    say(line_of(converged.series.back(), sweep, request.method, false));
+    converged.converged = std::abs(converged.series.back().change.largest_db) <= tolerance_db;
+  }
+  if (!is_plain(request))
+    converged.result = compute_rcs(at_step(request, converged.series.back()), target, threads, stop);
+  converged.result.sweep.coarser = std::move(coarser);
+  return converged;
+}
+
+RcsRequest at_step(RcsRequest request, const ConvergenceStep& step) {
+  request.*halved_size(request.method).member = step.size_m;
+  return request;
+}
+
+std::string convergence_warning(const RcsRequest& request, const ConvergedSweep& sweep) {
+  const std::size_t halvings = sweep.series.size() - 1;
+  return fmt::format("levels still change by {:.3g} dB after {} halving{} of {}{}{}",
+                     std::abs(sweep.series.back().change.largest_db), halvings, halvings == 1 ? "" : "s",
+                     halved_size(request.method).quantity, sweep.limit.empty() ? "" : "; ", sweep.limit);
+}
+
+std::string convergence_header(SolverMethod method) {
+  return fmt::format(",hh_{0},vv_{0}", halved_size(method).column);
+}
+
+std::string convergence_cells(const RcsSweep& sweep, std::size_t view, std::size_t frequency) {
+  std::string cells;
+  for (std::size_t element = 0; element < kElements.size(); ++element) {
+    const double difference =
+        level(sweep.models.back(), view, frequency, element) - level(*sweep.coarser, view, frequency, element);
+    cells += fmt::format(",{:.4f}", std::clamp(difference, -kMostDb, kMostDb));
+  }
+  return cells;
+}
+
+namespace {
+
+constexpr double kNoiseOfAWavelength = 1.0 / 1900, kShiftOfTheRadius = 50;
+
+// A mesh and the motion by which it differs from the request's.
+struct ChangedMesh {
+  TriangleMesh mesh;
+  Mat3 turn = Mat3::Identity();
+  Vec3 shift = Vec3::Zero();
+};
+
+ChangedMesh changed(const TriangleMesh& mesh, MeshChange change, const MeshSensitivity& by) {
+  Random random({1, Stream::kMeshChange, 0});
+  switch (change) {
+    case MeshChange::kCut: return {cut_in_four(mesh)};
+    case MeshChange::kCutFloat: return {cut_in_four(mesh, true)};
+    case MeshChange::kRenumbered: return {renumbered(mesh, random)};
+    case MeshChange::kTurned: {
+      const Mat3 turn = axis_rotation(1.1, Vec3(1, -2, 0.5).normalized());
+      return {transformed(mesh, turn, Vec3::Zero()), turn};
+    }
+    case MeshChange::kMoved: {
+      const Vec3 shift = by.shift_m * Vec3(0.9, 0.4, -0.17).normalized();
+      return {transformed(mesh, Mat3::Identity(), shift), Mat3::Identity(), shift};
+    }
+    case MeshChange::kNoise: return {with_noise(mesh, by.noise_m, random)};
+    case MeshChange::kFlatFacets: break;
+  }
+  return {mesh};
+}
+
+// The request's views, computed on one mesh after another.
+class Views {
+ public:
+  Views(const RcsRequest& request, const PreparedTarget& target, int threads, const StopFlag* stop)
+      : request_(request),
+        target_(target),
+        threads_(threads),
+        stop_(stop),
+        progress_("sensitivity", (kMeshChanges + 1) * count(), "views") {
+    for (const double hz : request.frequency_hz) wavenumbers_.push_back(2 * kPi * hz / kSpeedOfLight);
+  }
+
+  // Matrices per view, elevation slowest, in the axes and about the origin of the request's mesh.
+  std::vector<Matrices> matrices(const ChangedMesh& of, std::optional<double> crease_deg) {
+    const std::optional<double> crease = crease_deg ? std::optional(radians(*crease_deg)) : std::nullopt;
+    const Scatterer scatterer(of.mesh, target_.materials, crease, 1e-3 * request_.sheet_thickness_mm,
+                              merging_tolerance(*std::ranges::max_element(request_.frequency_hz)));
+    const TracingSettings settings = settings_of(request_, request_.edges);
+    std::vector<Matrices> all(count());
+    const int side_by_side = static_cast<int>(std::min(all.size(), static_cast<std::size_t>(threads_)));
+    parallel_for(
+        all.size(), side_by_side,
+        [&](std::size_t view) {
+          RadarBasis basis = basis_at(azimuth_of(view), elevation_of(view));
+          for (Vec3* axis : {&basis.r, &basis.h, &basis.v}) *axis = of.turn * *axis;
+          all[view] = solve({.scatterer = scatterer,
+                             .views = {monostatic(basis)},
+                             .wavenumbers = wavenumbers_,
+                             .settings = settings,
+                             .threads = std::max(1, threads_ / side_by_side),
+                             .stop = stop_})
+                          .views[0]
+                          .matrices;
+          for (std::size_t q = 0; q < wavenumbers_.size(); ++q) {
+            for (Complex& s : all[view][q]) s *= std::polar(1.0, -2 * wavenumbers_[q] * basis.r.dot(of.shift));
+          }
+          progress_.advance();
+        },
+        stop_);
+    return all;
+  }
+
+  std::size_t count() const { return request_.azimuth_deg.size() * request_.elevation_deg.size(); }
+  double azimuth_of(std::size_t view) const { return request_.azimuth_deg[view % request_.azimuth_deg.size()]; }
+  double elevation_of(std::size_t view) const { return request_.elevation_deg[view / request_.azimuth_deg.size()]; }
+
+ private:
+  const RcsRequest& request_;
+  const PreparedTarget& target_;
+  int threads_;
+  const StopFlag* stop_;
+  Progress progress_;
+  std::vector<double> wavenumbers_;
+};
+
+double relative_change(const Matrices& from, const Matrices& to) {
+  double change = 0, power = 0;
+  for (std::size_t q = 0; q < from.size(); ++q) {
+    for (const std::size_t channel : {0u, 3u}) {
+      change += std::norm(to[q][channel] - from[q][channel]);
+      power += std::norm(from[q][channel]);
+    }
+  }
+  return power > 0 ? std::sqrt(change / power) : 0;
+}
+
+double mean_dbsm(const Matrices& matrices, std::size_t channel) {
+  double power = 0;
+  for (const auto& matrix : matrices) power += std::norm(matrix[channel]);
+  return dbsm_of_area(4 * kPi * power / static_cast<double>(matrices.size()));
+}
+
+}  // namespace
+
+MeshSensitivity mesh_sensitivity(const RcsRequest& request, double noise_m, int threads, const StopFlag* stop) {
+  const PreparedTarget target = prepare_mesh(request);
+  const double highest_hz = *std::ranges::max_element(request.frequency_hz);
+  MeshSensitivity result;
+  result.warnings = target.warnings;
+  result.noise_m = noise_m > 0 ? noise_m : kNoiseOfAWavelength * kSpeedOfLight / highest_hz;
+  result.shift_m = kShiftOfTheRadius * target.scatterer->radius();
+  Views views(request, target, thread_count(threads), stop);
+  try {
+    const std::vector<Matrices> own = views.matrices({target.mesh}, request.crease_deg);
+    for (std::size_t view = 0; view < views.count(); ++view) {
+      result.views.push_back(
+          {views.azimuth_of(view), views.elevation_of(view), mean_dbsm(own[view], 0), mean_dbsm(own[view], 3), {}});
+    }
+    for (std::size_t i = 0; i < kMeshChanges; ++i) {
+      const auto change = static_cast<MeshChange>(i);
+      const std::vector<Matrices> other =
+          views.matrices(changed(target.mesh, change, result),
+                         change == MeshChange::kFlatFacets ? std::optional(0.0) : request.crease_deg);
+      for (std::size_t view = 0; view < views.count(); ++view)
+        result.views[view].change[i] = relative_change(own[view], other[view]);
+    }
+  } catch (const Interrupted&) {
+    throw WorkError("interrupted");
+  }
+  return result;
+}
+
+std::string sensitivity_table(const MeshSensitivity& sensitivity) {
+  std::string text = fmt::format(
+      "# Relative change of the complex echo, hh and vv, over all frequencies\n"
+      "# cut: every triangle in four at its midpoints; cut_float32: the midpoints rounded to float32\n"
+      "# renumbered: other order of vertices and triangles; turned: with the radar; moved: by {:.4g} m\n"
+      "# noise: on every vertex, standard deviation {:.3g} um; flat: all facets flat (--crease-deg 0)\n"
+      "{:>11} {:>13} {:>8} {:>8}",
+      sensitivity.shift_m, 1e6 * sensitivity.noise_m, "azimuth_deg", "elevation_deg", "hh_dbsm", "vv_dbsm");
+  for (const char* name : kMeshChangeNames) text += fmt::format(" {:>11}", name);
+  for (const ViewSensitivity& view : sensitivity.views) {
+    text += fmt::format("\n{:>11g} {:>13g} {:>8.2f} {:>8.2f}", view.azimuth_deg, view.elevation_deg, view.hh_dbsm,
+                        view.vv_dbsm);
+    for (const double change : view.change) text += fmt::format(" {:>11.4f}", change);
+  }
+  return text + "\n";
 }
 
 }  // namespace seaglint

@@ -2,8 +2,8 @@
 #include "tools/rcs/rcs_views.h"
 
 #include <fmt/format.h>
-
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <utility>
@@ -14,10 +14,37 @@
 #include "sim/scattering/observation/observation.h"
 #include "sim/scattering/observation/sea_reflection.h"
 #include "sim/scattering/solver/solve.h"
-#include "tools/rcs/rcs_uncertainty.h"
 
 namespace seaglint {
+
 namespace {
+
+double largest(const std::array<double, 2>& values) { return std::max(values[0], values[1]); }
+
+ViewUncertainty summary_of(const ViewEstimate& estimate) {
+  using Sums = ViewEstimate::Sums;
+  const auto in_cavity = [](const Sums& sums) {
+    return std::max(std::abs(sums.in_cavity[0]), std::abs(sums.in_cavity[1]));
+  };
+  ViewUncertainty view;
+  const std::size_t cavity = estimate.largest_part(in_cavity);
+  view.cavity_part = static_cast<std::uint16_t>(cavity);
+  view.flat_part =
+      static_cast<std::uint16_t>(estimate.largest_part([](const Sums& sums) { return largest(sums.flat_change); }));
+  view.displaced_part =
+      static_cast<std::uint16_t>(estimate.largest_part([](const Sums& sums) { return largest(sums.displaced_power); }));
+  view.non_reciprocal_part =
+      static_cast<std::uint16_t>(estimate.largest_part([](const Sums& sums) { return sums.non_reciprocal_size; }));
+  const Sums all = estimate.all();
+  view.non_reciprocal = static_cast<float>(std::abs(all.non_reciprocal));
+  for (const std::size_t e : {0u, 1u}) {
+    view.flat_less_smooth[e] = std::complex<float>(all.flat_less_smooth[e]);
+    view.displaced[e] = static_cast<float>(std::sqrt(all.displaced_power[e]));
+    if (cavity < estimate.parts().size())
+      view.in_cavity[e] = std::complex<float>(estimate.parts()[cavity].in_cavity[e]);
+  }
+  return view;
+}
 
 BistaticGeometry antennas_of(const RcsRequest& request, const RadarBasis& swept) {
   if (!request.transmitter) return monostatic(swept);

@@ -13,7 +13,6 @@
 #include "sim/scattering/solver/solve.h"
 #include "sim/scattering/tracing/tracing_settings.h"
 #include "tools/rcs/rcs_request.h"
-#include "tools/rcs/rcs_sweep.h"
 #include "tools/rcs/rcs_target.h"
 
 namespace seaglint {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Samples and maps as report.js reads them: the columns of all samples, and as many maps as the page has room for.
+// What a report shows by scripts: samples and maps as report.js reads them, targets in three dimensions as hot_spots.js
+// draws them.
 
 #include <cstddef>
 #include <span>
@@ -10,8 +11,14 @@
 
 #include "classify/dataset/format/sample.h"
 #include "classify/model/data_rows.h"
+#include "sim/core/process/parallel.h"
+#include "sim/scenario/sample_plan.h"
+#include "sim/scenario/scenario.h"
+#include "tools/pipeline/scene.h"
 
 namespace seaglint {
+
+// Samples and maps as report.js reads them: the columns of all samples, and as many maps as the page has room for.
 
 inline constexpr double kMapFloorDb = -45;                   // of a map, relative to its strongest cell
 inline constexpr std::size_t kExplorerBytes = 820'000;       // of all packed maps with their centres
@@ -53,5 +60,24 @@ struct ExplorerData {
 
 // JSON of report.js.
 std::string explorer_json(const ExplorerData& data);
+
+// The targets of a report in three dimensions, coloured by the contributions of their facets, as hot_spots.js draws
+// them.
+
+inline constexpr std::size_t kHotSpotViews = 24;       // of a target, at most
+inline constexpr std::size_t kHotSpotFacets = 60'000;  // of all targets that are drawn: about 0.9 MB of page
+
+struct HotSpots {
+  std::string json;   // empty: no target to draw
+  std::string about;  // sentences for the page, HTML
+};
+
+// Levels of each target's facets (facet_levels.h) at the middle of the band in the radar's polarisation, for one body
+// at rest without the sea: whole dB, down to 50 dB below the target's strongest facet over all views. Views are those
+// of the scenario, by azimuth, then elevation; of more than kHotSpotViews every n-th. Targets beyond kHotSpotFacets are
+// left out, which `about` states. The result is the same for any number of threads. Throws Interrupted when *stop
+// becomes true.
+HotSpots hot_spots(const Scenario& scenario, const SamplePlan& plan, const std::vector<Target>& targets, int threads,
+                   const StopFlag* stop);
 
 }  // namespace seaglint

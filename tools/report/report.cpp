@@ -12,21 +12,16 @@
 
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
-#include "sim/core/process/temporary_file.h"
-#include "sim/core/text/json_keys.h"
-#include "sim/core/text/json_problem.h"
+#include "sim/core/text/json.h"
 #include "sim/scenario/writer.h"
 #include "tools/page/html.h"
-#include "tools/pipeline/metrics.h"
 #include "tools/pipeline/scene.h"
 #include "tools/pipeline/train.h"
 #include "tools/pipeline/warnings.h"
-#include "tools/report/benchmark_section.h"
-#include "tools/report/hot_spots.h"
-#include "tools/report/probe_text.h"
+#include "tools/report/explorer.h"
+#include "tools/report/report_data.h"
 #include "tools/report/report_figures.h"
 #include "tools/report/report_text.h"
-#include "tools/report/summary.h"
 
 namespace seaglint {
 

@@ -1,23 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Data of the report: the samples of a run without their maps, and the few maps that it shows.
+// Data of the report: the samples of a run without their maps, the few maps that it shows, quartiles of the features.
 
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "classify/dataset/directory/dataset_reader.h"
-#include "classify/model/booster.h"
+#include "classify/model/classifiers.h"
 #include "classify/model/data_rows.h"
+#include "sim/core/numbers/quantile.h"
 #include "sim/core/process/parallel.h"
 #include "sim/scenario/sample_plan.h"
 #include "tools/report/explorer.h"
 
 namespace seaglint {
+
+// Data of the report: the samples of a run without their maps, and the few maps that it shows.
 
 // Least-squares line v = a r + b through the stored centres of a map.
 struct LineFit {
@@ -82,5 +88,20 @@ class ReportCollector {
 // Reads the data set and the embeddings of a run. Throws InputError when either is invalid.
 ReportData load_report_data(const std::filesystem::path& directory, const Scenario& scenario, const SamplePlan& plan,
                             const StopFlag* stop);
+
+// Quartiles of the features by class, wave height and aspect, for the report's text and figures.
+
+// Selects rows; an absent member selects all. Bins are those of `heights` and `azimuths` of the data.
+struct RowFilter {
+  std::optional<int> label;
+  const ColumnBin* height = nullptr;
+  const ColumnBin* azimuth = nullptr;
+};
+
+Quartiles quartiles_of(const ReportData& data, const RowFilter& filter,
+                       const std::function<double(const ReportRow&)>& value);
+
+// Numbers of the report beyond the study: features by class and wave height, line fit by aspect, maps shown.
+nlohmann::ordered_json report_numbers(const ReportData& data);
 
 }  // namespace seaglint

@@ -2,21 +2,238 @@
 #include "tools/report/report_text.h"
 
 #include <fmt/format.h>
-
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <numeric>
+#include <string_view>
 #include <vector>
 
 #include "classify/model/data_rows.h"
 #include "radar/waveform/pulse_train.h"
 #include "tools/page/html.h"
-#include "tools/pipeline/metrics.h"
-#include "tools/report/class_names.h"
-#include "tools/report/probe_text.h"
 
 namespace seaglint {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+// independent: of a probe that is random by construction, which is away from chance below guessing, too. Any other
+// probe separates nothing there: what it learnt does not hold on unseen rows.
+bool scores_as_chance(const ordered_json& scores, bool independent, int repeats) {
+  constexpr double kDeviations = 2.576;  // 99 % of a normal distribution, two-sided
+  const Guessing guess = guessing(scores);
+  const double low = value_or_nan(scores.at("accuracy_95").at(0));
+  if (!independent && std::isfinite(low)) return low <= guess.most;
+  const double rows = scores.at("rows").get<double>() / repeats, accuracy = value_or_nan(scores.at("accuracy"));
+  const double off = std::max({accuracy - guess.most, independent ? guess.least - accuracy : 0.0, 0.0});
+  return off <= kDeviations * std::sqrt(guess.most * (1 - guess.most) / rows);
+}
+
+}  // namespace
+
+std::string scores_fault(const ordered_json& metrics, std::size_t classes) {
+  if (!metrics.is_structured()) return "";
+  if (metrics.is_object() && metrics.contains("confusion") && metrics.at("confusion").size() != classes * classes)
+    return fmt::format("confusion: {} counts of {} classes", metrics.at("confusion").size(), classes);
+  if (metrics.is_object() && metrics.contains("false_alarms") && metrics.contains("detections") &&
+      metrics.at("false_alarms").size() != metrics.at("detections").size())
+    return fmt::format("roc: {} false_alarms, {} detections", metrics.at("false_alarms").size(),
+                       metrics.at("detections").size());
+  for (const ordered_json& member : metrics)
+    if (std::string fault = scores_fault(member, classes); !fault.empty()) return fault;
+  return "";
+}
+
+double value_or_nan(const ordered_json& json) { return json.is_number() ? json.get<double>() : std::nan(""); }
+
+std::string percent(double fraction) { return std::isfinite(fraction) ? fmt::format("{:.1f} %", 100 * fraction) : "–"; }
+
+std::string accuracy_cell(const ordered_json& scores) {
+  const double low = value_or_nan(scores.at("accuracy_95").at(0)), high = value_or_nan(scores.at("accuracy_95").at(1));
+  std::string cell = percent(value_or_nan(scores.at("accuracy")));
+  if (std::isfinite(low)) cell += fmt::format(" <small>({:.0f}–{:.0f})</small>", 100 * low, 100 * high);
+  return cell;
+}
+
+double probe_accuracy(const ordered_json& metrics, const std::string& name) {
+  for (const auto& probe : metrics.at("probes")) {
+    if (probe.at("name") == name) return value_or_nan(probe.at("group").at("accuracy"));
+  }
+  return std::nan("");
+}
+
+DivisionWords division_words(const ordered_json& metrics) {
+  const auto column = metrics.at("learning").at("split.by").get<std::string>();
+  DivisionWords words;
+  words.by_sea = column == "sea";
+  words.by = "by " + column;
+  words.unseen = words.by_sea ? "unseen seas" : fmt::format("values of {} that were not trained on", column);
+  words.heading = words.by_sea ? "Split by sea realisation (no test sea was seen in training)"
+                               : fmt::format("Split by {0} (no value of {0} is trained and tested on)", column);
+  // Text of Division: "tested on layout=ring only; split by ..."
+  constexpr std::string_view kTested = "tested on ", kOnly = " only; split by ";
+  const std::string division = metrics.value("division", "");
+  const std::size_t end = division.rfind(kOnly);
+  if (!division.starts_with(kTested) || end == std::string::npos) return words;
+  const std::string held = division.substr(kTested.size(), end - kTested.size());
+  words.unseen = fmt::format("held-out maps ({}) of {}", held, words.unseen);
+  words.heading += fmt::format(", tested on {} only", held);
+  return words;
+}
+
+std::string Guessing::text() const {
+  const std::string high = fmt::format("{:.1f} %", 100 * most);
+  return most - least < 5e-4 ? high : fmt::format("{:.1f} to {}", 100 * least, high);
+}
+
+Guessing guessing(const ordered_json& scores) {
+  // Entries by truth, then decision.
+  const ordered_json& confusion = scores.at("confusion");
+  const auto classes = static_cast<std::size_t>(std::lround(std::sqrt(confusion.size())));
+  std::vector<double> rows(classes);
+  std::size_t entry = 0;
+  for (const ordered_json& count : confusion) rows.at(entry++ / classes) += count.get<double>();
+  const double all = std::accumulate(rows.begin(), rows.end(), 0.0);
+  if (!(all > 0)) return {1.0 / static_cast<double>(classes), 1.0 / static_cast<double>(classes)};
+  double squares = 0;
+  for (const double count : rows) squares += count / all * (count / all);
+  return {squares, *std::max_element(rows.begin(), rows.end()) / all};
+}
+
+bool as_chance(const ordered_json& metrics, const ordered_json& probe) {
+  const bool blind = probe.at("kind") == "blind";
+  const int repeats = metrics.at("split_repeats");
+  const bool random = !probe.contains("random") || scores_as_chance(probe.at("random"), blind, repeats);
+  return random && scores_as_chance(probe.at("group"), blind, repeats);
+}
+
+ClassNames class_names(const Scenario& scenario) {
+  constexpr std::size_t kMostNames = 3;
+  if (scenario.dataset.classes != default_classes()) return scenario.dataset.classes;
+  ClassNames classes;
+  for (const int label : {0, 1}) {
+    std::vector<std::string> names;
+    for (const TargetSpec& target : scenario.targets)
+      if (target.role == TargetRole::kClass && target.label == label) names.push_back(target.name);
+    classes.push_back(names.empty() || names.size() > kMostNames ? fmt::format("label {}", label)
+                                                                 : fmt::format("{}", fmt::join(names, ", ")));
+  }
+  return classes;
+}
+
+std::size_t confused(const nlohmann::ordered_json& scores, std::size_t classes, std::size_t truth,
+                     std::size_t decision) {
+  return std::next(scores.at("confusion").begin(), static_cast<std::ptrdiff_t>(truth * classes + decision))
+      ->get<std::size_t>();
+}
+
+std::string confusion_table(const nlohmann::ordered_json& metrics, const ClassNames& classes) {
+  std::vector<std::vector<std::string>> rows{{"truth"}};
+  for (const std::string& name : classes) rows.front().push_back("declared " + escape_html(name));
+  for (std::size_t truth = 0; truth < classes.size(); ++truth) {
+    rows.push_back({escape_html(classes[truth])});
+    for (std::size_t decision = 0; decision < classes.size(); ++decision)
+      rows.back().push_back(
+          fmt::format("{}", confused(metrics.at("fused").at("group"), classes.size(), truth, decision)));
+  }
+  return fmt::format("<h3>Decisions by class, fused features, split {}</h3>\n", division_words(metrics).by) +
+         html_table(rows);
+}
+
+std::string by_class(const ClassNames& classes, const std::function<std::string(int label)>& value) {
+  std::string text;
+  for (int label = static_cast<int>(classes.size()) - 1; label >= 0; --label) {
+    text += text.empty() ? "" : label > 0 ? ", " : " and ";
+    text += fmt::format("{} ({})", value(label), escape_html(classes[static_cast<std::size_t>(label)]));
+  }
+  return text;
+}
+
+namespace {
+
+using nlohmann::ordered_json;
+
+// Those of clutter and noise whose level does not follow the target's; empty if both do. The target's level then
+// determines which of its centres exceed the threshold, and so affects the features.
+std::string not_scaled(const ClutterSpec& clutter) {
+  const bool sea = clutter.enabled && clutter.level == ClutterLevel::kNrl;
+  const bool receiver = clutter.noise_level == NoiseLevel::kThermal;
+  if (sea && receiver) return "Clutter and receiver noise are";
+  if (sea) return "The clutter is";
+  return receiver ? "The receiver’s noise is" : "";
+}
+
+// Interpretation of a probe's accuracy by its kind.
+std::string reading(const std::string& kind, bool chance, bool level_seen) {
+  if (kind == "blind") return chance ? "as chance" : "<b>away from chance: look for a leak</b>";
+  if (kind == "feature") {
+    if (chance) return "chance: does not tell by itself";
+    return level_seen ? "tells by itself; level has a part in what is found" : "tells by itself";
+  }
+  if (kind == "scale") {
+    if (chance) return "chance: level does not tell";
+    return level_seen ? "level tells the class; features see it by what is found"
+                      : "level tells the class; no feature uses it";
+  }
+  if (chance) return "chance: does not tell";
+  return kind == "ratio" ? "tells the class: it decides what is found" : "tells by shape or strength of the target";
+}
+
+}  // namespace
+
+std::string probes_table(const ordered_json& metrics, const Scenario& scenario) {
+  // A benchmark has no random split.
+  const bool has_random =
+      std::ranges::any_of(metrics.at("probes"), [](const ordered_json& probe) { return probe.contains("random"); });
+  std::vector<std::vector<std::string>> rows{{"probe", "what it is"}};
+  if (has_random) rows.front().push_back("random split");
+  rows.front().push_back("split " + division_words(metrics).by);
+  rows.front().push_back("reading");
+  const bool level_seen = !not_scaled(scenario.clutter).empty();
+  for (const auto& entry : metrics.at("probes")) {
+    rows.push_back(
+        {escape_html(entry.at("name").get<std::string>()), escape_html(entry.at("meaning").get<std::string>())});
+    if (has_random) rows.back().push_back(accuracy_cell(entry.at("random")));
+    rows.back().push_back(accuracy_cell(entry.at("group")));
+    rows.back().push_back(reading(entry.at("kind"), as_chance(metrics, entry), level_seen));
+  }
+  return html_table(rows, false);
+}
+
+std::string note_of_level(const ordered_json& metrics, const Scenario& scenario) {
+  const ClutterSpec& clutter = scenario.clutter;
+  const std::string absolute = not_scaled(clutter), power = percent(probe_accuracy(metrics, "total power")),
+                    unseen = escape_html(division_words(metrics).unseen);
+  if (!absolute.empty()) {
+    return fmt::format(
+        "<b>Features see the level.</b> {} not scaled to the target, which stands out the more the larger it is. Total "
+        "power alone "
+        "reaches {} on {}, the ratio of the target to clutter and noise {}. Centre weights are normalised and "
+        "the network’s "
+        "input is divided by its energy, but which centres are found depends on that ratio: part of what features "
+        "reach here may be the "
+        "target’s size. Clutter and noise at given ratios to the target (<code>clutter.level: scr</code>, "
+        "<code>noise_level: "
+        "cnr</code> or <code>snr</code>) take it out.",
+        absolute, power, unseen, percent(probe_accuracy(metrics, "signal to clutter and noise")));
+  }
+  return fmt::format(
+      "<b>Absolute level would settle it.</b> {}, so the level of a map is the target’s size. Total power alone "
+      "reaches {} on {}. No feature group sees it: clutter and noise follow the target, centre weights are normalised, "
+      "the "
+      "network’s input is "
+      "divided by its energy. A pipeline with unnormalised maps would look better for the wrong reason.",
+      clutter.enabled
+          ? fmt::format("The clutter follows the target (SCR in dB: {})",
+                        escape_html(value_text(scenario, "clutter.scr_db", fmt::format("{:g}", clutter.scr_db))))
+          : "There is no clutter",
+      power, unseen);
+}
 
 namespace {
 
@@ -411,6 +628,64 @@ std::string expert_notes(const ordered_json& metrics, const Scenario& scenario) 
                          degenerate, metrics.at("data").at("maps").get<std::size_t>()));
   }
   return html + "</ul>\n";
+}
+
+namespace {
+
+using nlohmann::ordered_json;
+
+// "93.1"; a dash for null.
+std::string per_cent(const ordered_json& fraction) {
+  return fraction.is_null() ? "–" : fmt::format("{:.1f}", 100 * fraction.get<double>());
+}
+
+std::string with_interval(const ordered_json& entry) {
+  const ordered_json& interval = entry.at("interval");
+  if (interval.at(0).is_null()) return per_cent(entry.at("accuracy"));
+  return fmt::format("{} ({:.0f}–{:.0f})", per_cent(entry.at("accuracy")), 100 * interval.at(0).get<double>(),
+                     100 * interval.at(1).get<double>());
+}
+
+// A row per entry of `member`: in total and by wave height.
+std::string accuracies(const ordered_json& benchmark, const char* member, const char* title) {
+  std::vector<std::vector<std::string>> rows{{title, "all"}};
+  for (const auto& [height, entry] : benchmark.at("baselines").at("handmade").at("by").items())
+    rows.front().push_back("Hs " + escape_html(height) + " m");
+  for (const auto& [name, entry] : benchmark.at(member).items()) {
+    const bool leaks = entry.contains("leaks") && entry.at("leaks").get<bool>();
+    rows.push_back({escape_html(name) + (leaks ? " *" : ""), with_interval(entry)});
+    for (const auto& of_height : entry.at("by")) rows.back().push_back(per_cent(of_height.at("accuracy")));
+  }
+  return html_table(rows);
+}
+
+std::string claims(const ordered_json& benchmark) {
+  std::vector<std::vector<std::string>> rows{{"claim of the paper", "", "figures"}};
+  for (const ordered_json& claim : benchmark.at("claims")) {
+    const ordered_json& held = claim.at("held");
+    rows.push_back({escape_html(claim.at("claim").get<std::string>()),
+                    held.is_null()     ? "undecided"
+                    : held.get<bool>() ? "held"
+                                       : "not held",
+                    escape_html(claim.at("why").get<std::string>())});
+  }
+  return html_table(rows, false);
+}
+
+}  // namespace
+
+std::string benchmark_section(const ordered_json& benchmark, const std::string& report) {
+  const std::string name = escape_html(benchmark.at("benchmark").get<std::string>());
+  std::string html = fmt::format(
+      "<p>Benchmark <b>{}</b>{}: {} maps in {} seas; {}. Accuracy in %, in brackets the 95 % interval. Each "
+      "quantity without motion is classified by itself; their intervals are for all of them at once, * marks those "
+      "that differ from chance.{}</p>\n",
+      name, benchmark.at("small").get<bool>() ? " at its small size, whose figures say little" : "",
+      benchmark.at("maps").get<std::uint64_t>(), benchmark.at("seas").get<std::uint64_t>(),
+      escape_html(benchmark.at("division").get<std::string>()),
+      report.empty() ? "" : fmt::format(" <a href=\"{}\">Its own report</a>.", escape_html(report)));
+  return html + accuracies(benchmark, "baselines", "features") + accuracies(benchmark, "floor", "without motion") +
+         claims(benchmark);
 }
 
 }  // namespace seaglint

@@ -9,11 +9,10 @@
 #include "classify/dataset/cards/croissant.h"
 #include "classify/dataset/cards/hub_card.h"
 #include "classify/dataset/directory/data_card.h"
-#include "classify/dataset/directory/file_names.h"
+#include "classify/dataset/directory/dataset_reader.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
-#include "sim/core/process/temporary_file.h"
-#include "sim/core/text/shown.h"
+#include "sim/core/process/printable.h"
 #include "sim/scenario/sample_plan.h"
 #include "sim/scenario/scenario.h"
 

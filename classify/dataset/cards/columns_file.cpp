@@ -11,8 +11,8 @@
 #include "classify/dataset/format/layout.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
+#include "sim/core/process/printable.h"
 #include "sim/core/process/progress.h"
-#include "sim/core/text/escape.h"
 
 namespace seaglint {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "classify/dataset/directory/dataset_reader.h"
-#include "classify/dataset/format/drawn_columns.h"
+#include "classify/dataset/format/layout.h"
 #include "sim/core/process/parallel.h"
 
 namespace seaglint {

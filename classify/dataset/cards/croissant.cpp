@@ -11,11 +11,11 @@
 
 #include "classify/dataset/cards/columns_file.h"
 #include "classify/dataset/directory/data_card.h"
-#include "classify/dataset/directory/file_names.h"
-#include "classify/dataset/directory/merged.h"
-#include "classify/dataset/directory/planned_record.h"
-#include "classify/dataset/format/checksum.h"
+#include "classify/dataset/directory/dataset_reader.h"
+#include "classify/dataset/directory/dataset_writer.h"
+#include "classify/dataset/directory/export.h"
 #include "classify/dataset/format/layout.h"
+#include "classify/dataset/format/manifest.h"
 #include "sim/scenario/sample_plan.h"
 
 namespace seaglint {

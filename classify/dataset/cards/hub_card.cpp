@@ -7,8 +7,8 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "classify/dataset/directory/file_names.h"
-#include "sim/core/text/escape.h"
+#include "classify/dataset/directory/dataset_reader.h"
+#include "sim/core/process/printable.h"
 
 namespace seaglint {
 

@@ -5,8 +5,8 @@
 #include <array>
 #include <chrono>
 
-#include "sim/core/process/utf8.h"
-#include "sim/core/text/number.h"
+#include "sim/core/process/printable.h"
+#include "sim/core/text/words.h"
 
 namespace seaglint {
 

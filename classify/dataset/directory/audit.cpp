@@ -13,15 +13,12 @@
 #include "classify/dataset/directory/croissant_audit.h"
 #include "classify/dataset/directory/dataset_reader.h"
 #include "classify/dataset/directory/dataset_writer.h"
-#include "classify/dataset/directory/merged.h"
-#include "classify/dataset/directory/planned_record.h"
-#include "classify/dataset/directory/temporary.h"
-#include "classify/dataset/format/checksum.h"
-#include "classify/dataset/format/sample_faults.h"
+#include "classify/dataset/directory/export.h"
+#include "classify/dataset/format/manifest.h"
+#include "classify/dataset/format/sample.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/core/process/progress.h"
-#include "sim/core/process/temporary_file.h"
 
 namespace seaglint {
 

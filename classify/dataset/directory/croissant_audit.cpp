@@ -6,13 +6,12 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "classify/dataset/directory/file_names.h"
-#include "classify/dataset/format/checksum.h"
+#include "classify/dataset/directory/dataset_reader.h"
+#include "classify/dataset/format/manifest.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
-#include "sim/core/text/json_keys.h"
-#include "sim/core/text/json_problem.h"
-#include "sim/core/text/shown.h"
+#include "sim/core/process/printable.h"
+#include "sim/core/text/json.h"
 
 namespace seaglint {
 

@@ -6,10 +6,9 @@
 #include <algorithm>
 #include <set>
 
-#include "classify/dataset/format/checksum.h"
-#include "classify/dataset/format/drawn_columns.h"
 #include "classify/dataset/format/layout.h"
-#include "sim/core/text/escape.h"
+#include "classify/dataset/format/manifest.h"
+#include "sim/core/process/printable.h"
 #include "sim/scenario/layout/layout.h"
 
 namespace seaglint {

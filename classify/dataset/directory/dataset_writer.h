@@ -2,22 +2,42 @@
 #pragma once
 
 // Writes a data set directory: scenario.yaml first, then shards in any order and by any number of processes, then
-// manifest.json and the data card. A process that is killed leaves complete shards and temporary files
-// (classify/dataset/directory/temporary.h), which are removed when the data set is complete.
+// manifest.json and the data card. A process that is killed leaves complete shards and temporary files, which are
+// removed when the data set is complete. The part of a sample's row that the scenario determines decides whether a
+// shard is of this data set.
 
 #include <filesystem>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "classify/dataset/directory/file_names.h"
+#include "classify/dataset/directory/dataset_reader.h"
+#include "classify/dataset/format/layout.h"
 #include "classify/dataset/format/manifest.h"
+#include "classify/dataset/format/sample.h"
 #include "classify/dataset/format/shard.h"
 #include "sim/scenario/sample_plan.h"
 
 namespace seaglint {
+
+// Keys that a scenario draws, in the order of their columns.
+DrawnKeys drawn_keys(const Scenario& scenario);
+
+// The part of a sample's row that the scenario determines: sea, view, target, interval, keys and label. Fills the
+// columns `sample` to `radar_key`; measured columns are zero. sample < plan.size(); plan of the same scenario.
+SampleRecord planned_record(const Scenario& scenario, const SamplePlan& plan, std::size_t sample);
+// The same with a known address of the sample, which saves the shuffle that finds it.
+SampleRecord planned_record(const Scenario& scenario, const SamplePlan& plan, std::size_t sample,
+                            const SampleAddress& address);
+
+// The columns that planned_record() fills.
+std::span<const SampleColumn> planned_columns();
+
+// "label 0, by the scenario 1" for every column of `record` that differs from the planned value.
+std::vector<std::string> record_mismatches(const SampleRecord& record, const SampleRecord& planned);
 
 // True for names of a data set's files, of the outputs of `merge` and `export`, of temporary files, and of hidden
 // files: network file systems keep a file under a hidden name if it was removed while another process had it open.

@@ -3,23 +3,296 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <utility>
 
-#include "classify/dataset/directory/file_names.h"
-#include "classify/dataset/format/checksum.h"
-#include "classify/dataset/format/drawn_columns.h"
+#include "classify/dataset/directory/dataset_reader.h"
+#include "classify/dataset/directory/dataset_writer.h"
 #include "classify/dataset/format/hdf5_file.h"
 #include "classify/dataset/format/layout.h"
+#include "classify/dataset/format/manifest.h"
 #include "classify/dataset/format/npz.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
-#include "sim/core/process/temporary_file.h"
+#include "sim/core/process/progress.h"
 
 namespace seaglint {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kFormat = "seaglint merged 2";
+constexpr std::uint64_t kColumnChunk = 8192;  // rows; half a megabyte of names
+
+// An array whose rows remain in the shards.
+struct Virtual {
+  StoredArray array;
+  ArrayType element;
+};
+constexpr Virtual kVirtual[] = {{kMaps, ArrayType::kFloat},
+                                {kComplexMaps, ArrayType::kFloat},
+                                {kHopCodes, ArrayType::kUint16},
+                                {kCentres, ArrayType::kFloat}};
+
+// The folder of an existing or future file, without symbolic links.
+fs::path folder_of(const fs::path& file) {
+  std::error_code error;
+  const fs::path resolved = fs::canonical(file, error);
+  if (!error) return resolved.parent_path();
+  return fs::weakly_canonical(file.has_parent_path() ? file.parent_path() : fs::path("."));
+}
+
+std::vector<VirtualSource> shard_sources(const DatasetReader& reader, const fs::path& file) {
+  const fs::path shards = fs::canonical(reader.directory()).lexically_relative(folder_of(file));
+  std::vector<VirtualSource> sources;
+  for (const ManifestShard& shard : reader.manifest().shards)
+    sources.push_back({(shards / shard.file).lexically_normal().string(), shard.first_sample, shard.samples});
+  return sources;
+}
+
+// Throws InputError for shards beyond the plan and for HDF5 files of other origin.
+void refuse_foreign_files(const fs::path& directory, std::size_t shards) {
+  std::set<std::string> ours;
+  for (std::size_t i = 0; i < shards; ++i) ours.insert(shard_name(i));
+  for (const auto& entry : fs::directory_iterator(directory)) {
+    const fs::path& file = entry.path();
+    if (file.extension() != ".h5" || ours.contains(file.filename()) || is_merged(file)) continue;
+    throw InputError(fmt::format("{}: foreign: no shard of the scenario beside it", file.string()));
+  }
+}
+
+// Throws InputError if an existing file that is no merged file, such as a shard, would be overwritten.
+void require_own_place(const fs::path& file) {
+  if (file.extension() != ".h5")
+    throw InputError(fmt::format("{}: the name of a merged file ends in .h5", file.string()));
+  if (fs::exists(file) && !is_merged(file))
+    throw InputError(fmt::format("{}: exists and is no merged file; choose another name", file.string()));
+}
+
+void write_missing_manifest(const fs::path& directory, const Scenario& scenario, const SamplePlan& plan,
+                            const std::string& program_version) {
+  DatasetWriter writer(directory, scenario, plan, true, program_version);
+  const std::vector<std::size_t> missing = writer.finish();
+  if (missing.empty()) return;
+  const fs::path file = directory / shard_name(missing.front());
+  throw InputError(fmt::format("{}: {} ({} of {} shards); make it by `seaglint generate {} -o {} --resume`",
+                               file.string(), fs::exists(file) ? "damaged or of another scenario" : "missing",
+                               missing.size(), plan.shards(), (directory / kScenarioFile).string(),
+                               directory.string()));
+}
+
+void require_same(const fs::path& file, const Shard& shard, const StoredAxes& axes, bool complex_maps,
+                  const DrawnKeys& keys) {
+  if (shard.axes != axes) throw InputError(fmt::format("{}: foreign: other axes than the first shard", file.string()));
+  if (shard.samples.front().complex_values.empty() == complex_maps)
+    throw InputError(fmt::format("{}: foreign: complex maps in some shards only", file.string()));
+  for (const Sample& sample : shard.samples)
+    if (drawn_keys(sample.record) != keys)
+      throw InputError(fmt::format("{}: foreign: other drawn keys than the first shard", file.string()));
+}
+
+void write_columns(Hdf5Writer& merged, std::uint64_t first, const std::vector<Sample>& samples) {
+  for (const SampleColumn& column : sample_columns()) {
+    std::visit(
+        [&](auto member) {
+          using T = typename MemberType<decltype(member)>::Type;
+          std::vector<T> values;
+          for (const Sample& sample : samples) values.push_back(sample.record.*member);
+          if constexpr (std::is_same_v<T, std::string>) {
+            merged.write_names(column_path(column), first, values);
+          } else {
+            merged.write<T>(column_path(column), first, values);
+          }
+        },
+        column.member);
+  }
+  std::vector<const SampleRecord*> records;
+  for (const Sample& sample : samples) records.push_back(&sample.record);
+  write_drawn(merged, first, records);
+}
+
+void write_merged(const DatasetReader& reader, const fs::path& temporary, const fs::path& file, const StopFlag* stop) {
+  const Manifest& manifest = reader.manifest();
+  Hdf5Writer merged(temporary, Hdf5Version::k110);
+  merged.attribute("format", kFormat);
+  merged.attribute("manifest_sha256", sha256_file(reader.directory() / kManifestFile));
+
+  merged.group("/samples");
+  const Dimensions size{manifest.samples}, chunk{std::min(manifest.samples, kColumnChunk)};
+  for (const SampleColumn& column : sample_columns()) {
+    std::visit(
+        [&](auto member) {
+          merged.array(column_path(column), array_type_of<typename MemberType<decltype(member)>::Type>(), size, chunk,
+                       column_text(column, manifest.classes));
+        },
+        column.member);
+  }
+  StoredAxes axes;
+  DrawnKeys keys;
+  bool complex_maps = false;
+  Progress progress("merging shards", reader.shards());
+  for (std::size_t i = 0; i < reader.shards(); ++i) {
+    if (stop && *stop) throw Interrupted();
+    const Shard shard = reader.shard(i);
+    if (i == 0) {
+      keys = drawn_keys(shard.samples.front().record);
+      create_drawn(merged, keys, manifest.samples, chunk[0]);
+      axes = shard.axes;
+      complex_maps = !shard.samples.front().complex_values.empty();
+    }
+    require_same(reader.directory() / manifest.shards[i].file, shard, axes, complex_maps, keys);
+    write_columns(merged, manifest.shards[i].first_sample, shard.samples);
+    progress.advance();
+  }
+
+  merged.group("/axes");
+  const auto write_axis = [&](const StoredArray& axis, const std::vector<double>& values) {
+    merged.array(axis.path, ArrayType::kDouble, {values.size()}, {values.size()}, axis.text());
+    merged.write<double>(axis.path, 0, values);
+  };
+  write_axis(kRangeAxis, axes.range_m);
+  write_axis(kVelocityAxis, axes.velocity_mps);
+  const Hdf5Reader first(load_shard(reader.directory() / manifest.shards.front().file).image);
+  const std::vector<VirtualSource> sources = shard_sources(reader, file);
+  for (const auto& [array, element] : kVirtual) {
+    if (!first.has(array.path)) continue;
+    Dimensions whole = first.size(array.path);
+    whole[0] = manifest.samples;
+    merged.virtual_array(array.path, element, whole, sources, array.text());
+  }
+  merged.close();
+}
+
+}  // namespace
+
+Merged merge_dataset(const fs::path& directory, const fs::path& file, const std::string& program_version,
+                     const StopFlag* stop) {
+  if (!fs::is_directory(directory)) throw InputError(fmt::format("{}: no such directory", directory.string()));
+  require_own_place(file);
+  const Scenario scenario = read_scenario(directory / kScenarioFile);
+  const SamplePlan plan(scenario);
+  refuse_foreign_files(directory, plan.shards());
+  Merged result;
+  result.wrote_manifest = !fs::exists(directory / kManifestFile);
+  if (result.wrote_manifest) write_missing_manifest(directory, scenario, plan, program_version);
+
+  const DatasetReader reader(directory);
+  if (reader.shards() != plan.shards()) {
+    throw InputError(fmt::format("{}: {} shards, the scenario has {}", (directory / kManifestFile).string(),
+                                 reader.shards(), plan.shards()));
+  }
+  write_file_with(file, [&](const fs::path& temporary) {
+    try {
+      write_merged(reader, temporary, file, stop);
+    } catch (const Interrupted&) {
+      throw;
+    } catch (const WorkError& error) {
+      throw WorkError(fmt::format("{}: {}", file.string(), error.what()));
+    }
+  });
+  remove_leftovers(file.parent_path(), file.filename().native());
+  result.shards = reader.shards();
+  result.samples = reader.size();
+  return result;
+}
+
+bool is_merged(const fs::path& file) {
+  try {
+    return Hdf5Reader(file).attribute("format").starts_with("seaglint merged ");
+  } catch (const WorkError&) {
+    return false;
+  }
+}
+
+std::optional<std::string> merged_file_of_another_manifest(const DatasetReader& reader) {
+  const fs::path file = reader.directory() / kMergedFile;
+  if (!fs::is_regular_file(file) || !is_merged(file)) return std::nullopt;
+  try {
+    if (Hdf5Reader(file).attribute("manifest_sha256") == sha256_file(reader.directory() / kManifestFile))
+      return std::nullopt;
+  } catch (const WorkError& error) {
+    return fmt::format("{}: {}; merge again", file.string(), error.what());
+  }
+  return fmt::format("{}: is of another manifest than the shards beside it; merge again or remove it", file.string());
+}
+
+MergedFileVerifier::MergedFileVerifier(fs::path file, const DatasetReader& reader)
+    : file_(std::move(file)), reader_(&reader) {
+  try {
+    content_ = std::make_unique<Hdf5Reader>(file_);
+    if (content_->attribute("format") != kFormat)
+      throw WorkError(
+          fmt::format("format \"{}\"; this program reads \"{}\"; merge again", content_->attribute("format"), kFormat));
+    if (content_->attribute("manifest_sha256") != sha256_file(reader.directory() / kManifestFile))
+      throw WorkError("is of another manifest; merge again");
+    const Hdf5Reader first(load_shard(reader.directory() / reader.manifest().shards.front().file).image);
+    const std::vector<VirtualSource> sources = shard_sources(reader, file_);
+    for (const Virtual& expected : kVirtual) {
+      const char* path = expected.array.path;
+      if (content_->has(path) != first.has(path)) throw WorkError(fmt::format("{} is not as in the shards", path));
+      if (!first.has(path)) continue;
+      Dimensions whole = first.size(path);
+      whole[0] = reader.size();
+      if (content_->sources(path) != sources || content_->size(path) != whole)
+        throw WorkError(fmt::format("{} does not take its rows from the shards", path));
+    }
+  } catch (const WorkError& error) {
+    fault(error.what());
+  } catch (const InputError& error) {
+    fault(error.what());
+  }
+}
+
+MergedFileVerifier::~MergedFileVerifier() = default;
+MergedFileVerifier::MergedFileVerifier(MergedFileVerifier&&) noexcept = default;
+
+void MergedFileVerifier::compare(std::size_t index, const Shard& shard) {
+  if (!content_) return;
+  try {
+    const std::uint64_t first_row = reader_->manifest().shards[index].first_sample, count = shard.samples.size();
+    for (const SampleColumn& column : sample_columns()) {
+      std::visit(
+          [&](auto member) {
+            using T = typename MemberType<decltype(member)>::Type;
+            std::vector<T> stored;
+            if constexpr (std::is_same_v<T, std::string>) {
+              stored = content_->names(column_path(column), first_row, count);
+            } else {
+              stored = content_->rows<T>(column_path(column), first_row, count);
+            }
+            for (std::size_t i = 0; i < count; ++i) {
+              const T& there = shard.samples[i].record.*member;
+              // Rows without clutter contain NaN, which is not equal to itself.
+              if (!(stored[i] == there || (stored[i] != stored[i] && there != there)))
+                throw WorkError(fmt::format("{} of sample {} is not the shard's", column_path(column), first_row + i));
+            }
+          },
+          column.member);
+    }
+    std::vector<SampleRecord> drawn(count);
+    std::vector<SampleRecord*> rows;
+    for (SampleRecord& record : drawn) rows.push_back(&record);
+    read_drawn(*content_, first_row, rows);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!same_drawn(drawn[i], shard.samples[i].record))
+        throw WorkError(fmt::format("a drawn value of sample {} is not the shard's", first_row + i));
+    }
+    if (content_->read<double>(kRangeAxis.path, 1).values != shard.axes.range_m ||
+        content_->read<double>(kVelocityAxis.path, 1).values != shard.axes.velocity_mps)
+      throw WorkError("its axes are not the shards'");
+  } catch (const WorkError& error) {
+    fault(error.what());
+  }
+}
+
+void MergedFileVerifier::fault(const std::string& what) {
+  faults_.push_back(fmt::format("{}: {}", file_.filename().string(), what));
+  content_.reset();
+}
 
 namespace {
 

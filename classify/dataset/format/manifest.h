@@ -2,16 +2,20 @@
 #pragma once
 
 // manifest.json: content of a data set, with a checksum of every shard. It is written last: a data set without it is
-// incomplete.
+// incomplete. Checksums are SHA-256 (FIPS 180-4), as 64 lower-case hexadecimal digits.
 
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sim/scenario/learning_spec.h"
 
 namespace seaglint {
+
+std::string sha256(std::string_view bytes);
+std::string sha256_file(const std::filesystem::path& file);  // the errors of read_file()
 
 struct ManifestShard {
   std::string file;

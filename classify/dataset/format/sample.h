@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// One sample of a data set: a range-velocity map with its label and provenance.
+// One sample of a data set: a range-velocity map with its label and provenance, and the faults of a stored one that are
+// found without its scenario.
 
 #include <array>
 #include <cstdint>
@@ -12,7 +13,7 @@
 
 namespace seaglint {
 
-// A value that the scenario draws for a sample (drawn_columns.h).
+// A value that the scenario draws for a sample (layout.h).
 template <class T>
 struct DrawnValue {
   std::string key;  // its path in the scenario, "sea.peak_period_s"
@@ -109,5 +110,10 @@ struct StoredAxes {
   std::size_t cells() const { return range_m.size() * velocity_mps.size(); }
   bool operator==(const StoredAxes&) const = default;
 };
+
+// What is wrong with the numbers of a sample, one sentence each: values of the map that are no magnitudes (negative or
+// not finite), a peak or an energy that is not the map's, complex values whose magnitudes are not the map's, scattering
+// centres and columns that are not finite (ratios to clutter or noise are NaN where there is none).
+std::vector<std::string> sample_faults(const Sample& sample);
 
 }  // namespace seaglint

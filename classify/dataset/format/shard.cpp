@@ -7,10 +7,9 @@
 #include <algorithm>
 #include <string_view>
 
-#include "classify/dataset/format/checksum.h"
-#include "classify/dataset/format/drawn_columns.h"
 #include "classify/dataset/format/hdf5_file.h"
 #include "classify/dataset/format/layout.h"
+#include "classify/dataset/format/manifest.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 

@@ -12,7 +12,7 @@
 //   /centres                            float32 [sample][centre][range_m, velocity_mps, amplitude_m], zero beyond
 //                                       /samples/centres
 //   /samples/<column>                   [sample], one array per column of sample_columns()
-//   /drawn/<key>                        [sample], one array per drawn key (drawn_columns.h); only with drawn values
+//   /drawn/<key>                        [sample], one array per drawn key (layout.h); only with drawn values
 //
 // Attributes of the file: `format`, `program_version`, `processor`; `classes`, their names by label separated by ", ",
 // where the scenario names them; of every array: `units`, `description`. Every chunk of an array has a Fletcher-32

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// In-place discrete Fourier transforms by FFTW, planned with FFTW_ESTIMATE, so that results do not depend on timing.
-// Planning is serialised between threads, execution is not.
+// Fourier transforms by FFTW, planned with FFTW_ESTIMATE, so that results do not depend on timing, and spectral
+// densities of series. Planning is serialised between threads, execution is not.
 
 #include <cstddef>
+#include <span>
+#include <vector>
 
 #include "sim/core/numbers/linear.h"
 
@@ -34,5 +36,11 @@ class FourierBatch {
   Complex* data_;
   void* plan_;
 };
+
+// One-sided spectral densities over angular frequency, unit squared times s/rad, of series of equal length with time
+// step `step` (s), each with a Hann window and zero-padded to `padding` times its length: [series] [n - 1] at omega = n
+// 2 pi / (padding length step), n = 1 to count, count <= padding length / 2.
+std::vector<std::vector<double>> periodograms(std::span<const std::vector<double>> series, double step,
+                                              std::size_t count, std::size_t padding = 1);
 
 }  // namespace seaglint

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/core/numbers/rotation.h"
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
 
 namespace seaglint {
@@ -47,6 +48,28 @@ Quaternion rotation_between(const Vec3& from, const Vec3& to) {
   }
   const double s = std::sqrt((1 + cosine) * 2);
   return {s * 0.5, a.cross(b) * (1 / s)};
+}
+
+Pose upright(const Vec3& p, double yaw) { return {p, axis_rotation(yaw, Vec3::UnitZ())}; }
+
+Mat3 rotation_from_angles(double roll, double pitch, double yaw) {
+  return (axis_quaternion(yaw, Vec3::UnitZ()) * axis_quaternion(pitch, Vec3::UnitY()) *
+          axis_quaternion(roll, Vec3::UnitX()))
+      .matrix();
+}
+
+PrincipalAxes principal_axes(const Mat3& symmetric) {
+  Eigen::Matrix3d matrix;
+  for (int j = 0; j < 3; ++j) {
+    for (int i = 0; i < 3; ++i) matrix(i, j) = symmetric(i, j);
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(matrix);
+  PrincipalAxes result;
+  for (int j = 0; j < 3; ++j) {
+    result.values[j] = solver.eigenvalues()[j];
+    for (int i = 0; i < 3; ++i) result.axes(i, j) = solver.eigenvectors()(i, j);
+  }
+  return result;
 }
 
 }  // namespace seaglint

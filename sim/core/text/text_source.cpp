@@ -8,7 +8,7 @@
 
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
-#include "sim/core/process/utf8.h"
+#include "sim/core/process/printable.h"
 #include "sim/core/text/words.h"
 
 namespace seaglint {

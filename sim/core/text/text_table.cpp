@@ -9,13 +9,160 @@
 #include <utility>
 
 #include "sim/core/process/error.h"
-#include "sim/core/text/column_key.h"
-#include "sim/core/text/number.h"
-#include "sim/core/text/shown.h"
-#include "sim/core/text/text_rows.h"
+#include "sim/core/process/printable.h"
 #include "sim/core/text/words.h"
 
 namespace seaglint {
+
+namespace {
+
+// Longer spellings of units, and the usual one.
+constexpr std::pair<std::string_view, std::string_view> kUnits[] = {
+    {"degree", "deg"}, {"degrees", "deg"}, {"radian", "rad"}, {"radians", "rad"}, {"sec", "s"},    {"second", "s"},
+    {"seconds", "s"},  {"meter", "m"},     {"meters", "m"},   {"metre", "m"},     {"metres", "m"}, {"hertz", "hz"}};
+
+constexpr std::string_view kUsualUnits[] = {"s",        "ms",    "min",  "h",    "deg", "rad",  "m",     "mm",
+                                            "cm",       "km",    "ft",   "in",   "hz",  "ghz",  "mhz",   "rad_s",
+                                            "m_s",      "deg_s", "m_s2", "m2",   "m3",  "m2_s", "m2_hz", "m2_s_rad",
+                                            "m2_rad_s", "n",     "kn",   "dbsm", "db",  "grad", "1"};
+
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'); }
+
+// Lower case; everything that is no letter or digit becomes one underscore between them.
+std::string spelt(std::string_view text) {
+  constexpr std::pair<std::string_view, std::string_view> kSigns[] = {
+      {"\xc2\xb2", "2"}, {"\xc2\xb3", "3"}, {"\xc2\xb0", "_deg"}, {"\xcf\x89", "omega"}, {"**", ""}, {"^", ""}};
+  std::string key;
+  while (!text.empty()) {
+    const auto sign = std::find_if(std::begin(kSigns), std::end(kSigns),
+                                   [&](const auto& known) { return text.starts_with(known.first); });
+    if (sign != std::end(kSigns)) {
+      const bool doubled = sign->second.starts_with('_') && (key.empty() || key.back() == '_');
+      key += sign->second.substr(doubled ? 1 : 0);
+      text.remove_prefix(sign->first.size());
+      continue;
+    }
+    const char c =
+        text.front() >= 'A' && text.front() <= 'Z' ? static_cast<char>(text.front() - 'A' + 'a') : text.front();
+    if (is_letter(c)) {
+      key += c;
+    } else if (!key.empty() && key.back() != '_') {
+      key += '_';
+    }
+    text.remove_prefix(1);
+  }
+  while (key.ends_with('_')) key.pop_back();
+  const std::size_t last = key.rfind('_') + 1;  // 0 without an underscore
+  for (const auto& [longer, usual] : kUnits) {
+    if (std::string_view(key).substr(last) == longer) return key.replace(last, std::string::npos, usual);
+  }
+  return key;
+}
+
+}  // namespace
+
+std::string column_key(std::string_view name, std::string_view unit) {
+  std::string key = spelt(name);
+  const std::string of_unit = spelt(unit);
+  if (of_unit.empty() || key == of_unit || key.ends_with("_" + of_unit)) return key;
+  return key + "_" + of_unit;
+}
+
+std::string_view bracketed_unit(std::string_view name) {
+  if (!name.ends_with(']') && !name.ends_with(')')) return {};
+  const std::size_t open = name.rfind(name.back() == ']' ? '[' : '(');
+  return open == std::string_view::npos ? std::string_view() : name.substr(open);
+}
+
+bool is_unit(std::string_view cell) {
+  if (cell.empty() || cell == "-" || !bracketed_unit(cell).empty()) return true;
+  const std::string unit = spelt(cell);
+  return std::find(std::begin(kUsualUnits), std::end(kUsualUnits), unit) != std::end(kUsualUnits);
+}
+
+namespace {
+
+constexpr std::size_t kLongestQuoted = 65536;  // bytes
+
+// Length of the text in quotes at the front of `text`, whose first character is the quote; npos without an end.
+std::size_t quoted_length(std::string_view text) {
+  text = text.substr(0, kLongestQuoted);
+  for (std::size_t end = text.find('"', 1); end != std::string_view::npos; end = text.find('"', end + 2)) {
+    if (end + 1 >= text.size() || text[end + 1] != '"') return end - 1;
+  }
+  return std::string_view::npos;
+}
+
+void skip_blanks(std::string_view& rest, char separator) {
+  while (!rest.empty() && (rest.front() == ' ' || rest.front() == '\r' || rest.front() == '\f' ||
+                           (rest.front() == '\t' && separator != '\t'))) {
+    rest.remove_prefix(1);
+  }
+}
+
+bool ends_cell(std::string_view rest, char separator) {
+  if (rest.empty() || rest.front() == '\n' || rest.front() == separator) return true;
+  return separator == ' ' && (rest.front() == '\t' || rest.front() == '\r');
+}
+
+}  // namespace
+
+TextRow next_row(std::string_view& rest, char separator) {
+  TextRow row;
+  next_row(rest, separator, row);
+  return row;
+}
+
+void next_row(std::string_view& rest, char separator, TextRow& row) {
+  row.cells.clear();
+  row.open_quote = {};
+  while (true) {
+    skip_blanks(rest, separator);
+    const bool at_end = rest.empty() || rest.front() == '\n';
+    if (at_end && (separator == ' ' || row.cells.empty())) break;
+    std::string_view cell;
+    if (rest.starts_with('"')) {
+      const std::string_view open = rest.substr(0, 1);
+      const std::size_t length = quoted_length(rest);
+      if (length != std::string_view::npos) {
+        cell = rest.substr(1, length);
+        rest.remove_prefix(length + 2);
+        if (separator != ' ') skip_blanks(rest, separator);
+      }
+      if (length == std::string_view::npos || !ends_cell(rest, separator)) {
+        row.open_quote = open;
+        next_line(rest);
+        return;
+      }
+    } else {
+      std::size_t end = 0;
+      while (!ends_cell(rest.substr(end), separator)) ++end;
+      cell = trimmed(rest.substr(0, end));
+      rest.remove_prefix(end);
+    }
+    row.cells.push_back(cell);
+    if (separator == ' ') continue;
+    if (rest.empty() || rest.front() == '\n') break;
+    rest.remove_prefix(1);
+    // A separator at the very end is followed by one more, empty cell.
+    skip_blanks(rest, separator);
+    if (rest.empty() || rest.front() == '\n') {
+      row.cells.push_back(rest.substr(0, 0));
+      break;
+    }
+  }
+  if (!rest.empty()) rest.remove_prefix(1);
+}
+
+bool is_rule(std::string_view line) {
+  const std::string_view text = trimmed(line);
+  return text.size() >= 3 && text.find_first_not_of("-=_*+| \t") == std::string_view::npos;
+}
+
+bool is_empty(std::span<const std::string_view> cells) {
+  return std::all_of(cells.begin(), cells.end(), [](std::string_view cell) { return cell.empty(); });
+}
+
 namespace {
 
 constexpr int kMaxLinesAbove = 200;  // above the names

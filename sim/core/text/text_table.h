@@ -8,6 +8,7 @@
 #include <initializer_list>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -17,7 +18,38 @@
 
 namespace seaglint {
 
-// A column that a reader asks for: its keys (column_key.h), of which the first that the table has is read.
+// The name and unit of a column in one spelling, lower case with underscores: "roll_deg" for `roll_deg`, `Roll [deg]`,
+// `ROLL (degrees)`, and for `roll` with the unit `(deg)` in a row of its own. Squares and cubes are digits:
+// `area [m^2]` is "area_m2".
+std::string column_key(std::string_view name, std::string_view unit = {});
+
+// The unit in brackets at the end of a name, with its brackets; empty without one.
+std::string_view bracketed_unit(std::string_view name);
+
+// A cell of a row of units: a usual unit, anything in brackets, "-" or nothing.
+bool is_unit(std::string_view cell);
+
+// Separators of tables, in the order in which they are tried; ' ' means spaces and tabs.
+inline constexpr char kSeparators[] = {';', '\t', ',', ' '};
+
+struct TextRow {
+  std::vector<std::string_view> cells;  // without blanks around them and without quotes
+  std::string_view open_quote;          // a quote that is not closed, or that other text follows; empty: none
+};
+
+// The next row, removed from the front of `rest`. A cell in double quotes (RFC 4180) may contain separators and line
+// ends; "" in it stands for a quote and is left so.
+TextRow next_row(std::string_view& rest, char separator);
+// The same into a row, whose memory is used again.
+void next_row(std::string_view& rest, char separator, TextRow& row);
+
+// A line that separates parts of a table: at least three of - = _ * + and |, with blanks.
+bool is_rule(std::string_view line);
+
+// No cell contains anything.
+bool is_empty(std::span<const std::string_view> cells);
+
+// A column that a reader asks for: its keys (column_key()), of which the first that the table has is read.
 struct TableColumn {
   TableColumn(const char* key) : keys{key} {}
   explicit TableColumn(std::vector<std::string> all_keys, bool is_required = true)

@@ -14,11 +14,8 @@
 
 #include "sim/core/numbers/rotation.h"
 #include "sim/core/process/error.h"
-#include "sim/geometry/files/glb_chunks.h"
 #include "sim/geometry/files/gltf_check.h"
 #include "sim/geometry/files/gltf_elements.h"
-#include "sim/geometry/files/gltf_folder.h"
-#include "sim/geometry/files/gltf_pieces.h"
 #include "sim/geometry/mesh/mesh_builder.h"
 #include "sim/geometry/mesh/triangle_mesh.h"
 

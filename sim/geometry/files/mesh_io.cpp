@@ -21,14 +21,11 @@
 #include "sim/geometry/files/obj_file.h"
 #include "sim/geometry/files/ply_file.h"
 #include "sim/geometry/files/stl_file.h"
-#include "sim/geometry/files/stl_soup.h"
 
 namespace seaglint {
 namespace {
 
 constexpr std::size_t kMaxBytes = std::size_t{1} << 30;
-constexpr double kFarthest = 1e7;  // m; larger coordinates indicate a wrong unit
-
 std::string ending_of(const std::filesystem::path& path) {
   std::string ending = path.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
@@ -88,9 +85,9 @@ void check_mesh(const TriangleMesh& mesh, const std::string& file) {
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     const Vec3& p = mesh.vertices[v];
     if (!p.allFinite()) throw InputError(fmt::format("{}: vertex {} is not finite", file, v));
-    if (p.cwiseAbs().maxCoeff() > kFarthest) {
+    if (p.cwiseAbs().maxCoeff() > kLargestCoordinate) {
       throw InputError(fmt::format("{}: vertex {} lies at ({:g}, {:g}, {:g}) m, beyond {:g} m; is the unit right?",
-                                   file, v, p.x(), p.y(), p.z(), kFarthest));
+                                   file, v, p.x(), p.y(), p.z(), kLargestCoordinate));
     }
   }
 }

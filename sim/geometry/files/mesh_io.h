@@ -15,6 +15,9 @@
 
 namespace seaglint {
 
+// Largest coordinate of a mesh, m; larger ones indicate a wrong unit.
+inline constexpr double kLargestCoordinate = 1e7;
+
 // The triangles of a file in metres and the body frame. Vertices at identical positions are merged (also across parts),
 // polygons are triangulated. Positions have the precision of the file: doubles in text and in PLY properties of that
 // type; float32 in glTF, whose nodes place them in double precision, and in binary STL.

@@ -12,13 +12,10 @@
 #include <utility>
 
 #include "sim/core/process/error.h"
-#include "sim/core/process/utf8.h"
-#include "sim/core/text/number.h"
-#include "sim/core/text/shown.h"
+#include "sim/core/process/printable.h"
 #include "sim/core/text/words.h"
-#include "sim/geometry/files/polygons/coordinate.h"
-#include "sim/geometry/files/polygons/triangulate_polygon.h"
 #include "sim/geometry/mesh/mesh_builder.h"
+#include "sim/geometry/mesh/triangulate_polygon.h"
 
 namespace seaglint {
 namespace {

@@ -7,8 +7,6 @@
 #include <numeric>
 #include <utility>
 
-#include "sim/geometry/mesh/disjoint_sets.h"
-#include "sim/geometry/mesh/index_groups.h"
 #include "sim/geometry/mesh/topology.h"
 
 namespace seaglint {

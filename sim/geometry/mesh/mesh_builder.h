@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Builds a mesh part by part; the output of every generator and reader.
+// Meshes made from parts, as every generator and reader does, and from other meshes of the same surface.
 
 #include <array>
 #include <string>
 #include <unordered_map>
 
+#include "sim/core/numbers/random.h"
 #include "sim/geometry/mesh/triangle_mesh.h"
 
 namespace seaglint {
@@ -38,5 +39,18 @@ class MeshBuilder {
   std::uint16_t part_ = 0;
   std::uint16_t material_ = 0;
 };
+
+// Other meshes of the same surface: cut, numbered or rounded differently, with noise on the vertices. Parts, materials
+// and corner normals are kept.
+
+// Every triangle cut into four at the midpoints of its sides, which are rounded to float32 on request. The normal at a
+// midpoint is the mean of those at both ends.
+TriangleMesh cut_in_four(const TriangleMesh& mesh, bool as_float = false);
+
+// Vertices and triangles in random order, triangles starting at a random corner.
+TriangleMesh renumbered(const TriangleMesh& mesh, Random& random);
+
+// Vertices displaced by a normal distribution of this standard deviation in every coordinate, m.
+TriangleMesh with_noise(const TriangleMesh& mesh, double sigma, Random& random);
 
 }  // namespace seaglint

@@ -9,8 +9,7 @@
 #include <utility>
 
 #include "sim/geometry/mesh/coinciding_faces.h"
-#include "sim/geometry/mesh/disjoint_sets.h"
-#include "sim/geometry/mesh/index_groups.h"
+#include "sim/geometry/mesh/topology.h"
 
 namespace seaglint {
 namespace {

@@ -9,9 +9,9 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
-#include "sim/geometry/mesh/index_groups.h"
 
 namespace seaglint {
+
 namespace {
 
 constexpr double kMinHeightRatio = 1e-9;  // height over longest side; float32 positions of a 100 m target resolve 1e-7

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Adjacency of the triangles of a mesh. Edges are found by counting uses of vertex pairs, so that any triangle soup is
-// accepted: holes, edges of three and more triangles, flipped triangles and slivers are counted, not rejected.
+// Adjacency of the triangles of a mesh, and groups and sets of indices. Edges are found by counting uses of vertex
+// pairs, so that any triangle soup is accepted: holes, edges of three and more triangles, flipped triangles and slivers
+// are counted, not rejected.
 
 #include <array>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -73,5 +75,43 @@ struct Wedge {
 // Manifold edges whose face normals differ by more than `min_angle` (radians), and free edges of sheets. Edges of
 // degenerate triangles are skipped, and inconsistent and non-manifold ones, whose faces do not define the free space.
 std::vector<Wedge> wedges(const TriangleMesh& mesh, const Topology& topology, double min_angle);
+
+// Indices 0 to count - 1 in groups, ascending in each (counting sort): triangles by vertex, members of a set.
+class IndexGroups {
+ public:
+  // group_of(i) < groups is called twice for every index.
+  template <typename GroupOf>
+  IndexGroups(std::size_t count, std::size_t groups, const GroupOf& group_of) : first_(groups + 1, 0), members_(count) {
+    for (std::uint32_t i = 0; i < count; ++i) ++first_[group_of(i)];
+    std::uint32_t end = 0;
+    for (std::uint32_t& first : first_) first = end += first;
+    for (auto i = static_cast<std::uint32_t>(count); i-- > 0;) members_[--first_[group_of(i)]] = i;
+  }
+
+  std::size_t size() const { return first_.size() - 1; }
+  std::span<const std::uint32_t> operator[](std::size_t group) const {
+    return {members_.data() + first_[group], members_.data() + first_[group + 1]};
+  }
+
+ private:
+  std::vector<std::uint32_t> first_;
+  std::vector<std::uint32_t> members_;
+};
+
+// Disjoint sets (union-find) of indices 0 to count - 1.
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
+
+  // Representative index of the set that holds i.
+  std::uint32_t find(std::uint32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void unite(std::uint32_t a, std::uint32_t b) { parent_[find(a)] = find(b); }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
 
 }  // namespace seaglint

@@ -76,4 +76,13 @@ TriangleMesh welded(const TriangleMesh& mesh);
 // The triangles of one part, its vertices renumbered; `part` indexes part_names.
 TriangleMesh part_of(const TriangleMesh& mesh, std::size_t part);
 
+struct Sphere {
+  Vec3 centre = Vec3::Zero();
+  double radius = 0;  // m
+};
+
+// The smallest sphere that contains all points, to rounding: no point lies outside by more than 1e-12 of the radius. It
+// turns and moves with the points. Zero for no points, or where none has numbers as coordinates.
+Sphere bounding_sphere(std::span<const Vec3> points);
+
 }  // namespace seaglint

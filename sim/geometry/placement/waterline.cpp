@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "sim/geometry/files/polygons/triangulate_polygon.h"
+#include "sim/geometry/mesh/triangulate_polygon.h"
 
 namespace seaglint {
 namespace {

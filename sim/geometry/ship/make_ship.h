@@ -5,7 +5,7 @@
 // particular ship.
 
 #include "sim/geometry/mesh/triangle_mesh.h"
-#include "sim/geometry/ship/ship_form.h"
+#include "sim/geometry/ship/ship_hull.h"
 
 namespace seaglint {
 

@@ -1,12 +1,34 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Hull of the generated ship: its moulded surface and its mesh.
+// Generic naval combatant: its dimensions and detail, its moulded hull, the houses, and what is on their walls and
+// along the edges of the decks. Positions are given on the 144 m design and scaled by HullSurface.
+
+#include <string>
 
 #include "sim/geometry/mesh/mesh_builder.h"
-#include "sim/geometry/ship/ship_form.h"
+#include "sim/geometry/shapes/generators.h"
 
 namespace seaglint {
+
+enum class ShipDetail {
+  kHull,      // hull and houses
+  kFittings,  // and masts, weapons, boats, deck fittings
+  kRails,     // and rails, ladders, nets
+};
+
+// Positions along and across the ship scale with length and beam; fittings keep their size.
+struct ShipForm {
+  double length_m = 144;        // overall, 90 <= x <= 200
+  double beam_m = 17.5;         // at the waterline, 12 <= x <= 25
+  double freeboard_m = 5.8;     // amidships, 4 <= x <= 9
+  double bow_height_m = 9.8;    // of the deck above the water, freeboard <= x <= 14
+  double stern_height_m = 5.2;  // of the deck above the water, 3 <= x <= 9
+  double panel_m = 1.5;         // length of a hull plate, 0.5 <= x <= 6
+  double plating_m = 0.004;     // largest displacement of a hull plate's vertex, 0 <= x <= 0.05
+  double rail_width_m = 0.045;  // 0.02 <= x <= 0.1
+  ShipDetail detail = ShipDetail::kRails;
+};
 
 // Moulded surface: u = 0 at the transom to 1 at the stem, v = 0 at the waterline to 1 at the deck.
 class HullSurface {
@@ -36,5 +58,39 @@ void add_hull(MeshBuilder& builder, const HullSurface& hull);
 
 // Bulwark along the forecastle's edge with its stays.
 void add_bulwark(MeshBuilder& builder, const HullSurface& hull);
+
+// A deckhouse: a frustum on an octagon, its walls inclined inwards. Heights above the waterline; wall slopes from the
+// vertical in degrees.
+struct Deckhouse {
+  std::string name;
+  double aft = 0, fore = 0;   // at the foot, design metres
+  double half_width = 0;      // at the foot, design metres
+  double foot = 0, roof = 0;  // m above the waterline
+  double side_slope = 8, fore_slope = 12, aft_slope = 6;
+  double fore_chamfer = 2.5, aft_chamfer = 0.8;  // chamfer of the vertical edges, m
+
+  double half_width_at(const HullSurface& hull, double z) const;
+  double fore_at(const HullSurface& hull, double z) const;
+  double aft_at(const HullSurface& hull, double z) const;
+
+  // Pose on the side wall at design x and height z: +x is the outward normal, +z points up along the wall. side = +1
+  // port, -1 starboard.
+  Pose on_side(const HullSurface& hull, double side, double design_x, double z) const;
+};
+
+// The houses that carry all fittings.
+struct ShipHouses {
+  Deckhouse forward, bridge, flag_deck, core, aft, radar_house;
+};
+ShipHouses ship_houses(const HullSurface& hull);
+
+// Deckhouses, bridge with wings, funnel, hangar.
+void add_superstructure(MeshBuilder& builder, const HullSurface& hull, const ShipHouses& houses);
+
+// Fittings on the walls: cabinets, doors, liferafts, fire stations, lamps.
+void add_wall_fittings(MeshBuilder& builder, const HullSurface& hull, const ShipHouses& houses);
+
+// Rails of posts and bars, ladders, and the nets around the flight deck.
+void add_rails(MeshBuilder& builder, const HullSurface& hull, const ShipHouses& houses);
 
 }  // namespace seaglint

@@ -7,11 +7,10 @@
 #include <utility>
 
 #include "sim/core/numbers/linear.h"
-#include "sim/core/numbers/principal_axes.h"
+#include "sim/core/numbers/real_functions.h"
 #include "sim/core/numbers/rotation.h"
-#include "sim/core/numbers/smooth_step.h"
-#include "sim/geometry/mesh/crease_normals.h"
-#include "sim/geometry/mesh/index_groups.h"
+#include "sim/geometry/mesh/topology.h"
+#include "sim/geometry/surface/facets.h"
 
 namespace seaglint {
 

@@ -7,15 +7,142 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
-#include "sim/motion/recorded/attitude_file.h"
+#include "sim/core/text/text_table.h"
+#include "sim/core/text/words.h"
+#include "sim/motion/kinematics/trajectory.h"
 
 namespace seaglint {
 
 namespace {
+
+// Half of the range of t_n - n h, the least distance of all times from a grid of step h.
+double deviation_from(const std::vector<double>& time, double step) {
+  double lowest = 0, highest = 0;  // relative to the first time
+  for (std::size_t n = 0; n < time.size(); ++n) {
+    const double residual = time[n] - time.front() - static_cast<double>(n) * step;
+    lowest = std::min(lowest, residual);
+    highest = std::max(highest, residual);
+  }
+  return 0.5 * (highest - lowest);
+}
+
+// Whether a grid lies within `rounding` of all times. The deviation is convex in the step: golden sections find its
+// minimum.
+bool lie_on_a_grid(const std::vector<double>& time, double rounding) {
+  constexpr double kGolden = 0.6180339887498949;
+  const auto last = static_cast<double>(time.size() - 1);
+  const double span = time.back() - time.front();
+  const double limit = rounding + 1e-9 * span / last;
+  double low = (span - 2 * rounding) / last, high = (span + 2 * rounding) / last;
+  double left = high - kGolden * (high - low), right = low + kGolden * (high - low);
+  double at_left = deviation_from(time, left), at_right = deviation_from(time, right);
+  for (int i = 0; i < 60 && std::min(at_left, at_right) > limit; ++i) {
+    if (at_left < at_right) {
+      high = right, right = left, at_right = at_left;
+      left = high - kGolden * (high - low);
+      at_left = deviation_from(time, left);
+    } else {
+      low = left, left = right, at_left = at_right;
+      right = low + kGolden * (high - low);
+      at_right = deviation_from(time, right);
+    }
+  }
+  return std::min(at_left, at_right) <= limit;
+}
+
+// Half of the last decimal that the numbers of a column have; 0 where they have more digits than a double.
+double rounding_of(const TextTable& table, std::size_t column) {
+  int decimals = 0;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const std::optional<int> own = significant_decimals(table.text(row, column));
+    if (!own) return 0;
+    decimals = std::max(decimals, *own);
+  }
+  return 0.5 * std::pow(10.0, -decimals);
+}
+
+// Columns of the table.
+constexpr std::size_t kTimeColumn = 0, kFirstAngleColumn = 1;  // then roll, pitch, yaw
+constexpr std::size_t kFirstShiftColumn = 4;                   // then surge, sway, heave
+constexpr std::size_t kPitchRateColumn = 7;
+
+// Rows of the file: angles in rad and translations in m, in the conventions of this project.
+struct AttitudeTable {
+  TextTable table;
+  std::vector<double> time;
+  std::vector<MotionSample> samples;
+  bool pitch_reversed = false;  // so that it agrees with the angular velocity of the file
+
+  bool in_radians(std::size_t axis) const;  // roll, pitch or yaw, as the file declares
+};
+
+// Columns by the names of this project and DualSPHysics (roll), and of OpenFAST (PtfmRoll).
+std::vector<TableColumn> columns() {
+  std::vector<TableColumn> all{"time_s"};
+  for (const char* angle : {"roll", "pitch", "yaw"}) {
+    std::vector<std::string> keys;
+    for (const char* name : {"{}_deg", "{}_rad", "ptfm{}_deg", "ptfm{}_rad"})
+      keys.push_back(fmt::format(fmt::runtime(name), angle));
+    all.emplace_back(keys, std::string_view(angle) != "yaw");
+  }
+  for (const char* shift : {"surge", "sway", "heave"}) {
+    std::vector<std::string> keys{fmt::format("{}_m", shift), fmt::format("ptfm{}_m", shift)};
+    all.emplace_back(keys, false);
+  }
+  all.emplace_back(std::vector<std::string>{"fomega_y_rad_s"}, false);
+  return all;
+}
+
+// The sign of pitch, which changed between versions of DualSPHysics, is chosen so that its rate correlates positively
+// with the angular velocity about y. True if it is reversed.
+bool align_pitch(const TextTable& table, std::vector<MotionSample>& samples) {
+  if (!table.has(kPitchRateColumn)) return false;
+  double agreement = 0;
+  for (std::size_t n = 1; n < table.rows(); ++n) {
+    const double difference = samples[n].angles.y() - samples[n - 1].angles.y();
+    agreement += difference * 0.5 * (table.number(n, kPitchRateColumn) + table.number(n - 1, kPitchRateColumn));
+  }
+  if (!(agreement < 0)) return false;
+  for (MotionSample& sample : samples) sample.angles.y() = -sample.angles.y();
+  return true;
+}
+
+bool AttitudeTable::in_radians(std::size_t axis) const { return table.key(kFirstAngleColumn + axis).ends_with("_rad"); }
+
+// Degrees of freedom that the table does not have are 0. `translations`: surge, sway and heave are needed, in metres.
+// Throws InputError with file, line and column.
+AttitudeTable read_attitude_table(const std::filesystem::path& file, bool translations) {
+  AttitudeTable result{TextTable(TextSource::read(file), columns()), {}, {}};
+  const TextTable& table = result.table;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    table.require_unit(kFirstAngleColumn + axis);
+    if (translations) table.require_unit(kFirstShiftColumn + axis);
+  }
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    result.time.push_back(table.number(row, kTimeColumn));
+    MotionSample& sample = result.samples.emplace_back();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::size_t turn = kFirstAngleColumn + axis, shift = kFirstShiftColumn + axis;
+      if (table.has(turn)) {
+        const double angle = table.number(row, turn);
+        sample.angles[static_cast<int>(axis)] = result.in_radians(axis) ? angle : radians(angle);
+      }
+      if (table.has(shift)) sample.translation[static_cast<int>(axis)] = table.number(row, shift);
+    }
+  }
+  result.pitch_reversed = align_pitch(table, result.samples);
+  return result;
+}
 
 // Slopes at the knots of the natural cubic spline through values y at ascending times t: continuous second derivative
 // gives a tridiagonal system, zero curvature at both ends.
@@ -225,6 +352,20 @@ std::size_t interval_of(const std::vector<double>& time, double t) {
 }
 
 }  // namespace
+
+TimeGrid make_uniform(std::vector<double>& time, double rounding) {
+  constexpr double kUniform = 1e-3, kMostRounding = 0.35;  // of a step
+  const double step = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
+  double smallest = step, largest = step;
+  for (std::size_t n = 1; n < time.size(); ++n) {
+    smallest = std::min(smallest, time[n] - time[n - 1]);
+    largest = std::max(largest, time[n] - time[n - 1]);
+  }
+  if (largest - smallest <= kUniform * step) return TimeGrid::kUniform;
+  if (rounding > kMostRounding * step || !lie_on_a_grid(time, rounding)) return TimeGrid::kIrregular;
+  for (std::size_t n = 1; n + 1 < time.size(); ++n) time[n] = time.front() + step * static_cast<double>(n);
+  return TimeGrid::kRounded;
+}
 
 AttitudeSeries read_attitude_series(const std::filesystem::path& file, const SeriesRules& rules) {
   AttitudeTable table = read_attitude_table(file, rules.translations);

@@ -8,10 +8,17 @@
 #include <vector>
 
 #include "sim/motion/kinematics/trajectory.h"
-#include "sim/motion/recorded/time_grid.h"
 #include "sim/scenario/target_spec.h"
 
 namespace seaglint {
+
+// Times of a file: uniform to a thousandth of a step, rounded values of uniform ones, or neither.
+enum class TimeGrid { kUniform, kRounded, kIrregular };
+
+// Replaces ascending times, at least two, that all lie within `rounding` of one uniform grid by the uniform grid from
+// the first to the last; leaves others. Rounding above 0.35 of the step leaves irregular times indistinguishable from
+// uniform ones, and counts as irregular.
+TimeGrid make_uniform(std::vector<double>& time, double rounding);
 
 // Angles (rad) and translations (m) in the conventions of this project at ascending times; rates are those of the cubic
 // spline through them.

@@ -9,7 +9,6 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
-#include "sim/motion/ship/response_series.h"
 
 namespace seaglint {
 

@@ -8,7 +8,7 @@
 
 #include "sim/core/numbers/linear.h"
 #include "sim/motion/kinematics/trajectory.h"
-#include "sim/motion/ship/ship_response.h"
+#include "sim/motion/ship/response_series.h"
 #include "sim/scenario/target_spec.h"
 #include "sim/sea/wave_field.h"
 

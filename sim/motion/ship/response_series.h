@@ -1,21 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Motion time series of a body: the sum of its responses to all waves of a sea.
+// Responses of a body to one wave, and its motion time series: the sum of its responses to all waves of a sea.
 
 #include <array>
 #include <functional>
 #include <vector>
 
-#include "sim/core/numbers/unit_phasors.h"
+#include "sim/core/numbers/reproducible_functions.h"
 #include "sim/motion/kinematics/trajectory.h"
 #include "sim/motion/strip_theory/strip_theory.h"
 #include "sim/sea/wave_field.h"
 
 namespace seaglint {
 
-// Responses per metre of wave amplitude: roll, pitch, yaw (rad/m), surge, sway, heave (m/m) and one channel chosen by
-// the caller.
+// Response amplitude operators, rad/m and m/m, in the time factor e^{j w_e t} of the encounter frequency; translations
+// of the rotation centre. The phase reference is the elevation at the ship's origin.
+struct MotionRao {
+  Complex surge, sway, heave, roll, pitch, yaw;
+};
+
+// The same per channel: roll, pitch, yaw (rad/m), surge, sway, heave (m/m) and one channel chosen by the caller.
 enum class ResponseChannel { kRoll, kPitch, kYaw, kSurge, kSway, kHeave, kExtra };
 inline constexpr std::size_t kResponseChannels = 7;
 using ResponseChannels = std::array<Complex, kResponseChannels>;

@@ -8,7 +8,7 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
-#include "sim/motion/strip_theory/lewis_form.h"
+#include "sim/motion/strip_theory/section_radiation.h"
 
 namespace seaglint {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/core/numbers/smooth_step.h"
+#include "sim/core/numbers/real_functions.h"
 #include "sim/scattering/coefficients/fade_windows.h"
 #include "sim/scattering/coefficients/wedge_diffraction.h"
 

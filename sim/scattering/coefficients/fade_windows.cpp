@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/core/numbers/smooth_step.h"
+#include "sim/core/numbers/real_functions.h"
 
 namespace seaglint {
 

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/core/numbers/sinc.h"
+#include "sim/core/numbers/real_functions.h"
 #include "sim/scattering/radiation/surface_radiation.h"
 
 namespace seaglint {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "sim/core/numbers/sinc.h"
+#include "sim/core/numbers/real_functions.h"
 #include "sim/scattering/coefficients/fade_windows.h"
 
 namespace seaglint {

@@ -4,8 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "sim/core/numbers/sinc.h"
-#include "sim/core/numbers/smooth_step.h"
+#include "sim/core/numbers/real_functions.h"
 #include "sim/scattering/coefficients/fade_windows.h"
 
 namespace seaglint {

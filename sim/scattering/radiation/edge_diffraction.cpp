@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/real_functions.h"
 #include "sim/core/numbers/rotation.h"
-#include "sim/core/numbers/smooth_step.h"
 #include "sim/core/process/parallel.h"
 #include "sim/scattering/coefficients/fade_windows.h"
 #include "sim/scattering/coefficients/material.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/core/process/function_versions.h"
+#include "sim/core/process/parallel.h"
 #include "sim/scattering/scatterer/embree_scene.h"
 
 namespace seaglint {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/core/numbers/principal_axes.h"
+#include "sim/core/numbers/rotation.h"
 #include "sim/geometry/placement/waterline.h"
 
 namespace seaglint {

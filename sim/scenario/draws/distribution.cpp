@@ -12,7 +12,7 @@
 
 #include "sim/core/numbers/reproducible_functions.h"
 #include "sim/core/process/error.h"
-#include "sim/core/text/number.h"
+#include "sim/core/text/words.h"
 #include "sim/scenario/files/scatter_diagram.h"
 
 namespace seaglint {

@@ -13,8 +13,7 @@
 #include <utility>
 
 #include "sim/core/process/error.h"
-#include "sim/core/process/utf8.h"
-#include "sim/core/text/shown.h"
+#include "sim/core/process/printable.h"
 #include "sim/core/text/text_source.h"
 #include "sim/core/text/words.h"
 

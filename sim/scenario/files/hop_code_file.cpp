@@ -10,8 +10,7 @@
 #include <string_view>
 
 #include "sim/core/process/error.h"
-#include "sim/core/text/number.h"
-#include "sim/core/text/shown.h"
+#include "sim/core/process/printable.h"
 #include "sim/core/text/text_source.h"
 #include "sim/core/text/words.h"
 

@@ -10,9 +10,8 @@
 #include <vector>
 
 #include "sim/core/process/error.h"
-#include "sim/core/process/utf8.h"
-#include "sim/core/text/number.h"
-#include "sim/core/text/shown.h"
+#include "sim/core/process/printable.h"
+#include "sim/core/text/words.h"
 #include "sim/scenario/files/scenario_document.h"
 
 namespace seaglint {

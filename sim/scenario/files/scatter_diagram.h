@@ -41,7 +41,7 @@ struct ScatterDiagram {
 // Removes the cells of numbers i with is_excluded[i].
 void exclude_cells(ScatterDiagram& diagram, const std::vector<bool>& is_excluded);
 
-// Reads a table of counts in one of two layouts, with any separator and comments (sim/core/text/text_rows.h):
+// Reads a table of counts in one of two layouts, with any separator and comments (sim/core/text/text_table.h):
 //   wave heights in the first column and periods in the first row, or the reverse; the first cell names both, rows
 //   first ("Hs/Tp", "significant_wave_height_m \ peak_period_s"); rows and columns named sum or total are left out;
 //   or the columns significant_wave_height_m (hs_m), peak_period_s (tp_s) and count.

@@ -15,10 +15,7 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
-#include "sim/core/text/column_key.h"
-#include "sim/core/text/number.h"
-#include "sim/core/text/shown.h"
-#include "sim/core/text/text_rows.h"
+#include "sim/core/process/printable.h"
 #include "sim/core/text/text_table.h"
 #include "sim/core/text/words.h"
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "classify/cnn/augmentation.h"
-#include "classify/features/velocity_line.h"
+#include "classify/features/feature_vector.h"
+#include "sim/core/numbers/random.h"
 
 namespace seaglint {
 namespace {

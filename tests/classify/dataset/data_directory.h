@@ -10,7 +10,6 @@
 #include <string>
 
 #include "classify/dataset/directory/dataset_writer.h"
-#include "classify/dataset/directory/planned_record.h"
 
 namespace seaglint {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "classify/features/local_level.h"
+#include "classify/features/residual_echo.h"
 #include "classify/features/scattering_centres.h"
 #include "radar/echo/echo.h"
 #include "sim/canonical/point_response.h"

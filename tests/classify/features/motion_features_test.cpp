@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "classify/features/motion_features.h"
+#include "classify/features/feature_vector.h"
 
 #include <gtest/gtest.h>
 

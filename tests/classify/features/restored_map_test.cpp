@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdio>
 
-#include "classify/features/restored_map.h"
 #include "classify/features/scattering_centres.h"
 #include "radar/echo/echo.h"
 #include "sim/canonical/point_response.h"

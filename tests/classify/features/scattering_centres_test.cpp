@@ -7,10 +7,9 @@
 #include <ctime>
 
 #include "classify/features/residual_echo.h"
-#include "classify/features/residual_floor.h"
 #include "classify/features/scattering_centres.h"
 #include "radar/echo/echo.h"
-#include "radar/rvmap/scr.h"
+#include "radar/rvmap/rv_map.h"
 #include "sim/canonical/point_response.h"
 #include "sim/core/numbers/random.h"
 #include "tests/measured.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "classify/features/velocity_line.h"
+#include "classify/features/feature_vector.h"
 
 #include <gtest/gtest.h>
 

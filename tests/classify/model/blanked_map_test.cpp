@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Levels outside of the target on maps of known levels.
-#include "classify/model/blanked_map.h"
+#include "classify/model/learning_table.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "classify/model/booster.h"
+#include "classify/model/classifiers.h"
 #include "classify/model/learning_table.h"
 #include "classify/model/model_card.h"
 #include "classify/model/scores.h"

@@ -9,8 +9,8 @@
 #include <limits>
 #include <set>
 
+#include "classify/model/data_rows.h"
 #include "classify/model/scores.h"
-#include "classify/model/value_range.h"
 #include "sim/core/process/error.h"
 
 namespace seaglint {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Logistic regression against closed forms and the conditions of its minimum.
-#include "classify/model/logistic.h"
+#include "classify/model/classifiers.h"
 
 #include <gtest/gtest.h>
 

@@ -8,9 +8,9 @@
 #include <set>
 #include <span>
 
-#include "classify/model/booster.h"
+#include "classify/model/classifiers.h"
+#include "classify/model/division.h"
 #include "classify/model/scores.h"
-#include "classify/model/split.h"
 #include "sim/core/numbers/random.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"

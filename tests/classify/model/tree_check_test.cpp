@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Trees whose nodes, columns or classes are not those of a model are refused before XGBoost follows their indices.
-#include "classify/model/tree_check.h"
+#include "classify/model/classifiers.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,6 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "classify/model/booster.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "tests/temporary_folder.h"

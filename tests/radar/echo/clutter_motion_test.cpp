@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "radar/echo/clutter_motion.h"
+#include "radar/echo/sea_clutter.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdio>
 
-#include "radar/echo/sea_clutter.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/dispersion.h"
 #include "sim/scenario/scenario.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "radar/echo/gamma_texture.h"
+#include "radar/echo/sea_clutter.h"
 
 #include <gtest/gtest.h>
 

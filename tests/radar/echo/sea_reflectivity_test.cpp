@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Clutter and noise of absolute level: reflectivity, area, radar equation, and the level of the echo.
-#include "radar/echo/sea_reflectivity.h"
+#include "radar/echo/sea_clutter.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,6 @@
 #include <cstdio>
 
 #include "radar/echo/echo.h"
-#include "radar/echo/receiver_noise.h"
-#include "radar/echo/sea_clutter.h"
 #include "sim/canonical/point_response.h"
 #include "sim/core/numbers/constants.h"
 #include "tests/measured.h"

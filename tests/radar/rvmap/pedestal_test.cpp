@@ -7,9 +7,8 @@
 #include <cstdio>
 
 #include "radar/echo/echo.h"
-#include "radar/rvmap/map_weights.h"
 #include "radar/rvmap/rv_map.h"
-#include "radar/waveform/figures_of_merit.h"
+#include "radar/waveform/pulse_train.h"
 #include "sim/canonical/point_response.h"
 #include "sim/core/numbers/constants.h"
 #include "tests/measured.h"

@@ -8,7 +8,6 @@
 #include <cstdio>
 
 #include "radar/echo/echo.h"
-#include "radar/rvmap/map_weights.h"
 #include "sim/canonical/point_response.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/random.h"

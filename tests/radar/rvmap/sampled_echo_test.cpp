@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Time-domain echo: the same maps as in the frequency domain, and its difference from an echo formed independently by
 // delaying the ideal chirp.
-#include "radar/echo/sampled_echo.h"
+#include "radar/echo/echo.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,6 @@
 #include <string>
 #include <utility>
 
-#include "radar/echo/echo.h"
 #include "radar/echo/sea_clutter.h"
 #include "radar/rvmap/rv_map.h"
 #include "sim/canonical/point_response.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "radar/rvmap/scr.h"
+#include "radar/rvmap/rv_map.h"
 
 #include <gtest/gtest.h>
 

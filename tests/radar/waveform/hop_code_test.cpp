@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "radar/waveform/figures_of_merit.h"
 #include "radar/waveform/pulse_train.h"
 #include "sim/core/process/error.h"
 #include "sim/scenario/files/hop_code_file.h"

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <set>
 
-#include "radar/waveform/figures_of_merit.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/cavity/wall_patches.h"
+#include "sim/cavity/wall_currents.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/core/numbers/pose.h"
+#include "sim/core/numbers/rotation.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Other meshes of the same surface, with those of sim/geometry/mesh/mesh_changes.h.
+// Other meshes of the same surface, with those of sim/geometry/mesh/mesh_builder.h.
 
-#include "sim/geometry/mesh/mesh_changes.h"
+#include "sim/geometry/mesh/mesh_builder.h"
 
 namespace seaglint::testing_meshes {
 

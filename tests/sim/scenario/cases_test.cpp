@@ -7,8 +7,8 @@
 #include <fstream>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/core/process/data_folder.h"
 #include "sim/core/process/error.h"
+#include "sim/core/text/names.h"
 #include "sim/scenario/scenario.h"
 #include "tests/temporary_folder.h"
 

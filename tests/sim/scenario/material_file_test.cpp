@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "sim/core/numbers/random.h"
-#include "sim/core/process/data_folder.h"
 #include "sim/core/process/error.h"
+#include "sim/core/text/names.h"
 #include "sim/scenario/material_file.h"
 #include "sim/scenario/material_spec.h"
 

@@ -10,7 +10,7 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/linear.h"
-#include "sim/sea/wave_component.h"
+#include "sim/sea/second_order.h"
 
 namespace seaglint {
 

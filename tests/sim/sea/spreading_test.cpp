@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/sea/spreading.h"
+#include "sim/sea/realisation.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/sea/realisation.h"
 #include "sim/sea/wave_field.h"
 
 namespace seaglint {

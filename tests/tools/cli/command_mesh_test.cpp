@@ -11,7 +11,7 @@
 #include "sim/core/process/file.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/shapes/generators.h"
-#include "tools/cli/command.h"
+#include "tools/cli/command_line.h"
 #include "tools/figure/mesh_picture.h"
 
 namespace seaglint {

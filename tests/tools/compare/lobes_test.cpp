@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Lobes, nulls and range profiles against closed forms.
-#include "tools/compare/lobes.h"
+#include "tools/compare/curve_features.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,6 @@
 #include <cmath>
 
 #include "sim/core/numbers/constants.h"
-#include "tools/compare/range_profiles.h"
 
 namespace seaglint {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/compare/view_groups.h"
+#include "tools/compare/view_grids.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Intervals as samples over time: an ideal chirp delayed in time becomes the point that it is the echo of; files that
 // contradict their scenario are refused.
-#include "tools/evaluate/echo_file.h"
+#include "tools/evaluate/classify.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

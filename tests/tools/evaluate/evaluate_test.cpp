@@ -9,7 +9,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "classify/dataset/directory/file_names.h"
+#include "classify/dataset/directory/dataset_reader.h"
 #include "classify/dataset/format/manifest.h"
 #include "classify/dataset/format/shard.h"
 #include "sim/core/numbers/random.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Figures as JSON for the script of a page.
-#include "tools/page/plot_json.h"
+#include "tools/page/html.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,8 +8,6 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
-
-#include "tools/page/html.h"
 
 namespace seaglint {
 namespace {

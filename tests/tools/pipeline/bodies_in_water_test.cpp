@@ -14,7 +14,7 @@
 
 #include "sim/core/process/error.h"
 #include "sim/geometry/files/mesh_io.h"
-#include "sim/geometry/placement/mesh_placement.h"
+#include "sim/geometry/placement/target_mesh.h"
 #include "sim/geometry/shapes/generators.h"
 #include "tests/temporary_folder.h"
 #include "tests/tools/pipeline/target_responses.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A swept or drawn key that changes nothing is named, and no other.
-#include "tools/pipeline/constant_keys.h"
+#include "tools/pipeline/scenario_check.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/pipeline/map_coverage.h"
+#include "tools/pipeline/warnings.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Maps with the whole synthetic bandwidth in every pulse: no pedestal, and the target's own motion.
-#include "tools/pipeline/map_products.h"
+#include "tools/pipeline/interval_products.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which degrees of freedom of a target are 0 is said with the key that would move them.
-#include "tools/pipeline/motion_summary.h"
+#include "tools/pipeline/moving_bodies.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -4,11 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "classify/dataset/directory/planned_record.h"
+#include "classify/dataset/directory/dataset_writer.h"
 #include "sim/core/process/error.h"
 #include "tools/pipeline/moving_bodies.h"
 #include "tools/pipeline/pipeline.h"
-#include "tools/report/class_names.h"
+#include "tools/report/report_text.h"
 
 namespace seaglint {
 namespace {

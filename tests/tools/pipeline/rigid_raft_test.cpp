@@ -17,7 +17,7 @@
 #include "sim/motion/target_motion.h"
 #include "tests/temporary_folder.h"
 #include "tests/tools/pipeline/target_responses.h"
-#include "tools/pipeline/map_products.h"
+#include "tools/pipeline/interval_products.h"
 #include "tools/pipeline/pipeline.h"
 
 namespace seaglint {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What `check` says of a scenario: how much of it there is, what moves and what does not.
-#include "tools/pipeline/scenario_summary.h"
+#include "tools/pipeline/scenario_check.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -15,7 +15,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "classify/dataset/directory/file_names.h"
+#include "classify/dataset/directory/dataset_reader.h"
 #include "classify/model/learning_table.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Levels of facets against the closed form of a plate, and their independence of its triangles.
-#include "tools/rcs/facet_levels.h"
+#include "tools/rcs/view_export.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Settings of other programs, and what a user gives instead of them.
-#include "tools/rcs/like_program.h"
+#include "tools/rcs/rcs_request.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Changes of a sweep's levels.
-#include "tools/rcs/rcs_convergence.h"
+#include "tools/rcs/rcs_uncertainty.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The result of a benchmark in the report of another run has the figures of its file.
-#include "tools/report/benchmark_section.h"
+#include "tools/report/report_text.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "tools/page/plot_json.h"
+#include "tools/page/html.h"
 
 namespace seaglint {
 namespace {

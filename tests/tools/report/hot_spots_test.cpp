@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The targets of a report's page, coloured by their hot spots.
-#include "tools/report/hot_spots.h"
+#include "tools/report/explorer.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -8,9 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "tools/pipeline/metrics.h"
-#include "tools/report/probe_text.h"
-#include "tools/report/score_plots.h"
+#include "tools/report/report_figures.h"
 
 namespace seaglint {
 namespace {

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Cards of NASTRAN bulk data: small (8 columns), large (16 columns) and free field, with their continuation lines (MSC
-// Nastran Quick Reference Guide, "Bulk Data Entries").
+// NASTRAN bulk data: cards in small (8 columns), large (16 columns) and free field, with their continuation lines (MSC
+// Nastran Quick Reference Guide, "Bulk Data Entries"), and the coordinate systems that they define.
 
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "sim/core/numbers/linear.h"
 #include "sim/core/text/text_source.h"
 
 namespace seaglint {
@@ -61,5 +64,39 @@ class NastranCards {
 
 // A number as NASTRAN writes it: "1.5", "1.5E-3", "1.5D-3", "1.5-3".
 std::optional<double> parse_nastran_real(std::string_view text);
+
+// Coordinate systems CORD2R, CORD2C and CORD2S. Systems may be given behind the nodes and the systems that refer to
+// them.
+class NastranFrames {
+ public:
+  // Reads a card CORD...; throws InputError for a number that is not positive, given twice, or three points on a line.
+  void add(const NastranCards& card);
+
+  // Replaces references by the base system; throws InputError for one that refers to itself or to a missing system.
+  void resolve(const TextSource& source);
+
+  // A point (x, y, z; r, theta in deg, z; or r, theta, phi in deg) in the base system; nullopt for an unknown system.
+  // System 0 is the base system.
+  std::optional<Vec3> in_base(std::int64_t system, const Vec3& point) const;
+
+  // Whether a card CORD1R, CORD1C, CORD1S, CORD3G with this number has been added: these are not read.
+  bool is_of_other_kind(std::int64_t system) const { return others_.contains(system); }
+
+ private:
+  enum class Kind { kRectangular, kCylindrical, kSpherical };
+  struct Frame {
+    Kind kind = Kind::kRectangular;
+    std::int64_t reference = 0;
+    Vec3 a, b, c;  // origin, point on the z axis, point in the half-plane of x and z
+    const char* at = nullptr;
+    Mat3 R = Mat3::Identity();  // axes in the base system, columns
+    bool is_resolved = false;
+  };
+  static Vec3 cartesian(Kind kind, const Vec3& point);
+  void place(Frame& frame, const TextSource& source) const;
+
+  std::map<std::int64_t, Frame> frames_;
+  std::set<std::int64_t> others_;
+};
 
 }  // namespace seaglint

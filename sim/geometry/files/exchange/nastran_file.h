@@ -11,7 +11,7 @@ namespace seaglint {
 
 // GRID in the base system or one of CORD2R, CORD2C, CORD2S; CTRIA3, CTRIAR, CTRIA6, CQUAD4, CQUADR, CQUAD8, CQUAD
 // (also written CQUAD9) and CSHEAR. Parts are properties, with the names that pre-processors write into comments
-// (nastran_names.h), else "property_7"; "body" without a property. Other cards are ignored, solids and other shells
+// (NastranNames), else "property_7"; "body" without a property. Other cards are ignored, solids and other shells
 // counted. Throws InputError with file, line and column; also for INCLUDE, superelements, replication, and a file with
 // BEGIN BULK that ends without ENDDATA.
 TriangleMesh read_nastran(std::string bytes, const std::string& file);

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "sim/core/process/error.h"
-#include "sim/geometry/files/polygons/coordinate.h"
 #include "sim/geometry/mesh/mesh_builder.h"
+#include "sim/geometry/mesh/triangulate_polygon.h"
 
 namespace seaglint {
 namespace {

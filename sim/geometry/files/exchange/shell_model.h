@@ -13,8 +13,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "sim/geometry/files/polygons/triangulate_polygon.h"
 #include "sim/geometry/mesh/triangle_mesh.h"
+#include "sim/geometry/mesh/triangulate_polygon.h"
 
 namespace seaglint {
 
@@ -48,7 +48,7 @@ class ShellModel {
 
   void add_finding(std::string sentence);
 
-  // The triangles, quadrilaterals divided as polygons of other files (triangulate_polygon.h). Throws InputError for an
+  // The triangles, quadrilaterals divided as polygons of other files (triangles_of_polygon()). Throws InputError for an
   // element that names a missing node, nodes given twice at different positions, and a model without shells.
   TriangleMesh mesh();
 

@@ -10,9 +10,8 @@
 
 #include "classify/dataset/directory/audit.h"
 #include "classify/dataset/directory/dataset_reader.h"
-#include "classify/dataset/format/checksum.h"
+#include "classify/dataset/format/manifest.h"
 #include "sim/core/process/file.h"
-#include "sim/core/process/temporary_file.h"
 #include "tests/classify/dataset/data_directory.h"
 
 namespace seaglint {

@@ -10,11 +10,10 @@
 #include <limits>
 
 #include "classify/dataset/directory/dataset_reader.h"
-#include "classify/dataset/format/checksum.h"
 #include "classify/dataset/format/hdf5_file.h"
+#include "classify/dataset/format/manifest.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
-#include "sim/core/process/temporary_file.h"
 #include "sim/scenario/writer.h"
 #include "tests/classify/dataset/data_directory.h"
 

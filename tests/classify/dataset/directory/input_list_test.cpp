@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A data set records its scenario and the files that the scenario names.
-#include "classify/dataset/directory/input_list.h"
+#include "classify/dataset/directory/dataset_reader.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -8,7 +8,7 @@
 
 #include <fstream>
 
-#include "classify/dataset/format/checksum.h"
+#include "classify/dataset/format/manifest.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "tests/temporary_folder.h"

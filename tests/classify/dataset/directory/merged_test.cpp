@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One virtual file over all shards: it returns the shards' data and is not written over shards that are missing,
 // damaged or foreign.
-#include "classify/dataset/directory/merged.h"
+#include "classify/dataset/directory/export.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,9 +9,9 @@
 #include <cmath>
 
 #include "classify/dataset/directory/audit.h"
-#include "classify/dataset/format/checksum.h"
 #include "classify/dataset/format/hdf5_file.h"
 #include "classify/dataset/format/layout.h"
+#include "classify/dataset/format/manifest.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "tests/classify/dataset/data_directory.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "classify/dataset/directory/planned_record.h"
+#include "classify/dataset/directory/dataset_writer.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Columns of drawn values: units by the key, and what is written is read.
-#include "classify/dataset/format/drawn_columns.h"
+#include "classify/dataset/format/layout.h"
 
 #include <gtest/gtest.h>
 

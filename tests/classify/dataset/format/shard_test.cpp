@@ -8,7 +8,7 @@
 #include <ctime>
 #include <fstream>
 
-#include "classify/dataset/format/checksum.h"
+#include "classify/dataset/format/manifest.h"
 #include "sim/core/numbers/random.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"

@@ -12,7 +12,6 @@
 #include <random>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/core/numbers/principal_axes.h"
 #include "sim/core/numbers/rotation.h"
 
 namespace seaglint {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/core/numbers/periodogram.h"
+#include "sim/core/numbers/fourier.h"
 
 #include <gtest/gtest.h>
 

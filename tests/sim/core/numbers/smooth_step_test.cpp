@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/core/numbers/smooth_step.h"
+#include "sim/core/numbers/real_functions.h"
 
 #include <gtest/gtest.h>
 

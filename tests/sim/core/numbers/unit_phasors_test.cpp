@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/core/numbers/unit_phasors.h"
+#include "sim/core/numbers/reproducible_functions.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/core/process/address_space.h"
+#include "sim/core/process/out_of_memory.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/core/process/data_folder.h"
+#include "sim/core/text/names.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/core/process/temporary_file.h"
+#include "sim/core/process/file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,6 @@
 #include <string>
 
 #include "sim/core/process/error.h"
-#include "sim/core/process/file.h"
 #include "tests/temporary_folder.h"
 
 namespace seaglint {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/core/text/escape.h"
+#include "sim/core/process/printable.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/core/text/json_keys.h"
+#include "sim/core/text/json.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Named files are found in the folder that is given, the working directory and the data of the program, in this order;
 // a name that finds none is refused with the one that it means.
-#include "sim/core/text/named_file.h"
+#include "sim/core/text/names.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -10,7 +10,6 @@
 #include <functional>
 #include <utility>
 
-#include "sim/core/process/data_folder.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "tests/temporary_folder.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/core/text/number.h"
+#include "sim/core/text/words.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A misspelt word means the name that is nearest to it, with or without its unit, or that begins with it.
-#include "sim/core/text/suggestion.h"
+#include "sim/core/text/names.h"
 
 #include <gtest/gtest.h>
 

@@ -8,10 +8,10 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/rotation.h"
 #include "sim/geometry/files/mesh_io.h"
-#include "sim/geometry/mesh/crease_normals.h"
 #include "sim/geometry/mesh/mesh_diagnostics.h"
 #include "sim/geometry/placement/waterline.h"
 #include "sim/geometry/shapes/generators.h"
+#include "sim/geometry/surface/facets.h"
 #include "tests/sim/geometry/mesh_file.h"
 
 namespace seaglint {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A polygon's triangles cover it once: all have its orientation, and their areas sum to its own.
-#include "sim/geometry/files/polygons/triangulate_polygon.h"
+#include "sim/geometry/mesh/triangulate_polygon.h"
 
 #include <gtest/gtest.h>
 

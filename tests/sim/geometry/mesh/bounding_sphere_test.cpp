@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/geometry/mesh/bounding_sphere.h"
+#include "sim/geometry/mesh/triangle_mesh.h"
 
 #include <gtest/gtest.h>
 

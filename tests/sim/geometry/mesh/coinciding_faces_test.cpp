@@ -11,7 +11,6 @@
 #include "sim/core/numbers/rotation.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/mesh/mesh_builder.h"
-#include "sim/geometry/mesh/mesh_changes.h"
 #include "sim/geometry/mesh/mesh_diagnostics.h"
 #include "sim/geometry/shapes/generators.h"
 

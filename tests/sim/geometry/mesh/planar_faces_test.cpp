@@ -13,7 +13,6 @@
 
 #include "sim/geometry/mesh/topology.h"
 #include "sim/geometry/shapes/generators.h"
-#include "sim/geometry/shapes/solids.h"
 #include "tests/sim/geometry/mesh_changes.h"
 
 namespace seaglint {

@@ -11,7 +11,6 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/rotation.h"
-#include "sim/geometry/mesh/index_groups.h"
 #include "sim/geometry/mesh/mesh_builder.h"
 #include "sim/geometry/shapes/generators.h"
 

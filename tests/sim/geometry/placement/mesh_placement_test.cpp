@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A mesh file with any axes, unit and origin becomes the same mesh in the body frame.
-#include "sim/geometry/placement/mesh_placement.h"
+#include "sim/geometry/placement/target_mesh.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -8,8 +8,7 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/text/text_table.h"
 #include "sim/motion/float/float.h"
-#include "sim/motion/ship/ship_particulars.h"
-#include "sim/motion/ship/ship_response.h"
+#include "sim/motion/ship/ship.h"
 
 namespace seaglint {
 namespace {

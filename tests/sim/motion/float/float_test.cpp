@@ -8,8 +8,7 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
-#include "sim/motion/float/random_yaw.h"
-#include "sim/motion/simulate.h"
+#include "sim/motion/target_motion.h"
 #include "sim/sea/realisation.h"
 
 namespace seaglint {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/motion/kinematics/oscillator.h"
+#include "sim/motion/kinematics/trajectory.h"
 
 #include <gtest/gtest.h>
 

@@ -13,8 +13,8 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
-#include "sim/motion/simulate.h"
 #include "sim/motion/statistics.h"
+#include "sim/motion/target_motion.h"
 #include "tests/temporary_folder.h"
 
 namespace seaglint {

@@ -13,10 +13,9 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
-#include "sim/motion/ship/long_waves.h"
 #include "sim/motion/ship/rao_files.h"
-#include "sim/motion/ship/ship_response.h"
-#include "sim/motion/simulate.h"
+#include "sim/motion/ship/ship.h"
+#include "sim/motion/target_motion.h"
 #include "sim/sea/realisation.h"
 #include "sim/sea/spectrum.h"
 #include "tests/temporary_folder.h"

@@ -10,8 +10,7 @@
 #include "sim/core/text/text_table.h"
 #include "sim/motion/ship/rao_files.h"
 #include "sim/motion/ship/rao_table.h"
-#include "sim/motion/ship/ship_particulars.h"
-#include "sim/motion/ship/ship_response.h"
+#include "sim/motion/ship/ship.h"
 #include "sim/sea/spectrum.h"
 #include "tests/measured.h"
 

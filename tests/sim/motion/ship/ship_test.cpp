@@ -13,9 +13,7 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
 #include "sim/motion/ship/response_series.h"
-#include "sim/motion/ship/ship_particulars.h"
-#include "sim/motion/ship/ship_response.h"
-#include "sim/motion/simulate.h"
+#include "sim/motion/target_motion.h"
 #include "sim/sea/realisation.h"
 #include "sim/sea/spectrum.h"
 

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/motion/strip_theory/exponential_integral.h"
 
 namespace seaglint {
 namespace {

@@ -10,8 +10,8 @@
 #include <sstream>
 
 #include "sim/core/numbers/random.h"
+#include "sim/core/numbers/real_functions.h"
 #include "sim/core/numbers/rotation.h"
-#include "sim/core/numbers/sinc.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/shapes/generators.h"
 #include "sim/scattering/coefficients/amplitude_laws.h"

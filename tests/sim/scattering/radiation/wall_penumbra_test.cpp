@@ -8,11 +8,10 @@
 
 #include <cmath>
 
-#include "sim/core/numbers/smooth_step.h"
+#include "sim/core/numbers/real_functions.h"
 #include "sim/scattering/coefficients/fade_windows.h"
 #include "sim/scattering/coefficients/wedge_diffraction.h"
 #include "sim/scattering/radiation/edge_diffraction.h"
-#include "sim/scattering/radiation/multiple_diffraction.h"
 #include "sim/scattering/solver/aspect_trace.h"
 #include "tests/sim/scattering/solve_calls.h"
 #include "tests/sim/scattering/solver_fixtures.h"

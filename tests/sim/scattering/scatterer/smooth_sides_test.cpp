@@ -11,7 +11,6 @@
 
 #include "sim/geometry/mesh/planar_faces.h"
 #include "sim/geometry/shapes/generators.h"
-#include "sim/geometry/shapes/solids.h"
 #include "tests/measured.h"
 #include "tests/sim/geometry/mesh_changes.h"
 #include "tests/sim/scattering/solver_fixtures.h"

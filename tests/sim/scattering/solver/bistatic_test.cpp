@@ -2,7 +2,7 @@
 // Separate transmit and receive directions.
 #include <gtest/gtest.h>
 
-#include "sim/core/numbers/sinc.h"
+#include "sim/core/numbers/real_functions.h"
 #include "sim/geometry/shapes/generators.h"
 #include "tests/sim/scattering/solve_calls.h"
 #include "tests/sim/scattering/solver_fixtures.h"

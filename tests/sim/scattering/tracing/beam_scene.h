@@ -13,7 +13,6 @@
 #include "sim/core/numbers/rotation.h"
 #include "sim/geometry/mesh/mesh_builder.h"
 #include "sim/geometry/shapes/generators.h"
-#include "sim/geometry/shapes/solids.h"
 #include "sim/scattering/tracing/beam_tracer.h"
 #include "sim/scattering/tracing/transmitted_wave.h"
 

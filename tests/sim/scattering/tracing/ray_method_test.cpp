@@ -4,7 +4,6 @@
 
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/mesh/mesh_builder.h"
-#include "sim/geometry/mesh/mesh_changes.h"
 #include "sim/geometry/mesh/mesh_diagnostics.h"
 #include "sim/scattering/sums/sweep_sum.h"
 #include "tests/sim/scattering/solver_fixtures.h"

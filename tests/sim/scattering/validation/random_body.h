@@ -8,7 +8,6 @@
 #include "sim/core/numbers/rotation.h"
 #include "sim/geometry/mesh/mesh_builder.h"
 #include "sim/geometry/shapes/generators.h"
-#include "sim/geometry/shapes/solids.h"
 
 namespace seaglint::testing_echoes {
 

@@ -10,7 +10,7 @@
 #include <map>
 
 #include "sim/core/process/error.h"
-#include "sim/core/text/number.h"
+#include "sim/core/text/words.h"
 
 namespace seaglint {
 namespace {

@@ -10,9 +10,9 @@
 #include <string>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/core/process/data_folder.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
+#include "sim/core/text/names.h"
 #include "sim/scenario/jonswap.h"
 #include "sim/scenario/scenario.h"
 #include "sim/scenario/writer.h"

@@ -1,0 +1,546 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <chrono>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include "classify/dataset/cards/cards.h"
+#include "classify/dataset/cards/croissant.h"
+#include "classify/dataset/directory/audit.h"
+#include "classify/dataset/directory/dataset_reader.h"
+#include "classify/dataset/directory/dataset_writer.h"
+#include "classify/dataset/directory/export.h"
+#include "classify/dataset/directory/webdataset.h"
+#include "classify/dataset/format/hdf5_file.h"
+#include "classify/dataset/format/layout.h"
+#include "classify/dataset/format/npz.h"
+#include "seaglint_version.h"
+#include "sim/core/process/error.h"
+#include "sim/core/process/file.h"
+#include "sim/core/process/printable.h"
+#include "sim/core/process/progress.h"
+#include "sim/core/text/words.h"
+#include "tools/cli/command_line.h"
+#include "tools/compare/cross_check.h"
+#include "tools/pipeline/generate.h"
+#include "tools/pipeline/warnings.h"
+#include "tools/run/run.h"
+
+namespace seaglint {
+
+// Makes the data set of a scenario, or maps and features again from the stored echoes of one.
+
+namespace {
+
+struct GenerateArguments {
+  ScenarioArguments scenario;
+  std::string directory;
+  std::string part;
+  bool resume = false;
+};
+
+// "2/5": the second of five parts.
+void read_part(const std::string& text, GenerateOptions& options) {
+  const std::size_t slash = text.find('/');
+  const auto number = [&](std::size_t begin, std::size_t end) {
+    const std::int64_t value = parse_integer(std::string_view(text).substr(begin, end - begin)).value_or(0);
+    return value >= 0 && value <= 1000000 ? static_cast<int>(value) : 0;
+  };
+  if (slash != std::string::npos) {
+    options.part = number(0, slash);
+    options.parts = number(slash + 1, text.size());
+  }
+  if (slash == std::string::npos || options.part < 1 || options.parts < options.part || options.parts < 1) {
+    throw InputError(fmt::format("--part: {}: must be I/N with 1 <= I <= N, for example 1/4", text));
+  }
+}
+
+// Makes the maps and says how many; `from`: of what, " from ..." or empty.
+void make_data_set(const Pipeline& pipeline, const std::string& directory, const GenerateOptions& options,
+                   const CommandContext& context, const char* from) {
+  const auto begin = std::chrono::steady_clock::now();
+  GenerateResult result;
+  try {
+    result = generate_dataset(pipeline, directory, options, &context.stop);
+  } catch (const Interrupted&) {
+    throw WorkError(
+        fmt::format("interrupted; whole shards are kept, go on by the same command with --resume ({})", directory));
+  }
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  print_out("{}: {} maps made{} in {:.1f} s, {} kept\n", directory, result.made, from, seconds, result.kept);
+  if (result.missing > 0)
+    print_out("{} shards of other parts are still missing or damaged; the last part writes the manifest\n",
+              result.missing);
+}
+
+void generate(const GenerateArguments& arguments, const CommandContext& context) {
+  GenerateOptions options;
+  options.resume = arguments.resume;
+  options.threads = context.threads;
+  if (!arguments.part.empty()) read_part(arguments.part, options);
+  const Scenario scenario = arguments.scenario.read();
+  check_division(scenario, SamplePlan(scenario));
+  make_data_set(Pipeline(scenario), arguments.directory, options, context, "");
+}
+
+struct FeaturesArguments {
+  std::string data;
+  std::vector<std::string> set;
+  std::string directory;
+  bool resume = false;
+};
+
+void make_features(const FeaturesArguments& arguments, const CommandContext& context) {
+  const DatasetReader reader(find_data_set(arguments.data));
+  const std::filesystem::path file = reader.directory() / kScenarioFile;
+  const Scenario stored = read_scenario(file);
+  const StoredEchoes echoes(reader);
+  require_same_inputs(reader.directory(), stored);
+  const Pipeline pipeline(read_scenario(file, read_overrides(arguments.set)));
+  require_same_echoes(pipeline, stored);
+  check_division(pipeline.scenario(), pipeline.plan());
+  GenerateOptions options;
+  options.resume = arguments.resume;
+  options.threads = context.threads;
+  options.response = [&](std::size_t sample, const PulseTrain& train) { return echoes.response(sample, train); };
+  make_data_set(pipeline, arguments.directory, options, context, " from stored echoes");
+}
+
+}  // namespace
+
+void add_generate(CommandOptions& program, CommandContext& context) {
+  CommandOptions command = program.add_command(
+      "generate", "Make the data set of a scenario: range-velocity maps with labels in HDF5 shards");
+  auto arguments = std::make_shared<GenerateArguments>();
+  add_scenario_arguments(command, arguments->scenario);
+  command.add_option("-o,--output", arguments->directory, "Directory of the data set, new or empty").required();
+  command.add_option("--part", arguments->part, "Make the I-th of N parts (whole shards), as I/N");
+  command.add_flag("--resume", arguments->resume, "Keep the sound shards that are there; also starts a new directory");
+  add_threads_option(command, context);
+  command.footer(
+      "Example:\n  seaglint generate scenarios/points.yaml -o build/points\n"
+      "  seaglint generate scenarios/paper.yaml -o build/paper --part 3/16 --resume");
+  command.callback([arguments, &context] { context.work = [arguments, &context] { generate(*arguments, context); }; });
+}
+
+void add_features(CommandOptions& program, CommandContext& context) {
+  CommandOptions command = program.add_command(
+      "features", "Make the maps and features of a data set again from its stored echoes, with other settings");
+  auto arguments = std::make_shared<FeaturesArguments>();
+  command.add_option("data", arguments->data, "Directory of a data set with dataset.echoes: true").required();
+  command.add_option("--set", arguments->set, "Replace a value of clutter, map, features or learning, key.path=value")
+      .repeatable("KEY.PATH=VALUE");
+  command.add_option("-o,--output", arguments->directory, "Directory of the new data set, new or empty").required();
+  command.add_flag("--resume", arguments->resume, "Keep the sound shards that are there; also starts a new directory");
+  add_threads_option(command, context);
+  command.footer(
+      "Example:\n  seaglint features build/points --set clutter.scr_db=10 --set features.max_centres=32 -o "
+      "build/points_10\n"
+      "of a data set that was made with --set dataset.echoes=true");
+  command.callback(
+      [arguments, &context] { context.work = [arguments, &context] { make_features(*arguments, context); }; });
+}
+
+void add_merge(CommandOptions& program, CommandContext& context) {
+  struct MergeArguments {
+    std::string directory;
+    std::string file;
+  };
+  CommandOptions command =
+      program.add_command("merge", "One HDF5 file over all shards of a data set, which stay where they are");
+  auto arguments = std::make_shared<MergeArguments>();
+  command.add_option("directory", arguments->directory, "Directory of the data set").required();
+  command.add_option("-o,--output", arguments->file, "The merged file; DIRECTORY/dataset.h5 unless given");
+  command.footer("Example:\n  seaglint merge build/points/data");
+  command.callback([arguments, &context] {
+    context.work = [arguments, &context] {
+      const std::filesystem::path directory = find_data_set(arguments->directory);
+      std::filesystem::path file = arguments->file;
+      if (file.empty()) file = directory / kMergedFile;
+      const Merged merged = merge_dataset(directory, file, kVersion, &context.stop);
+      if (merged.wrote_manifest) print_out("{}: all shards were there; manifest.json written\n", directory.string());
+      print_out("{}: {} samples of {} shards\n", file.string(), merged.samples, merged.shards);
+    };
+  });
+}
+
+namespace {
+
+struct VerifyArguments {
+  std::string directory;
+  int regenerate = 2;
+  int cross_check = 0;
+  std::optional<double> cross_check_db;  // bound of the median
+};
+
+// Regenerates `count` samples, spread evenly over the data set; returns what is not as stored.
+std::vector<std::string> regenerate(const std::string& directory, std::size_t count, const Scenario& scenario,
+                                    const CommandContext& context) {
+  const DatasetReader reader(directory);
+  require_same_inputs(directory, scenario);
+  const Pipeline pipeline(scenario);
+  const std::vector<std::size_t> samples = evenly_spread(count, reader.size());
+  std::vector<std::vector<std::string>> faults(count);
+  std::mutex reading;  // HDF5 serves one thread at a time
+  Progress progress("regenerating samples", count);
+  parallel_for(
+      count, thread_count(context.threads),
+      [&](std::size_t n) {
+        const std::size_t number = samples[n];
+        const SampleAddress address = pipeline.plan().address(number);
+        StoredSample stored;
+        {
+          const std::lock_guard lock(reading);
+          stored = stored_sample(reader, number);
+        }
+        const Sample again = pipeline.generate_sample(number).stored;
+        for (const std::string& what : differences(stored.sample, again, reproduction_tolerance(stored.origin))) {
+          faults[n].push_back(fmt::format("sample {} ({}) regenerated: {}", number,
+                                          scenario.targets[static_cast<std::size_t>(address.target)].name, what));
+        }
+        progress.advance();
+      },
+      &context.stop);
+  std::vector<std::string> all;
+  for (const auto& some : faults) all.insert(all.end(), some.begin(), some.end());
+  return all;
+}
+
+// Reports how far samples differ by the other method of the solver.
+void cross_check(const VerifyArguments& arguments, const Audit& audited, const CommandContext& context) {
+  const std::size_t count = std::min(static_cast<std::size_t>(arguments.cross_check), audited.samples);
+  if (count == 0) return;
+  require_same_inputs(arguments.directory, audited.scenario);
+  const SampleCrossCheck check =
+      cross_check_samples(audited.scenario, evenly_spread(count, audited.samples), context.threads, &context.stop);
+  print_out("{}", text_of(check));
+  if (!arguments.cross_check_db) return;
+  if (check.differences.empty())
+    throw InputError(fmt::format("{}: --cross-check-db: none of {} samples has a solver", arguments.directory, count));
+  if (check.median_response_db() > *arguments.cross_check_db) {
+    throw WorkError(fmt::format("{}: the median relative difference of the response, {:.1f} dB, is above {:g} dB",
+                                arguments.directory, check.median_response_db(), *arguments.cross_check_db));
+  }
+}
+
+void verify(const VerifyArguments& given, const CommandContext& context) {
+  VerifyArguments arguments = given;
+  arguments.directory = find_data_set(given.directory);
+  Audit result = audit(arguments.directory, &context.stop);
+  print_out("{}: {} sound shards, {} samples in {} groups\n", arguments.directory, result.shards, result.samples,
+            result.groups);
+  for (std::size_t t = 0; t < result.per_target.size(); ++t) {
+    const TargetSpec& target = result.scenario.targets[t];
+    if (target.role == TargetRole::kPart) continue;
+    print_out("  {:<12} label {}  {} samples\n", target.name, target.label, result.per_target[t]);
+  }
+  const std::size_t count = std::min(static_cast<std::size_t>(arguments.regenerate), result.samples);
+  if (result.faults.empty() && count > 0) {
+    result.faults = regenerate(arguments.directory, count, result.scenario, context);
+    if (result.faults.empty())
+      print_out("{} regenerated samples match the stored ones, SCR and features included\n", count);
+  }
+  if (result.faults.empty()) {
+    print_out("no fault found\n");
+    cross_check(arguments, result, context);
+    return;
+  }
+  constexpr std::size_t kMaxShown = 20;
+  for (std::size_t i = 0; i < std::min(kMaxShown, result.faults.size()); ++i)
+    print_out("fault: {}\n", result.faults[i]);
+  if (result.faults.size() > kMaxShown) print_out("... and {} more\n", result.faults.size() - kMaxShown);
+  throw InputError(
+      fmt::format("{}: {} faults, the first: {}", arguments.directory, result.faults.size(), result.faults.front()));
+}
+
+}  // namespace
+
+void add_verify(CommandOptions& program, CommandContext& context) {
+  CommandOptions command = program.add_command(
+      "verify", "Audit a data set: missing, repeated, damaged and mislabelled samples; regenerates some of them");
+  auto arguments = std::make_shared<VerifyArguments>();
+  command.add_option("directory", arguments->directory, "Directory of the data set").required();
+  command
+      .add_option("--regenerate", arguments->regenerate,
+                  "Samples to regenerate from their rows, spread over the data set")
+      .integer_within(0, 1000000)
+      .show_default();
+  const CommandOption cross_check =
+      command
+          .add_option("--cross-check", arguments->cross_check,
+                      "Samples, spread evenly over the data set, whose response is also computed by the other method "
+                      "of the solver: rays for beams, beams for rays (auto: beams and rays); reports the differences")
+          .integer_within(0, 1000000)
+          .show_default();
+  command
+      .add_option("--cross-check-db", arguments->cross_check_db,
+                  "Exit code 1 when the median relative difference of these responses is above this, dB; without it "
+                  "differences are reported only")
+      .number_within(-300.0, 300.0)
+      .needs(cross_check);
+  add_threads_option(command, context);
+  command.footer("Example:\n  seaglint verify build/demo/data --regenerate 5");
+  command.callback([arguments, &context] { context.work = [arguments, &context] { verify(*arguments, context); }; });
+}
+
+// Regenerates one sample of a data set from its scenario and row and compares it with the stored one.
+
+namespace {
+
+struct RegenerateArguments {
+  std::string directory;
+  std::size_t sample = 0;
+  std::string output;
+};
+
+std::vector<NpzArray> arrays_of(const Sample& sample, const StoredAxes& axes) {
+  const std::uint64_t velocities = axes.velocity_mps.size(), ranges = axes.range_m.size();
+  std::vector<NpzArray> arrays;
+  arrays.push_back(npz_array("axes/range_m", "<f8", {ranges}, bytes_of_values(std::span(axes.range_m))));
+  arrays.push_back(npz_array("axes/velocity_mps", "<f8", {velocities}, bytes_of_values(std::span(axes.velocity_mps))));
+  arrays.push_back(npz_array("map", "<f4", {velocities, ranges}, bytes_of_values(std::span(sample.magnitude))));
+  arrays.push_back(
+      npz_array("map_complex", "<c8", {velocities, ranges}, bytes_of_values(std::span(sample.complex_values))));
+  arrays.push_back(npz_array("hop_code", "<u2", {sample.hop_code.size()}, bytes_of_values(std::span(sample.hop_code))));
+  arrays.push_back(
+      npz_array("centres", "<f4", {sample.centre_list.size(), 3}, bytes_of_values(std::span(sample.centre_list))));
+  for (const SampleColumn& column : sample_columns()) {
+    std::visit(
+        [&](auto member) {
+          const auto& value = sample.record.*member;
+          using T = std::decay_t<decltype(value)>;
+          const std::string name = std::string("samples/") + column.name;
+          if constexpr (std::is_same_v<T, std::string>) {
+            arrays.push_back(npz_array(name, "|S64", {}, packed_names(std::span(&value, 1))));
+          } else {
+            arrays.push_back(
+                npz_array(name, std::is_same_v<T, double> ? "<f8" : "<i8", {}, bytes_of_values(std::span(&value, 1))));
+          }
+        },
+        column.member);
+  }
+  visit_drawn(sample.record, [&](const std::string& key, const auto& value) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::string>) {
+      arrays.push_back(npz_array("drawn/" + key, "|S64", {}, packed_names(std::span(&value, 1))));
+    } else {
+      arrays.push_back(npz_array("drawn/" + key, "<f8", {}, bytes_of_values(std::span(&value, 1))));
+    }
+  });
+  return arrays;
+}
+
+void regenerate_sample(const RegenerateArguments& arguments) {
+  require_npz(arguments.output);
+  const DatasetReader reader(find_data_set(arguments.directory));
+  warn(data_set_warnings(reader));
+  if (arguments.sample >= reader.size())
+    throw InputError(fmt::format("--sample {}: the data set has samples 0 to {}", arguments.sample, reader.size() - 1));
+  const StoredSample stored = stored_sample(reader, arguments.sample);
+  Scenario scenario = read_scenario(reader.directory() / kScenarioFile);
+  require_same_inputs(reader.directory(), scenario);
+  scenario.dataset.complex_maps = true;  // for the output; the other results do not depend on it
+  const Pipeline pipeline(scenario);
+  if (arguments.sample >= pipeline.plan().size()) {
+    throw InputError(
+        fmt::format("{}: has no sample {}", (reader.directory() / kScenarioFile).string(), arguments.sample));
+  }
+  const GeneratedSample made = pipeline.generate_sample(arguments.sample);
+  const SampleRecord& row = made.stored.record;
+  print_out("sample {}: {}, label {}, Hs {:g} m, azimuth {:g} deg, elevation {:g} deg, group {}, at {:g} s\n",
+            row.sample, row.target_name, row.label, row.significant_wave_height_m, row.azimuth_deg, row.elevation_deg,
+            row.group, row.start_s);
+  if (!arguments.output.empty()) {
+    write_npz(arguments.output, arrays_of(made.stored, stored_axes(made.received.map)));
+    print_out("{}: written\n", arguments.output);
+  }
+
+  const double tolerance = reproduction_tolerance(stored.origin);
+  std::vector<std::string> found = differences(stored.sample, made.stored, tolerance);
+  if (stored_axes(made.received.map) != stored.axes) found.push_back("its axes differ");
+  if (!found.empty()) {
+    throw InputError(
+        fmt::format("{}: sample {} regenerated: {}", arguments.directory, arguments.sample, fmt::join(found, "; ")));
+  }
+  if (tolerance == 0) {
+    print_out("the regenerated sample matches the stored one, bit for bit\n");
+  } else {
+    print_out(
+        "the regenerated sample matches the stored one within {:g} of the map's peak and of each column; the stored "
+        "one was generated by seaglint {} on "
+        "{}\n",
+        tolerance, stored.origin.program_version, stored.origin.processor);
+  }
+}
+
+}  // namespace
+
+void add_regenerate(CommandOptions& program, CommandContext& context) {
+  CommandOptions command =
+      program.add_command("regenerate", "Regenerate one sample of a data set and compare it with the stored one");
+  auto arguments = std::make_shared<RegenerateArguments>();
+  command.add_option("directory", arguments->directory, "Directory of the data set").required();
+  command.add_option("--sample", arguments->sample, "Number of the sample").required();
+  command.add_option("-o,--output", arguments->output,
+                     "Map (also complex), axes, hop code, centres and row as NumPy's .npz");
+  command.footer("Example:\n  seaglint regenerate build/points/data --sample 7 -o build/sample_7.npz");
+  command.callback([arguments, &context] {
+    context.uninterruptible = true;
+    context.work = [arguments] { regenerate_sample(*arguments); };
+  });
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Endings of files that other programs write or read.
+constexpr std::array<std::string_view, 23> kOtherFormats{
+    ".mat",  ".h5",    ".hdf5",     ".hdf",     ".csv",   ".tsv",     ".txt", ".npy",
+    ".json", ".jsonl", ".xlsx",     ".parquet", ".arrow", ".feather", ".pkl", ".pickle",
+    ".pt",   ".pth",   ".tfrecord", ".zarr",    ".nc",    ".zip",     ".gz"};
+
+constexpr double kMegabyte = 1e6;  // bytes
+constexpr double kDefaultTar_mb = 500;
+
+struct ExportArguments {
+  std::string directory;
+  std::string output;
+  std::string format = "npz";
+  std::optional<double> max_tar_mb;
+};
+
+void export_npz(const DatasetReader& reader, const fs::path& output, const StopFlag& stop) {
+  if (output.extension() == ".npz") {
+    export_shards(reader, 0, reader.shards(), output, &stop);
+    remove_leftovers(output.parent_path(), output.filename().native());
+    print_out("{}: {} samples\n", output.string(), reader.size());
+    return;
+  }
+  require_npz_directory(reader, output);
+  make_directory(output);
+  Progress progress("exporting shards", reader.shards());
+  for (std::size_t i = 0; i < reader.shards(); ++i) {
+    const fs::path name = fs::path(reader.manifest().shards[i].file).replace_extension(".npz");
+    export_shards(reader, i, 1, output / name, &stop);
+    progress.advance();
+  }
+  remove_leftovers(output);
+  print_out("{}: {} samples in {} files\n", output.string(), reader.size(), reader.shards());
+}
+
+// A name that ends as a file of another format would become a directory of that name.
+void require_format(const ExportArguments& arguments) {
+  std::string ending = fs::path(arguments.output).extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const bool is_other = std::ranges::find(kOtherFormats, ending) != kOtherFormats.end();
+  const bool is_archive = ending == ".tar" || (ending == ".npz" && arguments.format == "webdataset");
+  if (arguments.format == "webdataset" && is_archive)
+    throw InputError(fmt::format("{}: --as webdataset writes a directory", arguments.output));
+  std::error_code error;
+  if ((!is_other && !is_archive) || fs::is_regular_file(arguments.output, error)) return;  // that is no directory
+  throw InputError(
+      fmt::format("{}: {} is no format of --as: npz writes one file FILE.npz or a directory of them, "
+                  "webdataset a directory of .tar archives",
+                  arguments.output, ending));
+}
+
+void export_dataset(const ExportArguments& arguments, const StopFlag& stop) {
+  const bool webdataset = arguments.format == "webdataset";
+  if (!webdataset && arguments.max_tar_mb) throw InputError("--max-tar-mb: only with --as webdataset");
+  const fs::path output = arguments.output;
+  require_format(arguments);
+  const DatasetReader reader(find_data_set(arguments.directory));
+  warn(data_set_warnings(reader));
+  if (!webdataset) return export_npz(reader, output, stop);
+  const auto max_bytes = static_cast<std::uint64_t>(arguments.max_tar_mb.value_or(kDefaultTar_mb) * kMegabyte);
+  const std::size_t archives = export_webdataset(reader, output, max_bytes, &stop);
+  print_out("{}: {} samples in {} archives\n", output.string(), reader.size(), archives);
+}
+
+}  // namespace
+
+void add_export(CommandOptions& program, CommandContext& context) {
+  CommandOptions command = program.add_command("export", "A data set as NumPy's .npz or in the WebDataset layout");
+  auto arguments = std::make_shared<ExportArguments>();
+  command.add_option("directory", arguments->directory, "Directory of the data set").required();
+  command
+      .add_option("-o,--output", arguments->output,
+                  "FILE.npz: everything in one file, for up to some 10,000 maps; else a directory for one file a shard")
+      .required();
+  command
+      .add_option("--as", arguments->format,
+                  "npz: NumPy's archives; webdataset: tar archives with map, row and label of each sample in turn")
+      .one_of({"npz", "webdataset"})
+      .show_default();
+  command
+      .add_option("--max-tar-mb", arguments->max_tar_mb,
+                  fmt::format("Largest tar archive, MB (10^6 bytes), {:g} unless given", kDefaultTar_mb))
+      .number_within(0.01, 1e6);
+  command.footer(
+      "Example:\n  seaglint export build/points/data -o build/points.npz\n  seaglint export build/paper -o "
+      "build/paper_npz\n  seaglint export build/paper -o build/paper_tar --as webdataset --max-tar-mb 1000");
+  command.callback(
+      [arguments, &context] { context.work = [arguments, &context] { export_dataset(*arguments, context.stop); }; });
+}
+
+namespace {
+
+struct CardArguments {
+  std::string directory;
+  Publication publication;
+};
+
+void make_cards(const CardArguments& arguments, const StopFlag& stop) {
+  const DatasetReader reader(find_data_set(arguments.directory));
+  warn(data_set_warnings(reader));
+  write_cards(reader, arguments.publication, &stop);
+  const auto file = [&](const char* name) { return (reader.directory() / name).string(); };
+  print_out("{}: data card of {} samples\n{}: Croissant 1.0\n{}: columns of all samples\n", file(kDataCardFile),
+            reader.size(), file(kCroissantFile), file(kColumnsFile));
+  const std::vector<std::string> missing = missing_properties(arguments.publication);
+  if (!missing.empty())
+    warn(
+        std::vector{fmt::format("{}: Croissant requires {} too; --licence, --url, --creator or --organisation, --date "
+                                "give them",
+                                kCroissantFile, fmt::join(missing, ", "))});
+}
+
+}  // namespace
+
+void add_card(CommandOptions& program, CommandContext& context) {
+  CommandOptions command = program.add_command(
+      "card", "Files with which a data set is handed to others: README.md (Hugging Face), croissant.json, columns.csv");
+  auto arguments = std::make_shared<CardArguments>();
+  Publication& publication = arguments->publication;
+  command.add_option("directory", arguments->directory, "Directory of the data set, or of a run").required();
+  command.add_option("--name", publication.name, "Title; the scenario's name unless given").check(name_problem);
+  command
+      .add_option("--licence,--license", publication.licence,
+                  "Licence of the data: identifier of the SPDX list (CC-BY-4.0), LicenseRef-NAME, or a URL")
+      .check(licence_problem);
+  command.add_option("--creator", publication.creators, "Person who made the data set; repeatable")
+      .repeatable("NAME")
+      .check(name_problem);
+  command.add_option("--organisation", publication.organisations, "Organisation that made it; repeatable")
+      .repeatable("NAME")
+      .check(name_problem);
+  command.add_option("--url", publication.url, "Page of the data set").check(url_problem);
+  command.add_option("--date", publication.date, "Date of publication, YYYY-MM-DD").check(date_problem);
+  command.add_option("--data-version", publication.version, "Version of the data set, MAJOR.MINOR.PATCH")
+      .check(version_problem);
+  command.footer(
+      "What is not given is left out. Existing cards are replaced unless they were changed by hand.\n\nExample:\n"
+      "  seaglint card build/points/data --licence CC-BY-4.0 --organisation \"Radar Laboratory\" --date 2026-05-01");
+  command.callback(
+      [arguments, &context] { context.work = [arguments, &context] { make_cards(*arguments, context.stop); }; });
+}
+
+}  // namespace seaglint

@@ -1,0 +1,347 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/evaluate/claims.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "classify/model/study_text.h"
+#include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/random.h"
+#include "sim/core/text/json.h"
+
+namespace seaglint {
+
+namespace {
+
+constexpr double kLevel = 0.05;
+
+// Distance from the null in standard errors; an estimate without scatter is certain.
+double distance(const Estimate& estimate, double null) {
+  const double difference = std::abs(estimate.value - null);
+  if (difference == 0) return 0;
+  return estimate.standard_error > 0 ? difference / estimate.standard_error : std::numeric_limits<double>::infinity();
+}
+
+// Indices of the estimates that are numbers, the most different first; equal ones in their order.
+std::vector<std::size_t> most_different_first(std::span<const Estimate> estimates, double null) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < estimates.size(); ++i) {
+    if (!std::isnan(estimates[i].value) && !std::isnan(estimates[i].standard_error)) order.push_back(i);
+  }
+  std::ranges::stable_sort(
+      order, [&](std::size_t a, std::size_t b) { return distance(estimates[a], null) > distance(estimates[b], null); });
+  return order;
+}
+
+// P(|T| < t) of Student's distribution, t = sqrt(degrees) tan(angle) (Abramowitz and Stegun 1964, 26.7.3 and 26.7.4).
+double within(double angle, int degrees) {
+  const double sine = std::sin(angle), cosine = std::cos(angle);
+  const bool odd = degrees % 2 == 1;
+  double sum = 0, term = odd ? cosine : 1;
+  for (int power = odd ? 1 : 0; power <= degrees - 2; power += 2) {
+    sum += term;
+    term *= (power + 1.0) / (power + 2.0) * cosine * cosine;
+  }
+  return odd ? 2 / kPi * (angle + sine * sum) : sine * sum;
+}
+
+// Expansion about the normal quantile to the fourth order (26.7.5); error below 1e-9 from kManyDegrees on.
+constexpr double kManyDegrees = 300;
+double expanded_quantile(double probability, double degrees) {
+  const double z = normal_quantile(probability), z2 = z * z, f = 1 / degrees;
+  const double g1 = (z2 + 1) / 4, g2 = ((5 * z2 + 16) * z2 + 3) / 96, g3 = (((3 * z2 + 19) * z2 + 17) * z2 - 15) / 384,
+               g4 = ((((79 * z2 + 776) * z2 + 1482) * z2 - 1920) * z2 - 945) / 92160;
+  return z * (1 + f * (g1 + f * (g2 + f * (g3 + f * g4))));
+}
+
+// Half of the interval of an estimate that is the k-th of m.
+double half_width(const Estimate& estimate, std::size_t k, std::size_t m) {
+  return half_width(estimate, kLevel / static_cast<double>(m - k));
+}
+
+}  // namespace
+
+Estimate estimate_of(const Scores& scores) {
+  const double of_bootstrap = (scores.accuracy_95.high - scores.accuracy_95.low) / (2 * normal_quantile(0.975));
+  const double seas = static_cast<double>(std::max<std::size_t>(scores.groups, 2));
+  return {scores.accuracy, of_bootstrap * std::sqrt(seas / (seas - 1)), seas - 1};
+}
+
+double student_quantile(double probability, double degrees_of_freedom) {
+  if (degrees_of_freedom >= kManyDegrees) return expanded_quantile(probability, degrees_of_freedom);
+  const int degrees = static_cast<int>(std::max(1.0, degrees_of_freedom));
+  double low = 0, high = kPi / 2;
+  for (int halving = 0; halving < 60; ++halving) {
+    const double middle = (low + high) / 2;
+    (within(middle, degrees) < 2 * probability - 1 ? low : high) = middle;
+  }
+  return std::sqrt(degrees) * std::tan((low + high) / 2);
+}
+
+double half_width(const Estimate& estimate, double level) {
+  return student_quantile(1 - level / 2, estimate.degrees_of_freedom) * estimate.standard_error;
+}
+
+Estimate difference_of(const Estimate& a, const Estimate& b) {
+  const double of_a = a.standard_error * a.standard_error, of_b = b.standard_error * b.standard_error;
+  const double spread = of_a * of_a / a.degrees_of_freedom + of_b * of_b / b.degrees_of_freedom;
+  return {a.value - b.value, std::sqrt(of_a + of_b),
+          spread > 0 ? (of_a + of_b) * (of_a + of_b) / spread : std::numeric_limits<double>::infinity()};
+}
+
+std::vector<ConfidenceInterval> holm_intervals(std::span<const Estimate> estimates, double null) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  std::vector<ConfidenceInterval> intervals(estimates.size(), {kNone, kNone});
+  const std::vector<std::size_t> order = most_different_first(estimates, null);
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const Estimate& estimate = estimates[order[k]];
+    const double half = half_width(estimate, k, order.size());
+    intervals[order[k]] = {std::max(0.0, estimate.value - half), std::min(1.0, estimate.value + half)};
+  }
+  return intervals;
+}
+
+std::vector<bool> holm_rejections(std::span<const Estimate> estimates, double null) {
+  std::vector<bool> rejected(estimates.size(), false);
+  const std::vector<std::size_t> order = most_different_first(estimates, null);
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const Estimate& estimate = estimates[order[k]];
+    if (!(std::abs(estimate.value - null) > half_width(estimate, k, order.size()))) break;
+    rejected[order[k]] = true;
+  }
+  return rejected;
+}
+
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr double kPaperHandmade = 0.86;
+
+double chance_of(const Study& study) { return 1 / static_cast<double>(study.classes.size()); }
+
+const Outcome& outcome_of(const Study& study, const std::string& group) {
+  const auto found = std::ranges::find(study.groups, group, &FeatureGroupResult::name);
+  return found->of_group();
+}
+
+// Name, evaluation.
+std::vector<std::pair<std::string, const Evaluation*>> baselines(const Study& study) {
+  std::vector<std::pair<std::string, const Evaluation*>> all;
+  for (const auto& [name, group] : {std::pair{"handmade", "handmade"}, {"network", "cnn"}, {"fused", "fused"}})
+    all.emplace_back(name, &outcome_of(study, group).primary);
+  for (const auto& [name, group] :
+       {std::pair{"handmade_logistic", "handmade"}, {"network_logistic", "cnn"}, {"fused_logistic", "fused"}})
+    all.emplace_back(name, &outcome_of(study, group).linear);
+  return all;
+}
+
+ordered_json to_object(const Evaluation& evaluation) {
+  const auto figures = [](const Scores& scores) {
+    return ordered_json{
+        {"accuracy", number_or_null(scores.accuracy)},
+        {"interval", {number_or_null(scores.accuracy_95.low), number_or_null(scores.accuracy_95.high)}}};
+  };
+  ordered_json json = figures(evaluation.scores);
+  for (const BinnedScores& entry : evaluation.by_wave_height) json["by"][entry.text] = figures(entry.scores);
+  return json;
+}
+
+std::string rounded(const Scores& scores) { return fmt::format("{:.1f}", 100 * scores.accuracy); }
+
+// "80.0 / 99.0 / 99.2", by wave height.
+std::string by_height(const Evaluation& evaluation) {
+  std::vector<std::string> values;
+  for (const BinnedScores& entry : evaluation.by_wave_height) values.push_back(rounded(entry.scores));
+  return fmt::format("{}", fmt::join(values, " / "));
+}
+
+std::string heights(const Evaluation& evaluation) {
+  std::vector<std::string> values;
+  for (const BinnedScores& entry : evaluation.by_wave_height) values.push_back(entry.text);
+  return fmt::format("{}", fmt::join(values, " / "));
+}
+
+// Half of the interval of 95 % of a - b; NaN where one of them has no interval.
+double half_interval(const Scores& a, const Scores& b) {
+  return half_width(difference_of(estimate_of(a), estimate_of(b)));
+}
+
+// Whether a is at least b: undecided when it is less by no more than half_interval(), or without one.
+Verdict at_least(const Scores& a, const Scores& b) {
+  if (a.accuracy >= b.accuracy) return Verdict::kHeld;
+  return b.accuracy - a.accuracy > half_interval(a, b) ? Verdict::kNotHeld : Verdict::kUndecided;
+}
+
+Verdict both(Verdict a, Verdict b) {
+  if (a == Verdict::kNotHeld || b == Verdict::kNotHeld) return Verdict::kNotHeld;
+  return a == Verdict::kHeld && b == Verdict::kHeld ? Verdict::kHeld : Verdict::kUndecided;
+}
+
+Claim above_the_papers_accuracy(const Study& study) {
+  Scores scores = outcome_of(study, "handmade").primary.scores;
+  const double half = half_width(estimate_of(scores));
+  scores.accuracy_95 = {std::max(0.0, scores.accuracy - half), std::min(1.0, scores.accuracy + half)};
+  Claim claim{"hand-made features are above 86 %", Verdict::kUndecided, percent(scores) + " %",
+              "held: the interval is above 86 %; not held: below"};
+  if (scores.accuracy - half > kPaperHandmade) claim.verdict = Verdict::kHeld;
+  if (scores.accuracy + half < kPaperHandmade) claim.verdict = Verdict::kNotHeld;
+  return claim;
+}
+
+Claim both_are_best(const Study& study) {
+  const Scores &fused = outcome_of(study, "fused").primary.scores,
+               &handmade = outcome_of(study, "handmade").primary.scores,
+               &network = outcome_of(study, "cnn").primary.scores;
+  return {"hand-made and learned features together are the best",
+          both(at_least(fused, handmade), at_least(fused, network)),
+          fmt::format("fused {}, hand-made {}, network {} %", rounded(fused), rounded(handmade), rounded(network)),
+          "held: no less than either; not held: less than one of them by more than the interval of the difference"};
+}
+
+// From the lowest to the highest waves.
+Claim rises_with_the_waves(const Study& study) {
+  const Evaluation& handmade = outcome_of(study, "handmade").primary;
+  Claim claim{
+      "hand-made features rise with the wave height", Verdict::kUndecided,
+      fmt::format("{} % at Hs {} m", by_height(handmade), heights(handmade)),
+      "held: more in the highest waves than in the lowest by more than the interval of the difference; not held: "
+      "less"};
+  if (handmade.by_wave_height.size() < 2) return claim;
+  const Scores &low = handmade.by_wave_height.front().scores, &high = handmade.by_wave_height.back().scores;
+  if (high.accuracy - low.accuracy > half_interval(high, low)) claim.verdict = Verdict::kHeld;
+  if (high.accuracy < low.accuracy) claim.verdict = Verdict::kNotHeld;
+  return claim;
+}
+
+Claim trees_are_superior(const Study& study) {
+  Claim claim{"trees are no worse than logistic regression", Verdict::kHeld, "",
+              "held: no less for any features; not held: less for some by more than the interval of the difference"};
+  for (const auto& [name, group] : {std::pair{"hand-made", "handmade"}, {"network", "cnn"}, {"fused", "fused"}}) {
+    const Outcome& outcome = outcome_of(study, group);
+    claim.verdict = both(claim.verdict, at_least(outcome.primary.scores, outcome.linear.scores));
+    claim.why += fmt::format("{}{} {} and {}", claim.why.empty() ? "" : ", ", name, rounded(outcome.primary.scores),
+                             rounded(outcome.linear.scores));
+  }
+  claim.why += " %";
+  return claim;
+}
+
+// What is open where Holm's procedure rejects chance for no quantity of the floor.
+std::string not_rejected(const std::vector<FloorEntry>& floor, const Study& study) {
+  const FloorEntry* widest = nullptr;
+  for (const FloorEntry& entry : floor) {
+    const double high = entry.scores.accuracy_95.high;
+    if (std::isfinite(high) && (widest == nullptr || high > widest->scores.accuracy_95.high)) widest = &entry;
+  }
+  if (widest == nullptr) return "no quantity has an interval";
+  return fmt::format("chance ({:.1f} %) is rejected for no quantity, which does not prove it: {} may reach {:.1f} %",
+                     100 * chance_of(study), widest->name, 100 * widest->scores.accuracy_95.high);
+}
+
+Claim motion_alone_separates(const Study& study) {
+  Claim claim{"motion alone separates the classes", Verdict::kHeld, "",
+              "not held: Holm's procedure rejects that some quantity other than motion is at chance; held: it rejects "
+              "none, which does not prove that all are"};
+  const std::vector<FloorEntry> floor = floor_of(study);
+  for (const FloorEntry& entry : floor) {
+    if (!std::isfinite(entry.scores.accuracy_95.low)) claim.verdict = both(claim.verdict, Verdict::kUndecided);
+    if (!entry.leaks) continue;
+    claim.verdict = Verdict::kNotHeld;
+    claim.why += fmt::format("{}{} {} %", claim.why.empty() ? "" : ", ", entry.name, rounded(entry.scores));
+  }
+  if (claim.why.empty()) claim.why = not_rejected(floor, study);
+  if (study.classes.size() > 2 && claim.verdict == Verdict::kNotHeld)
+    claim.why += fmt::format(" (chance: {:.1f} %)", 100 * chance_of(study));
+  return claim;
+}
+
+const char* text(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kHeld: return "held";
+    case Verdict::kNotHeld: return "not held";
+    case Verdict::kUndecided: return "undecided";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::vector<FloorEntry> floor_of(const Study& study) {
+  std::vector<FloorEntry> entries;
+  std::vector<Estimate> estimates;
+  for (const ProbeResult& probe : study.probes) {
+    if (probe.kind == ProbeKind::kFeature && probe.name != "sigma_r alone") continue;
+    entries.push_back({probe.name, probe.of_group().scores});
+    estimates.push_back(estimate_of(entries.back().scores));
+  }
+  const std::vector<ConfidenceInterval> intervals = holm_intervals(estimates, chance_of(study));
+  const std::vector<bool> rejected = holm_rejections(estimates, chance_of(study));
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    entries[i].scores.accuracy_95 = intervals[i];
+    entries[i].leaks = rejected[i];
+  }
+  return entries;
+}
+
+std::vector<Claim> claims_of(const Study& study) {
+  return {above_the_papers_accuracy(study), both_are_best(study), rises_with_the_waves(study),
+          trees_are_superior(study), motion_alone_separates(study)};
+}
+
+ordered_json benchmark_json(const Study& study) {
+  ordered_json json;
+  if (study.classes.size() > 2) json["classes"] = study.classes;
+  for (const auto& [name, evaluation] : baselines(study)) json["baselines"][name] = to_object(*evaluation);
+  const std::vector<FloorEntry> floor = floor_of(study);
+  for (const FloorEntry& entry : floor) {
+    const auto probe = std::ranges::find(study.probes, entry.name, &ProbeResult::name);
+    ordered_json object = to_object(probe->of_group());
+    object["interval"] = {number_or_null(entry.scores.accuracy_95.low), number_or_null(entry.scores.accuracy_95.high)};
+    object["leaks"] = entry.leaks;
+    json["floor"][entry.name] = object;
+  }
+  json["claims"] = ordered_json::array();
+  for (const Claim& claim : claims_of(study)) {
+    ordered_json object{{"claim", claim.text}};
+    object["held"] =
+        claim.verdict == Verdict::kUndecided ? ordered_json(nullptr) : ordered_json(claim.verdict == Verdict::kHeld);
+    object["why"] = claim.why;
+    object["meaning"] = claim.meaning;
+    json["claims"].push_back(object);
+  }
+  return json;
+}
+
+std::string benchmark_text(const Study& study) {
+  std::string all = fmt::format("Accuracy in % (95 % interval by bootstrap over seas)\n{}\n\n", study.division);
+  all += fmt::format("  {:<28}{:>18}  by Hs\n", "", "all");
+  for (const auto& [name, evaluation] : baselines(study)) {
+    all += fmt::format("  {:<28}{:>18}  {}\n", name, percent(evaluation->scores), by_height(*evaluation));
+  }
+  all += "\nWithout motion (intervals by Holm over all of them; * = differs from chance";
+  all += study.classes.size() > 2 ? fmt::format(", {:.1f} %)\n\n", 100 * chance_of(study)) : ")\n\n";
+  for (const FloorEntry& entry : floor_of(study)) {
+    all += fmt::format("  {:<28}{:>18}{}\n", entry.name, percent(entry.scores), entry.leaks ? " *" : "");
+  }
+  all += "\nThe paper's claims on this data set (intervals of 95 % by Student's distribution, over seas)\n\n";
+  for (const Claim& claim : claims_of(study))
+    all += fmt::format("  {:<52} {:<10} {}\n", claim.text, text(claim.verdict), claim.why);
+  return all;
+}
+
+std::string benchmark_row(const std::string& name, std::size_t maps, std::size_t seas, const Study& study) {
+  const std::vector<FloorEntry> floor = floor_of(study);
+  const auto highest = std::ranges::max_element(
+      floor, {}, [&](const FloorEntry& entry) { return std::abs(entry.scores.accuracy - chance_of(study)); });
+  const auto cell = [&](const char* group) { return by_height(outcome_of(study, group).primary); };
+  return fmt::format("| `{}` | {}, {} | {} | {} | {} | {} {} |\n", name, maps, seas, cell("handmade"), cell("cnn"),
+                     cell("fused"), highest->name, rounded(highest->scores));
+}
+
+}  // namespace seaglint
