@@ -9,9 +9,12 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/scattering/observation/observation.h"
+#include "tests/sim/scattering/moving_radar.h"
 
 namespace seaglint {
 namespace {
+
+using namespace testing_moving_radar;
 
 IntervalSampling two_pulses() {
   IntervalSampling sampling;
@@ -111,23 +114,6 @@ TEST(PointResponse, OverTheSeaIsTheProductOfTwoPaths) {
 
 // A moving radar: the directions to it and to its image in the sea change with its relative motion.
 
-constexpr double kRange = 20e3;
-const Vec3 kVelocity(40, 220, -15);  // a passing aircraft
-
-IntervalSampling interval() {
-  IntervalSampling sampling;
-  sampling.first_hz = 16e9;
-  sampling.step_hz = 5e6;
-  sampling.count = 40;
-  sampling.frequencies_per_pulse = 40;
-  for (int n = 0; n < 16; ++n) {
-    sampling.pulse_first.push_back(0);
-    sampling.pulse_time_s.push_back(3 + 4e-3 * n);
-  }
-  sampling.line_of_sight_rate = kVelocity / kRange;
-  return sampling;
-}
-
 TEST(PointResponse, HasTheRangeOfTheRadarsPath) {
   const IntervalSampling sampling = interval();
   const Vec3 r_hat = direction_to_radar(radians(30), radians(3));
@@ -151,25 +137,6 @@ TEST(PointResponse, HasTheRangeOfTheRadarsPath) {
     }
   }
 }
-
-// Over the sea the path lengths are r^.x or r'.x at the direction of the radar's true position, r' with r_z negated:
-// for a radar that approaches in level flight, climbs or passes the image moves in the opposite sense.
-constexpr double kNearRange = 4e3;
-const std::array<Vec3, 4> kVelocities{Vec3(-300, 0, 0), Vec3(0, 0, 100), Vec3(0, 100, 0), Vec3(-200, 80, -30)};
-
-IntervalSampling over_the_sea(const Vec3& velocity) {
-  IntervalSampling sampling = interval();
-  sampling.line_of_sight_rate = velocity / kNearRange;
-  return sampling;
-}
-
-Vec3 direction_at(const IntervalSampling& sampling, const Vec3& r_hat, std::size_t pulse) {
-  const double t = sampling.pulse_time_s[pulse] - sampling.pulse_time_s.front();
-  return (r_hat + t * sampling.line_of_sight_rate).normalized();
-}
-
-// Waves that halve the specular reflection.
-SeaReflection rough_water() { return SeaReflection(SeaReflectionSpec{}, 0.1); }
 
 TEST(PointResponse, OverTheSeaHasFourPathsPerPulseDirection) {
   const Vec3 r_hat = direction_to_radar(radians(10), radians(5)), x(25, -40, 12), v(3, -2, 1);

@@ -12,27 +12,13 @@
 #include "sim/geometry/shapes/generators.h"
 #include "sim/scattering/observation/observation.h"
 #include "tests/measured.h"
+#include "tests/sim/scattering/moving_radar.h"
 #include "tests/sim/scattering/solve_calls.h"
 
 namespace seaglint {
 namespace {
 
-constexpr double kRange = 20e3;
-const Vec3 kVelocity(40, 220, -15);  // a passing aircraft
-
-IntervalSampling interval() {
-  IntervalSampling sampling;
-  sampling.first_hz = 16e9;
-  sampling.step_hz = 5e6;
-  sampling.count = 40;
-  sampling.frequencies_per_pulse = 40;
-  for (int n = 0; n < 16; ++n) {
-    sampling.pulse_first.push_back(0);
-    sampling.pulse_time_s.push_back(3 + 4e-3 * n);
-  }
-  sampling.line_of_sight_rate = kVelocity / kRange;
-  return sampling;
-}
+using namespace testing_moving_radar;
 
 // A single pulse from the position of the radar at that time.
 IntervalSampling only_pulse(const IntervalSampling& sampling, int pulse) {
@@ -66,25 +52,6 @@ TEST(MovingRadar, IntervalResultMatchesPerPulseDirections) {
   // -40 dB of the interval, as for a rotating body; without the change of direction the echo is a different one.
   EXPECT_LT(std::sqrt(difference / power), 0.01);
 }
-
-// Over the sea the path lengths are r^.x or r'.x at the direction of the radar's true position, r' with r_z negated:
-// for a radar that approaches in level flight, climbs or passes the image moves in the opposite sense.
-constexpr double kNearRange = 4e3;
-const std::array<Vec3, 4> kVelocities{Vec3(-300, 0, 0), Vec3(0, 0, 100), Vec3(0, 100, 0), Vec3(-200, 80, -30)};
-
-IntervalSampling over_the_sea(const Vec3& velocity) {
-  IntervalSampling sampling = interval();
-  sampling.line_of_sight_rate = velocity / kNearRange;
-  return sampling;
-}
-
-Vec3 direction_at(const IntervalSampling& sampling, const Vec3& r_hat, std::size_t pulse) {
-  const double t = sampling.pulse_time_s[pulse] - sampling.pulse_time_s.front();
-  return (r_hat + t * sampling.line_of_sight_rate).normalized();
-}
-
-// Waves that halve the specular reflection.
-SeaReflection rough_water() { return SeaReflection(SeaReflectionSpec{}, 0.1); }
 
 TEST(MovingRadar, IntervalResultOverTheSeaMatchesPerPulseDirections) {
   const Scatterer scatterer(make_icosahedral_reflector(1.0));
