@@ -49,7 +49,7 @@ bool is_named_table(const TextSource& source);
 // which the name or the settings give.
 void read_four_columns(const TextSource& source, const FieldTableSettings& settings, FieldTable& table);
 
-// Columns by name and unit, in any order (column_key.h): azimuth (also az, aspect, angle, phi) in deg or rad, elevation
+// Columns by name and unit, in any order: azimuth (also az, aspect, angle, phi) in deg or rad, elevation
 // or theta, frequency in Hz, kHz, MHz, GHz; of each element, HH, HV, VH, VV (received, transmitted), the level in dBsm
 // or m^2, `HH (dBsm)`, `rcs_hh_dbsm`, and its phase, `HH phase (deg)`, e^{+jwt}; or one level of the element that the
 // name or the settings give. What is missing is of the settings: the frequency, and the elevation, else 0. A table by

@@ -10,8 +10,8 @@
 namespace seaglint {
 namespace {
 
-// The program itself, the commands, all of which tools/cli/command.h declares, and the Python module with its parts,
-// which tools/bindings/bindings.h declares.
+// The program itself, the commands, all of which tools/cli/command_line.h declares, and the Python module with its
+// parts, which tools/bindings/bindings.h declares.
 bool may_have_no_header(const std::string& source) {
   return source == "tools/main.cpp" || source.starts_with("tools/cli/command_") ||
          source == "tools/bindings/module.cpp" ||

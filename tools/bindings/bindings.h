@@ -22,9 +22,6 @@
 
 namespace seaglint {
 
-// The parts of the Python module seaglint._core; the package beside them gives these functions their names, checks and
-// documentation (tools/bindings/seaglint).
-
 void bind_scenario(pybind11::module_& module);  // Scenario
 void bind_mesh(pybind11::module_& module);      // Mesh
 void bind_rcs(pybind11::module_& module);       // rcs

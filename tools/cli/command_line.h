@@ -15,16 +15,9 @@
 
 namespace seaglint {
 
-// The command line of seaglint: its subcommands in the order of the data flow, and the arguments that several of them
-// share.
-
 // Parses a command line and runs its command. Returns the exit code: 0 (done), 1 (the work failed) or 2 (the input is
 // wrong); 1 and 2 with the reason as one line on stderr.
 int run_command_line(int argc, char** argv);
-
-// The subcommands of seaglint, in the order of the data flow, and the arguments that several of them share.
-
-// The subcommands of `seaglint`, one file command_<verb>.cpp each, in the order of the data flow.
 
 // State shared by all commands: the stop flag of Ctrl-C, the thread count, and the work of the chosen command.
 struct CommandContext {
@@ -34,7 +27,8 @@ struct CommandContext {
   bool uninterruptible = false;  // the work never checks `stop`: Ctrl-C ends the process at once
 };
 
-// Each adds its command to the program, with an example in the footer of its help; command_line.cpp calls them.
+// Each adds its command to the program, with an example in the footer of its help: files command_*.cpp, one of each
+// subject.
 void add_check(CommandOptions& program, CommandContext& context);
 void add_keys(CommandOptions& program, CommandContext& context);
 void add_paths(CommandOptions& program, CommandContext& context);
@@ -58,8 +52,6 @@ void add_classify(CommandOptions& program, CommandContext& context);
 void add_run(CommandOptions& program, CommandContext& context);
 void add_benchmark(CommandOptions& program, CommandContext& context);
 void add_report(CommandOptions& program, CommandContext& context);
-
-// Arguments that several commands share.
 
 // Directory of the data set: the given one, or its `data`, where `run` writes it.
 std::filesystem::path find_data_set(const std::filesystem::path& directory);

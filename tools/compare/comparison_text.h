@@ -12,8 +12,6 @@
 
 namespace seaglint {
 
-// A comparison as a table, as JSON and as CSV.
-
 // "seaglint solved with flat facets, no edge diffraction, ...", empty for tables.
 std::string solver_text(const std::vector<ExportComparison>& comparisons);
 
@@ -34,11 +32,9 @@ nlohmann::ordered_json comparison_json(const std::vector<ExportComparison>& comp
 // where they have phases (the export's in the fitted phase). A last column known_dbsm where any target is recognised.
 std::string comparison_csv(const std::vector<ExportComparison>& comparisons, int threads);
 
-// A comparison as a self-contained page.
-
 struct ComparisonFigure {
   std::filesystem::path file;  // empty: none
-  std::string plot;            // the same for the page's script (plot_json.h); empty: the picture alone
+  std::string plot;            // the same for the page's script (plot_json()); empty: the picture alone
 };
 
 // The figures that exist are embedded: curves with their differences, range profiles.

@@ -96,8 +96,6 @@ std::string cross_check_table(const RcsRequest& request, const RcsTarget& target
 // All rows for a terminal, a line each under one of headings, then the figures of summary_of() with the rows it names.
 std::string cross_check_text(const CrossCheck& check, const RcsTarget& target);
 
-// A cross-check of two methods as curves.
-
 // Levels of hh and vv by both methods along the axis, azimuth or elevation, that has several values, and below them the
 // relative difference of the fields. No plots where both axes vary, or none.
 PlotPanels cross_check_plots(const CrossCheck& check);

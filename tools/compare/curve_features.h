@@ -12,8 +12,6 @@
 
 namespace seaglint {
 
-// Lobes and nulls of a cut, and how far those of two curves lie apart.
-
 struct Extremum {
   double x = 0, level_db = 0;  // of the parabola through the three values
 };

@@ -16,8 +16,6 @@
 
 namespace seaglint {
 
-// Values of a reference beside those of a sweep at the same directions and frequencies.
-
 // Variable that changes along a cut.
 enum class CutAxis { kAzimuth, kElevation, kFrequency, kSeveral };
 

@@ -16,15 +16,11 @@
 
 namespace seaglint {
 
-// What two curves that differ may have different: time factor, signs, origin, unit, scale of the levels, the sense and
-// the zero of the azimuth, the size of the mesh.
-
-// A sentence for each that fits clearly better than none. Cuts with one model each; levels are clipped at floor_db
+// A sentence for each of time factor, signs, origin, unit, scale of the levels, sense and zero of the azimuth and size
+// of the mesh that fits clearly better changed. Cuts with one model each; levels are clipped at floor_db
 // below each reference's maximum.
 std::vector<std::string> suggestions(const std::vector<PairedCut>& cuts, const std::optional<Alignment>& alignment,
                                      double floor_db);
-
-// A few views of a poor comparison solved with the mesh in other units and with the settings of other programs.
 
 // Median of |compared - export| of the same views before and after a change.
 struct Trial {
@@ -45,7 +41,7 @@ struct TrialRequest {
 };
 
 // Levels more than 40 dB below the highest are left out. A median difference above 1.5 dB is poor: up to eight views
-// are solved with the settings of the program that wrote the file, or of all (like_program.h). If the median of
+// are solved with the settings of the program that wrote the file, or of all (kLikePrograms). If the median of
 // compared - export is beyond 8 dB they are first solved in those of m, cm, mm, in and ft whose change of levels fits
 // it, between 8 and 50 log10 of the change of size. A unit that leaves a quarter of the difference helps, and is the
 // only trial unless the settings of a program leave less. Empty where the agreement is not poor and of a target with

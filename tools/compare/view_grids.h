@@ -15,8 +15,6 @@
 
 namespace seaglint {
 
-// Arbitrary sets of frequencies and directions as few grids, which a sweep solves at once.
-
 struct ViewPoint {
   double frequency_hz = 0, azimuth_deg = 0, elevation_deg = 0;
   auto operator<=>(const ViewPoint&) const = default;  // NOLINT(modernize-use-nullptr): compares with 0
@@ -47,8 +45,6 @@ const DeclaredTransmitter& stated_transmitter(const RcsCut& cut);
 
 // Absent for a monostatic cut.
 std::optional<FixedTransmitter> fixed_transmitter(const RcsCut& cut);
-
-// One element of a table in the form of a solved sweep.
 
 // The values of `other` at the directions (0.001 deg) and frequencies (1e-6) of `cut`, as few sweeps with one model of
 // its name; the element of `other` alone is filled, about the body's origin. Without phases the amplitudes are positive

@@ -77,7 +77,7 @@ struct Claim {
   std::string meaning;                    // what the verdict follows from, a sentence
 };
 
-// Intervals and differences by Student's distribution (simultaneous.h), the floor by Holm's procedure, which can reject
+// Intervals and differences by Student's distribution, the floor by Holm's procedure, which can reject
 // chance but not prove it. In this order: hand-made features above 86 %; both together no worse than either; hand-made
 // features rise with the wave height; trees no worse than logistic regression; motion alone separates the classes.
 std::vector<Claim> claims_of(const Study& study);

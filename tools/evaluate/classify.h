@@ -34,12 +34,9 @@ struct EchoFile {
 // contradict `radar` of the scenario.
 EchoFile read_echo_file(const std::filesystem::path& file);
 
-// Applies a trained model to single maps of a data set, or to the map of an echo file: probabilities, and features
-// against their training ranges.
-
 struct ClassifyRequest {
   std::filesystem::path model;
-  std::filesystem::path data;         // data set, or echo file (.npz, tools/evaluate/echo_file.h)
+  std::filesystem::path data;         // data set, or echo file (.npz, EchoFile)
   std::optional<std::size_t> sample;  // of a data set; all samples without
   std::filesystem::path output;       // CSV file; may be empty
 };

@@ -17,8 +17,6 @@
 
 namespace seaglint {
 
-// Scores of a model's outputs: in total and by column, calibration, maps outside the training range.
-
 struct EvaluateRequest {
   std::filesystem::path model;
   std::vector<std::filesystem::path> data_sets;

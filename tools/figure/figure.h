@@ -32,8 +32,6 @@ class DeferredSignals {
   static bool pending();
 };
 
-// Figures by gnuplot: heat maps, lines and scatters to .png or .svg, chosen by the file's name.
-
 using AxisRange = std::pair<double, double>;  // low, high
 
 struct FigureAxis {

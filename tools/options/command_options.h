@@ -19,9 +19,6 @@ class Option;
 
 namespace seaglint {
 
-// The commands of a program with their options and positional arguments: declaration, help text, parsing, error texts.
-// Only command_options.cpp includes CLI11, whose templates cost several seconds per source.
-
 // One option or positional argument of a command. Every function returns the option, so that calls chain; a value
 // that violates a restriction is refused with the option's name.
 class CommandOption {

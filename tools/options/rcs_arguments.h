@@ -37,8 +37,6 @@ struct ReferenceArguments {
   ReferenceTables read() const;
 };
 
-// The options of `rcs`, and their conversion to an RcsRequest.
-
 // --unit, --forward, --up, --scale and --offset-m, wherever a mesh file is read.
 void add_placement_options(CommandOptions& command, MeshPlacement& placement);
 

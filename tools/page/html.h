@@ -14,8 +14,6 @@
 
 namespace seaglint {
 
-// Building blocks of a self-contained HTML page.
-
 std::string escape_html(std::string_view text);
 std::string base64(std::string_view bytes);  // RFC 4648, section 4
 
@@ -23,7 +21,7 @@ std::string base64(std::string_view bytes);  // RFC 4648, section 4
 std::string html_table(const std::vector<std::vector<std::string>>& rows, bool numbers = true);
 
 // A .png or .svg file as an embedded picture with its caption (HTML) below; `alternative` is the text for screen
-// readers. `plot` (plot_json.h), unless empty, is drawn in its place where scripts run, except in print.
+// readers. `plot` (plot_json()), unless empty, is drawn in its place where scripts run, except in print.
 std::string html_figure(const std::filesystem::path& file, std::string_view caption, std::string_view alternative,
                         std::string_view plot = {});
 

@@ -17,8 +17,6 @@
 
 namespace seaglint {
 
-// What the bodies of one size of a target have in common: mesh, scatterer and motion model.
-
 struct BodyModel {
   double scale = 1;                                // factor by which the mesh of the file is enlarged, after its unit
   double radius_m = 0;                             // largest distance of a vertex from the mesh's origin

@@ -19,8 +19,6 @@
 
 namespace seaglint {
 
-// The moving bodies of a scenario in one sea realisation over any time, without their echoes.
-
 // A realisation of one of the scenario's sea states, as the samples of the data set have it.
 struct SeaChoice {
   std::size_t sea_state = 0;    // index into sea_states()

@@ -71,8 +71,6 @@ std::vector<KeyEffect> key_effects(const Pipeline& pipeline, const TrialLimit& l
 // reason where it follows from the scenario; one line for the keys that are not tested.
 std::vector<std::string> constant_key_warnings(const Pipeline& pipeline, const TrialLimit& limit = {});
 
-// What a scenario makes: seas, cases and maps, what varies, what moves, and the work of making it.
-
 // Work and size of a data set.
 struct WorkEstimate {
   double processor_s = 0;

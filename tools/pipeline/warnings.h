@@ -11,8 +11,6 @@
 
 namespace seaglint {
 
-// Warnings about the validity of a scenario's results.
-
 struct Body;
 struct Bounds;
 struct Scenario;

@@ -26,8 +26,6 @@
 
 namespace seaglint {
 
-// Sweep of scattering matrices.
-
 inline constexpr double kMinPrinted_m2 = 1e-30;  // floor of printed levels, -300 dBsm
 
 // Estimates of one view at one frequency (sim/scattering/sums/view_estimate.h) for hh and vv, and the indices of
@@ -64,8 +62,6 @@ struct RcsSweep {
   double azimuth_of(std::size_t view) const { return azimuth_deg[view % azimuth_deg.size()]; }
   double elevation_of(std::size_t view) const { return elevation_deg[view / azimuth_deg.size()]; }
 };
-
-// Request for a sweep of scattering matrices, as plain values.
 
 // The sea under a target at rest.
 struct SeaUnderTarget {
@@ -113,7 +109,7 @@ struct RcsRequest : MeshPlacement {
   double ray_spacing_m = 0;          // of method rays; 0: ray_spacing()
   std::optional<double> crease_deg;  // absent: as the mesh's normals or its shape say
   double sheet_thickness_mm = 0;
-  std::string like;  // program whose settings were taken (like_program.h); empty: none
+  std::string like;  // program whose settings were taken (kLikePrograms); empty: none
   EchoSelection selection;
   SeaUnderTarget sea;
   CavityRequest cavities;

@@ -27,7 +27,7 @@ inline constexpr std::size_t kExplorerCells[2] = {64, 128};  // velocity, range;
 // A map reduced to whole decibels.
 struct ExplorerMap {
   std::int64_t sample = 0;
-  std::string packed;                 // one byte a cell, 0 = kMapFloorDb or below, [velocity][range] (plot_json.h)
+  std::string packed;                 // one byte a cell, 0 = kMapFloorDb or below, [velocity][range] (packed())
   std::vector<StoredCentre> centres;  // third member in dB relative to the strongest cell
 };
 
@@ -72,7 +72,7 @@ struct HotSpots {
   std::string about;  // sentences for the page, HTML
 };
 
-// Levels of each target's facets (facet_levels.h) at the middle of the band in the radar's polarisation, for one body
+// Levels of each target's facets (facet_levels()) at the middle of the band in the radar's polarisation, for one body
 // at rest without the sea: whole dB, down to 50 dB below the target's strongest facet over all views. Views are those
 // of the scenario, by azimuth, then elevation; of more than kHotSpotViews every n-th. Targets beyond kHotSpotFacets are
 // left out, which `about` states. The result is the same for any number of threads. Throws Interrupted when *stop

@@ -23,8 +23,6 @@
 
 namespace seaglint {
 
-// Data of the report: the samples of a run without their maps, and the few maps that it shows.
-
 // Least-squares line v = a r + b through the stored centres of a map.
 struct LineFit {
   double slope = 0;      // 1/s

@@ -34,8 +34,6 @@ std::optional<LinePlot> roc_by_wave_height_plot(const nlohmann::ordered_json& me
 // Detections over false alarms, %.
 LinePlot roc_plot(const nlohmann::ordered_json& metrics, const std::string& protocol);
 
-// The figures of a report, as files in its directory.
-
 // A figure of the report; both files show the same picture; `svg` is empty for mesh pictures and maps.
 struct ReportFigure {
   std::string section;  // maps, accuracy, scatter, features, aspects, sea, targets
@@ -43,7 +41,7 @@ struct ReportFigure {
   std::filesystem::path svg;
   std::string caption;      // HTML
   std::string alternative;  // plain text
-  std::string plot;         // plot_json.h; empty: the picture alone
+  std::string plot;         // plot_json(); empty: the picture alone
 };
 
 // Draws all figures into the run's directory, on `threads` threads; the list has the order of the page. `targets` are

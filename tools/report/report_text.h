@@ -86,7 +86,7 @@ std::string feature_table(const nlohmann::ordered_json& metrics, const ClassName
 std::string note_of_seas(const nlohmann::ordered_json& metrics);
 std::string expert_notes(const nlohmann::ordered_json& metrics, const Scenario& scenario);
 
-// Section of a report with the result of a benchmark (tools/benchmark), whose directory is within that of the run.
+// Section of a report with the result of a benchmark (tools/run), whose directory is within that of the run.
 
 inline constexpr const char* kBenchmarkFile = "benchmark.json";
 

@@ -14,8 +14,7 @@
 
 namespace seaglint {
 
-// A benchmark: a scenario, of scenarios/benchmark/ or another one of two classes, its data set, the baselines, and one
-// file with what they reach.
+// Files of a benchmark:
 //   DIR/benchmark.json; DIR/report.html, metrics.json, data, model: as of `run`, without the random split of the maps
 //   and the other fusion, of which benchmark.json has no figure
 

@@ -23,7 +23,7 @@ inline constexpr const char* kColumnsFile = "columns.csv";
 inline constexpr const char* kSingleFiles[] = {kScenarioFile, kInputsFile,    kManifestFile,
                                                kDataCardFile, kCroissantFile, kColumnsFile};
 
-// True for a temporary file (sim/core/process/temporary_file.h), which a killed process leaves: of a shard, a merged or
+// True for a temporary file (sim/core/process/file.h), which a killed process leaves: of a shard, a merged or
 // exported file, scenario, input list, data card or manifest.
 bool is_temporary(const std::string& name);
 
