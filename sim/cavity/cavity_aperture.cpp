@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -206,8 +205,7 @@ std::vector<bool> visible_cells(std::span<const ApertureCell> aperture, const Ve
 ApertureFields incident_aperture_fields(std::span<const ApertureCell> aperture, double k,
                                         std::span<const BistaticGeometry> views, RadarBasis BistaticGeometry::*antenna,
                                         const RayScene& scene, double radius) {
-  ApertureFields fields =
-      ApertureFields::Zero(4 * static_cast<Eigen::Index>(aperture.size()), 2 * static_cast<Eigen::Index>(views.size()));
+  ApertureFields fields(4 * aperture.size(), 2 * views.size());
   for (std::size_t view = 0; view < views.size(); ++view) {
     const RadarBasis& from = views[view].*antenna;
     const std::vector<bool> visible = visible_cells(aperture, from.r, scene, radius);
@@ -215,12 +213,11 @@ ApertureFields incident_aperture_fields(std::span<const ApertureCell> aperture, 
       if (!visible[i]) continue;
       const ApertureCell& cell = aperture[i];
       const Complex wave = std::polar(std::sqrt(cell.area), k * from.r.dot(cell.centre));
-      for (int p = 0; p < 2; ++p) {
+      for (std::size_t p = 0; p < 2; ++p) {
         const Vec3 E = p == 0 ? from.h : from.v, H = -from.r.cross(E);  // of a wave propagating along -r^
         const Vec3 J = cell.inward.cross(H), M = -cell.inward.cross(E);
-        fields.block(4 * static_cast<Eigen::Index>(i), 2 * static_cast<Eigen::Index>(view) + p, 4, 1) =
-            wave *
-            Eigen::Vector4d(cell.across.dot(J), cell.up.dot(J), cell.across.dot(M), cell.up.dot(M)).cast<Complex>();
+        const std::array components{cell.across.dot(J), cell.up.dot(J), cell.across.dot(M), cell.up.dot(M)};
+        for (std::size_t c = 0; c < 4; ++c) fields(4 * i + c, 2 * view + p) = wave * components[c];
       }
     }
   }
@@ -233,14 +230,14 @@ ApertureFields incident_aperture_fields(std::span<const ApertureCell> aperture, 
 //   grad G = -(1 + jkR) G R^ / R,   a = 1 - j/kR - 1/(kR)^2,   b = 1 - 3j/kR - 3/(kR)^2
 WallFields wall_fields(std::span<const ApertureCell> aperture, std::span<const WallPatch> walls, double k,
                        const ApertureFields& fields, int threads, const StopFlag* stop) {
-  const WallMatrix sources = fields.cast<std::complex<float>>();
-  const auto rows = 2 * static_cast<Eigen::Index>(walls.size());
-  WallFields result{WallMatrix(rows, fields.cols()), WallMatrix(rows, fields.cols())};
+  WallMatrix sources(fields.rows(), fields.columns());
+  std::ranges::transform(fields.values(), sources.values().begin(), [](Complex x) { return ComplexFloat(x); });
+  WallFields result{WallMatrix(2 * walls.size(), fields.columns()), WallMatrix(2 * walls.size(), fields.columns())};
   const auto fill = [&](std::size_t tile) {
     const std::size_t first = tile * kTile, last = std::min(walls.size(), first + kTile);
-    const auto count = 2 * static_cast<Eigen::Index>(last - first);
+    const RowRange rows{2 * first, 2 * (last - first)};
     // Transposed: one column per patch tangent, with its excitation by every source.
-    WallMatrix to_E(sources.rows(), count), to_J(sources.rows(), count);
+    WallMatrix to_E(sources.rows(), rows.count), to_J(sources.rows(), rows.count);
     for (std::size_t i = first; i < last; ++i) {
       const WallPatch& patch = walls[i];
       for (std::size_t j = 0; j < aperture.size(); ++j) {
@@ -252,28 +249,28 @@ WallFields wall_fields(std::span<const ApertureCell> aperture, std::span<const W
         const Complex slope = -Complex(1, kr) * G / r;
         const Complex a = Complex(1 - 1 / (kr * kr), -1 / kr), b = Complex(1 - 3 / (kr * kr), -3 / kr),
                       radiated = Complex(0, -k) * G;
-        for (int t = 0; t < 2; ++t) {
+        for (std::size_t t = 0; t < 2; ++t) {
           const Vec3& tangent = patch.tangent[t];
           const Vec3 rotated_tangent = tangent.cross(patch.normal);  // tangent . (n x H) = rotated_tangent . H
-          const auto column = 2 * static_cast<Eigen::Index>(i - first) + t;
-          for (int s = 0; s < 2; ++s) {
+          const std::size_t column = 2 * (i - first) + t;
+          for (std::size_t s = 0; s < 2; ++s) {
             const Vec3& along = s == 0 ? cell.across : cell.up;
             const Vec3 around = towards.cross(along);
             const auto direct = [&](const Vec3& of) {
               return radiated * (a * of.dot(along) - b * of.dot(towards) * towards.dot(along));
             };
-            const auto J = 4 * static_cast<Eigen::Index>(j) + s, M = J + 2;
-            to_E(J, column) = std::complex<float>(direct(tangent));
-            to_E(M, column) = std::complex<float>(-slope * tangent.dot(around));
-            to_J(J, column) = std::complex<float>(2.0 * slope * rotated_tangent.dot(around));
-            to_J(M, column) = std::complex<float>(2.0 * direct(rotated_tangent));
+            const std::size_t J = 4 * j + s, M = J + 2;
+            to_E(J, column) = ComplexFloat(direct(tangent));
+            to_E(M, column) = ComplexFloat(-slope * tangent.dot(around));
+            to_J(J, column) = ComplexFloat(2.0 * slope * rotated_tangent.dot(around));
+            to_J(M, column) = ComplexFloat(2.0 * direct(rotated_tangent));
           }
         }
       }
     }
-    const auto start = 2 * static_cast<Eigen::Index>(first);
-    result.incident_electric.middleRows(start, count).noalias() = to_E.transpose() * sources;
-    result.mfie_excitation.middleRows(start, count).noalias() = to_J.transpose() * sources;
+    const RowRange all{0, sources.rows()};
+    add_transposed_product(1, to_E, sources, all, result.incident_electric, rows);
+    add_transposed_product(1, to_J, sources, all, result.mfie_excitation, rows);
   };
   parallel_for((walls.size() + kTile - 1) / kTile, threads, fill, stop);
   return result;

@@ -30,7 +30,7 @@ std::vector<ApertureCell> aperture_cells(const TriangleMesh& walls, double pitch
 
 // Equivalent currents in the aperture, eta J = n x eta H and M = -n x E, times the square root of the cell area: rows 4
 // i + {J across, J up, M across, M up}, one column per field. Their inner product is the integral over the aperture.
-using ApertureFields = Eigen::MatrixXcd;
+using ApertureFields = ComplexMatrix;
 
 // Plane waves e^{jk r^.x} of unit amplitude from the directions of the antennas, columns 2 i + {h, v}; zero in cells
 // that face away from the antenna or are hidden from it by `scene`. radius: of the target, m.

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
@@ -41,25 +40,40 @@ void sort_by_depth(const std::vector<ApertureCell>& aperture, std::vector<WallPa
                    [&](const WallPatch& a, const WallPatch& b) { return depth2(a) < depth2(b); });
 }
 
+double sum_of_squares(const ComplexMatrix& a) {
+  double sum = 0;
+  for (const Complex& value : a.values()) sum += std::norm(value);
+  return sum;
+}
+
 struct FieldBasis {
-  ApertureFields fields;     // orthonormal
-  Eigen::VectorXd strength;  // root of the sum of squares over all directions
+  ApertureFields fields;         // orthonormal
+  std::vector<double> strength;  // root of the sum of squares over all directions
 };
 
 // Basis vectors that, with those of `basis`, represent every column of `fields`.
 FieldBasis extend_basis(const ApertureFields& basis, const ApertureFields& fields) {
   ApertureFields rest = fields;
-  for (int pass = 0; pass < 2; ++pass) rest -= basis * (basis.adjoint() * rest);
-  const double negligible = kMaxFieldError * kMaxFieldError * fields.squaredNorm();
-  if (basis.cols() > 0 && rest.squaredNorm() < 100 * negligible) return {ApertureFields(fields.rows(), 0), {}};
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> modes(rest.adjoint() * rest);
+  for (int pass = 0; pass < 2; ++pass) {
+    const ComplexMatrix known = product(basis, adjoint_product(basis, rest));
+    std::ranges::transform(rest.values(), known.values(), rest.values().begin(), std::minus());
+  }
+  const double negligible = kMaxFieldError * kMaxFieldError * sum_of_squares(fields);
+  if (basis.columns() > 0 && sum_of_squares(rest) < 100 * negligible) return {ApertureFields(fields.rows(), 0), {}};
+  const HermitianModes modes = hermitian_modes(adjoint_product(rest, rest));
   double dropped = 0;
-  Eigen::Index first = 0;
-  while (first < rest.cols() && dropped + std::max(modes.eigenvalues()(first), 0.0) <= negligible)
-    dropped += std::max(modes.eigenvalues()(first++), 0.0);
-  const Eigen::Index count = rest.cols() - first;
-  const Eigen::VectorXd strength = modes.eigenvalues().tail(count).cwiseSqrt();
-  return {rest * modes.eigenvectors().rightCols(count) * strength.cwiseInverse().asDiagonal(), strength};
+  std::size_t first = 0;
+  while (first < rest.columns() && dropped + std::max(modes.values[first], 0.0) <= negligible)
+    dropped += std::max(modes.values[first++], 0.0);
+  FieldBasis fresh;
+  ComplexMatrix weights(rest.columns(), rest.columns() - first);
+  for (std::size_t m = first; m < rest.columns(); ++m) {
+    fresh.strength.push_back(std::sqrt(modes.values[m]));
+    for (std::size_t i = 0; i < weights.rows(); ++i)
+      weights(i, m - first) = modes.vectors(i, m) / fresh.strength.back();
+  }
+  fresh.fields = product(rest, weights);
+  return fresh;
 }
 
 // Each batch is spread over all views, so that the basis of the first serves the others.
@@ -70,12 +84,41 @@ std::vector<std::vector<std::size_t>> view_batches(std::size_t views, std::size_
   return result;
 }
 
-// Columns of a followed by those of b.
-template <typename Columns>
-void append(Columns& a, const Columns& b) {
-  const Eigen::Index before = a.cols();
-  a.conservativeResize(b.rows(), before + b.cols());
-  a.rightCols(b.cols()) = b;
+bool finite(const WallMatrix& a) {
+  return std::ranges::all_of(a.values(),
+                             [](ComplexFloat x) { return std::isfinite(x.real()) && std::isfinite(x.imag()); });
+}
+
+// reaction(m, n) = -jk/(4 pi) integral over the walls of E_m . eta J_n, which is symmetric by reciprocity; the
+// numerical asymmetry is a few percent where walls end at the aperture (README.md).
+ComplexMatrix reaction_of(const WallMatrix& electric, const WallMatrix& currents, std::span<const WallPatch> walls,
+                          double k) {
+  const std::size_t count = electric.columns();
+  ComplexMatrix reaction(count, count);
+  for (std::size_t m = 0; m < count; ++m) {
+    for (std::size_t n = 0; n < count; ++n) {
+      Complex sum = 0;
+      for (std::size_t i = 0; i < electric.rows(); ++i)
+        sum += walls[i / 2].area * Complex(electric(i, m)) * Complex(currents(i, n));
+      reaction(m, n) = Complex(0, -k / (4 * kPi)) * sum;
+    }
+  }
+  for (std::size_t m = 0; m < count; ++m) {
+    for (std::size_t n = 0; n < m; ++n) reaction(m, n) = reaction(n, m) = 0.5 * (reaction(m, n) + reaction(n, m));
+  }
+  return reaction;
+}
+
+// Column i of a transposed, times the matrix, times column j of b.
+Complex reaction_between(const ComplexMatrix& a, std::size_t i, const ComplexMatrix& matrix, const ComplexMatrix& b,
+                         std::size_t j) {
+  Complex sum = 0;
+  for (std::size_t n = 0; n < matrix.columns(); ++n) {
+    Complex row = 0;
+    for (std::size_t m = 0; m < matrix.rows(); ++m) row += a(m, i) * matrix(m, n);
+    sum += row * b(n, j);
+  }
+  return sum;
 }
 
 }  // namespace
@@ -132,13 +175,9 @@ std::vector<std::array<Complex, 4>> Cavity::scattering_matrices(double k, std::s
   sort_by_depth(aperture, walls);
   const WallCurrents currents(walls, k, threads, stop);
 
-  // Reaction of the basis fields: reaction(m, n) = -jk/(4 pi) integral over the walls of E_m . eta J_n.
-  ApertureFields basis(4 * static_cast<Eigen::Index>(aperture.size()), 0);
-  WallMatrix electric(2 * static_cast<Eigen::Index>(walls.size()), 0), solution = electric;
-  Eigen::MatrixXcd reaction;
-  Eigen::VectorXd area(electric.rows());
-  for (std::size_t i = 0; i < walls.size(); ++i)
-    area.segment(2 * static_cast<Eigen::Index>(i), 2).setConstant(walls[i].area);
+  ApertureFields basis(4 * aperture.size(), 0);
+  WallMatrix electric(2 * walls.size(), 0), solution = electric;
+  ComplexMatrix reaction;
 
   std::vector<std::array<Complex, 4>> result(views.size(), std::array<Complex, 4>{});
   for (const std::vector<std::size_t>& batch : view_batches(views.size(), aperture.size())) {
@@ -153,29 +192,25 @@ std::vector<std::array<Complex, 4>> Cavity::scattering_matrices(double k, std::s
     if (!one_antenna) {
       back = incident_aperture_fields(aperture, k, together, &BistaticGeometry::receive, scene_, radius_);
       both = sent;
-      append(both, back);
+      both.append(back);
     }
     const ApertureFields& received = one_antenna ? sent : back;
-    if (sent.squaredNorm() == 0 || received.squaredNorm() == 0) continue;
+    if (sum_of_squares(sent) == 0 || sum_of_squares(received) == 0) continue;
     const FieldBasis fresh = extend_basis(basis, one_antenna ? sent : both);
-    if (fresh.fields.cols() > 0) {
+    if (fresh.fields.columns() > 0) {
       const WallFields fields_on_walls = wall_fields(aperture, walls, k, fresh.fields, threads, stop);
-      SEAGLINT_CHECK(fields_on_walls.incident_electric.allFinite() && fields_on_walls.mfie_excitation.allFinite(),
+      SEAGLINT_CHECK(finite(fields_on_walls.incident_electric) && finite(fields_on_walls.mfie_excitation),
                      "a wall of a cavity meets its aperture");
-      append(basis, fresh.fields);
-      append(electric, fields_on_walls.incident_electric);
-      append(solution, currents.solve(fields_on_walls.mfie_excitation, fresh.strength, threads, stop));
-      reaction = Complex(0, -k / (4 * kPi)) *
-                 (electric.cast<Complex>().transpose() * area.asDiagonal() * solution.cast<Complex>());
-      // Symmetric by reciprocity; the numerical asymmetry is a few percent where walls end at the aperture (README.md).
-      reaction = 0.5 * (reaction + reaction.transpose().eval());
+      basis.append(fresh.fields);
+      electric.append(fields_on_walls.incident_electric);
+      solution.append(currents.solve(fields_on_walls.mfie_excitation, fresh.strength, threads, stop));
+      reaction = reaction_of(electric, solution, walls, k);
     }
-    const Eigen::MatrixXcd s = basis.adjoint() * sent, r = basis.adjoint() * received;
+    const ComplexMatrix s = adjoint_product(basis, sent), r = adjoint_product(basis, received);
     for (std::size_t i = 0; i < together.size(); ++i) {
-      const auto at = 2 * static_cast<Eigen::Index>(i);
-      const Eigen::Matrix2cd S = r.middleCols(at, 2).transpose() * reaction * s.middleCols(at, 2);
       const Complex phase = std::polar(1.0, k * centre_.dot(together[i].transmit.r + together[i].receive.r));
-      result[batch[i]] = {phase * S(0, 0), phase * S(0, 1), phase * S(1, 0), phase * S(1, 1)};
+      for (std::size_t p = 0; p < 4; ++p)
+        result[batch[i]][p] = phase * reaction_between(r, 2 * i + p / 2, reaction, s, 2 * i + p % 2);
     }
   }
   return result;

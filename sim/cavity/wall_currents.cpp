@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -165,150 +164,177 @@ namespace {
 
 // Patches per diagonal block. A duct of 3,000 patches: 19, 17, 12, 7 iterations with 64, 128, 256, 512; beyond, the
 // solution of the blocks dominates the cost.
-constexpr int kBlock = 512;
-constexpr std::size_t kTile = 32;  // patches of a block per thread task
-// patches whose coupling to a tile is formed at once: 64 x 256 numbers, within the cache
-constexpr std::size_t kColumns = 128;
-constexpr Eigen::Index kColumnsPerSolve =
-    32;  // excitations solved together, which projection the assembly of the coupling
+constexpr std::size_t kBlock = 512;
+constexpr std::size_t kTile = 32;      // patches of a block per thread task
+constexpr std::size_t kColumns = 128;  // patches whose coupling to a tile is formed at once: numbers within the cache
+constexpr std::size_t kColumnsPerSolve = 32;  // excitations for which one assembly of the coupling serves
 constexpr std::size_t kMaxIterations = 150;
 
-// At most one number per patch of a block; SSE processes four at a time.
-using Line = Eigen::Array<float, Eigen::Dynamic, 1, 0, kBlock, 1>;
+using Line = std::array<float, kBlock>;  // at most one number per patch of a block
 
-struct Phasors {
-  Line cosine, sine;
-};
-
-// Phasors of angles >= 0 in cycles, below 4 million, to rounding: half of the fraction by its series, |x| <= pi/2, then
-// the double-angle formula. The library functions would take a third of the solution time.
-Phasors phasors(const Line& turns) {
+// Writes cos and sin of n angles >= 0 in cycles, below 4 million, to rounding: half of the fraction by its series,
+// |x| <= pi/2, then the double-angle formula. The library functions would take a third of the solution time.
+void phasors(const Line& turns, std::size_t n, Line& cosine, Line& sine) {
   constexpr float kRound = 1.5f * (1 << 23);  // adding and subtracting it rounds to the nearest integer
-  const Line x = static_cast<float>(kPi) * (turns - ((turns + kRound) - kRound)), x2 = x.square();
-  const Line sine =
-      x * (1 + x2 * (-1 / 6.f + x2 * (1 / 120.f + x2 * (-1 / 5040.f + x2 * (1 / 362880.f - x2 / 39916800.f)))));
-  const Line cosine =
-      1 + x2 * (-1 / 2.f +
-                x2 * (1 / 24.f + x2 * (-1 / 720.f + x2 * (1 / 40320.f + x2 * (-1 / 3628800.f + x2 / 479001600.f)))));
-  return {1 - 2 * sine.square(), 2 * sine * cosine};
+  for (std::size_t i = 0; i < n; ++i) {
+    const float x = static_cast<float>(kPi) * (turns[i] - ((turns[i] + kRound) - kRound)), x2 = x * x;
+    const float s =
+        x * (1 + x2 * (-1 / 6.f + x2 * (1 / 120.f + x2 * (-1 / 5040.f + x2 * (1 / 362880.f - x2 / 39916800.f)))));
+    const float c =
+        1 + x2 * (-1 / 2.f +
+                  x2 * (1 / 24.f + x2 * (-1 / 720.f + x2 * (1 / 40320.f + x2 * (-1 / 3628800.f + x2 / 479001600.f)))));
+    cosine[i] = 1 - 2 * s * s;
+    sine[i] = 2 * s * c;
+  }
+}
+
+Complex inner_product(std::span<const ComplexFloat> a, std::span<const ComplexFloat> b) {
+  Complex sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += Complex(std::conj(a[i])) * Complex(b[i]);
+  return sum;
+}
+
+double norm(std::span<const ComplexFloat> a) { return std::sqrt(inner_product(a, a).real()); }
+
+void add(ComplexFloat factor, std::span<const ComplexFloat> a, std::span<ComplexFloat> to) {
+  for (std::size_t i = 0; i < a.size(); ++i) to[i] += factor * a[i];
+}
+
+void scale(std::span<ComplexFloat> a, double factor) {
+  for (ComplexFloat& value : a) value *= static_cast<float>(factor);
 }
 
 // GMRES state of one excitation: its column of every Krylov direction, and the least-squares solution (Saad and Schultz
 // 1986, algorithm 3).
 struct KrylovColumn {
-  Eigen::Index column = 0;
-  double length = 0;  // norm of the excitation
-  Eigen::MatrixXcd hessenberg;
-  Eigen::VectorXcd weights;  // of the directions in the solution
+  std::size_t column = 0;
+  double length = 0;                              // norm of the excitation
+  std::vector<std::vector<Complex>> projections;  // column m of the Hessenberg matrix, m + 2 numbers
+  ComplexMatrix weights;                          // of the directions in the solution, one column
   double residual = 0;
   bool exact = false;  // the Krylov space contains the solution
 
   // Orthogonalises the column of `next`, the image of the last direction, into a new direction.
-  void add(const std::vector<WallMatrix>& directions, WallMatrix& next) {
+  void add_direction(const std::vector<WallMatrix>& directions, WallMatrix& next) {
     if (length == 0 || exact) return;
-    const auto known = static_cast<Eigen::Index>(directions.size());
-    hessenberg.conservativeResizeLike(Eigen::MatrixXcd::Zero(known + 1, known));
-    for (Eigen::Index m = 0; m < known; ++m) {
-      const auto direction = directions[static_cast<std::size_t>(m)].col(column);
-      const std::complex<float> projection = direction.dot(next.col(column));
-      hessenberg(m, known - 1) = projection;
-      next.col(column) -= projection * direction;
+    const std::size_t known = directions.size();
+    const std::span<ComplexFloat> image = next.column(column);
+    std::vector<Complex> projection;
+    for (const WallMatrix& direction : directions) {
+      projection.push_back(inner_product(direction.column(column), image));
+      add(ComplexFloat(-projection.back()), direction.column(column), image);
     }
-    const float rest = next.col(column).norm();
-    hessenberg(known, known - 1) = rest;
+    const double rest = norm(image);
+    projection.emplace_back(rest);
+    projections.push_back(std::move(projection));
     exact = !(rest > 0);
-    if (!exact) next.col(column) /= rest;
-    const Eigen::VectorXcd right = length * Eigen::VectorXcd::Unit(known + 1, 0);
-    weights = hessenberg.householderQr().solve(right);
-    residual = (right - hessenberg * weights).norm();
+    if (!exact) scale(image, 1 / rest);
+
+    ComplexMatrix hessenberg(known + 1, known), right(known + 1, 1);
+    for (std::size_t m = 0; m < known; ++m) std::ranges::copy(projections[m], hessenberg.column(m).begin());
+    right(0, 0) = length;
+    weights = least_squares(hessenberg, right);
+    const ComplexMatrix reached = product(hessenberg, weights);
+    double squares = 0;
+    for (std::size_t m = 0; m <= known; ++m) squares += std::norm(right(m, 0) - reached(m, 0));
+    residual = std::sqrt(squares);
   }
 
-  // Weighted sum of the directions.
+  // Adds the weighted sum of the directions.
   void sum(const std::vector<WallMatrix>& directions, WallMatrix& into) const {
-    for (Eigen::Index m = 0; m < weights.size(); ++m)
-      into.col(column) += std::complex<float>(weights(m)) * directions[static_cast<std::size_t>(m)].col(column);
+    for (std::size_t m = 0; m < weights.rows(); ++m)
+      add(ComplexFloat(weights(m, 0)), directions[m].column(column), into.column(column));
   }
 };
 
+// Columns first ... first + count - 1.
+WallMatrix columns_of(const WallMatrix& a, std::size_t first, std::size_t count) {
+  WallMatrix part(a.rows(), count);
+  for (std::size_t c = 0; c < count; ++c) std::ranges::copy(a.column(first + c), part.column(c).begin());
+  return part;
+}
+
 }  // namespace
 
-struct WallCurrents::Rows {
+struct WallCurrents::Patches {
   std::size_t first = 0, last = 0;
 
-  Eigen::Index start() const { return static_cast<Eigen::Index>(2 * first); }
-  Eigen::Index count() const { return static_cast<Eigen::Index>(2 * (last - first)); }
+  std::size_t count() const { return last - first; }
+  RowRange rows() const { return {2 * first, 2 * count()}; }  // of a WallMatrix
 };
 
 std::size_t WallCurrents::blocks() const { return (patches_ + kBlock - 1) / kBlock; }
 
-WallCurrents::Rows WallCurrents::block(std::size_t i) const {
+WallCurrents::Patches WallCurrents::block(std::size_t i) const {
   return {i * kBlock, std::min(patches_, (i + 1) * kBlock)};
 }
 
 // 2 n x (grad G x t') A' on either tangent t of the patches `to`, transposed, from a unit current along t' on `from`:
 //   t . [n x (grad G x t')] = (t . grad G)(n . t') - (t . t')(n . grad G), grad G = -(1 + jkR) e^{-jkR} / (4 pi R^3) R
 //   with R from the source to the patch. The self term of a plane patch is zero.
-WallMatrix WallCurrents::coupling(const Rows& to, const Rows& from) const {
-  WallMatrix transposed(from.count(), to.count());
-  const auto first = static_cast<Eigen::Index>(from.first), count = static_cast<Eigen::Index>(from.last - from.first);
-  const auto dot = [&](const Eigen::Vector3f& a, const Eigen::ArrayX3f& b) -> Line {
-    return a.x() * b.col(0).segment(first, count) + a.y() * b.col(1).segment(first, count) +
-           a.z() * b.col(2).segment(first, count);
-  };
+WallMatrix WallCurrents::coupling(const Patches& to, const Patches& from) const {
+  const std::size_t first = from.first, n = from.count();
+  const float k = static_cast<float>(k_), cycles = static_cast<float>(k_ / (2 * kPi));
+  WallMatrix transposed(2 * n, 2 * to.count());
+  Line X, Y, Z, r, turns, cosine, sine, real, imaginary;
+  const auto at = [](const PatchVectors& v, std::size_t i) { return std::array<float, 3>{v[0][i], v[1][i], v[2][i]}; };
   for (std::size_t i = to.first; i < to.last; ++i) {
-    const auto at = static_cast<Eigen::Index>(i);
-    const auto column = 2 * static_cast<Eigen::Index>(i - to.first);
-    const Eigen::Vector3f centre = centre_.row(at), normal = normal_.row(at);
-    const Line X = centre.x() - centre_.col(0).segment(first, count),
-               Y = centre.y() - centre_.col(1).segment(first, count),
-               Z = centre.z() - centre_.col(2).segment(first, count);
-    const Line r2 = X.square() + Y.square() + Z.square(), r = r2.sqrt(), kr = static_cast<float>(k_) * r;
-    const auto [cosine, sine] = phasors(static_cast<float>(k_ / (2 * kPi)) * r);
-    const Line level = -area_.segment(first, count) / (static_cast<float>(2 * kPi) * r2 * r);
-    const Line real = level * (cosine + kr * sine), imaginary = level * (kr * cosine - sine);
-    const auto towards = [&](const Eigen::Vector3f& v) -> Line { return v.x() * X + v.y() * Y + v.z() * Z; };
-    const Line height = towards(normal);
-    for (int a = 0; a < 2; ++a) {
-      const Eigen::Vector3f t = tangent_[a].row(at);
-      const Line along = towards(t);
-      for (int b = 0; b < 2; ++b) {
-        const Line shape = along * dot(normal, tangent_[b]) - dot(t, tangent_[b]) * height;
-        Eigen::Map<Eigen::ArrayXcf, 0, Eigen::InnerStride<2>> line(&transposed(b, column + a), count);
-        line.real() = real * shape;
-        line.imag() = imaginary * shape;
-      }
+    const auto centre = at(centre_, i), normal = at(normal_, i);
+    for (std::size_t j = 0; j < n; ++j) {
+      X[j] = centre[0] - centre_[0][first + j];
+      Y[j] = centre[1] - centre_[1][first + j];
+      Z[j] = centre[2] - centre_[2][first + j];
+      r[j] = std::sqrt(X[j] * X[j] + Y[j] * Y[j] + Z[j] * Z[j]);
+      turns[j] = cycles * r[j];
     }
-    if (i >= from.first && i < from.last)
-      transposed.block(2 * static_cast<Eigen::Index>(i - from.first), column, 2, 2).setZero();
+    phasors(turns, n, cosine, sine);
+    for (std::size_t j = 0; j < n; ++j) {
+      const float level = -area_[first + j] / (static_cast<float>(2 * kPi) * (r[j] * r[j]) * r[j]), kr = k * r[j];
+      real[j] = level * (cosine[j] + kr * sine[j]);
+      imaginary[j] = level * (kr * cosine[j] - sine[j]);
+    }
+    for (std::size_t a = 0; a < 2; ++a) {
+      const auto t = at(tangent_[a], i);
+      const std::span<ComplexFloat> column = transposed.column(2 * (i - to.first) + a);
+      for (std::size_t b = 0; b < 2; ++b) {
+        const float *x = &tangent_[b][0][first], *y = &tangent_[b][1][first], *z = &tangent_[b][2][first];
+        for (std::size_t j = 0; j < n; ++j) {
+          const float along = t[0] * X[j] + t[1] * Y[j] + t[2] * Z[j],
+                      height = normal[0] * X[j] + normal[1] * Y[j] + normal[2] * Z[j];
+          const float shape = along * (normal[0] * x[j] + normal[1] * y[j] + normal[2] * z[j]) -
+                              (t[0] * x[j] + t[1] * y[j] + t[2] * z[j]) * height;
+          column[2 * j + b] = {real[j] * shape, imaginary[j] * shape};
+        }
+      }
+      if (i >= from.first && i < from.last) std::ranges::fill(column.subspan(2 * (i - first), 2), ComplexFloat(0));
+    }
   }
   return transposed;
 }
 
 WallCurrents::WallCurrents(std::span<const WallPatch> walls, double k, int threads, const StopFlag* stop)
-    : patches_(walls.size()),
-      k_(k),
-      area_(static_cast<Eigen::Index>(patches_)),
-      centre_(area_.size(), 3),
-      normal_(area_.size(), 3),
-      own_(blocks()) {
-  tangent_.fill(Eigen::ArrayX3f(area_.size(), 3));
+    : patches_(walls.size()), k_(k), own_(blocks()) {
   Vec3 middle = Vec3::Zero();  // origin in the cavity, since distances are in single precision
   for (const WallPatch& patch : walls) middle += patch.centre / static_cast<double>(walls.size());
-  for (std::size_t i = 0; i < walls.size(); ++i) {
-    const auto at = static_cast<Eigen::Index>(i);
-    area_(at) = static_cast<float>(walls[i].area);
-    const Vec3 centre = walls[i].centre - middle;
-    for (int axis = 0; axis < 3; ++axis) {
-      centre_(at, axis) = static_cast<float>(centre[axis]);
-      normal_(at, axis) = static_cast<float>(walls[i].normal[axis]);
-      for (int t = 0; t < 2; ++t) tangent_[t](at, axis) = static_cast<float>(walls[i].tangent[t][axis]);
-    }
+  const auto append = [](const Vec3& v, PatchVectors& to) {
+    for (int axis = 0; axis < 3; ++axis) to[static_cast<std::size_t>(axis)].push_back(static_cast<float>(v[axis]));
+  };
+  for (const WallPatch& wall : walls) {
+    area_.push_back(static_cast<float>(wall.area));
+    append(wall.centre - middle, centre_);
+    append(wall.normal, normal_);
+    for (std::size_t t = 0; t < 2; ++t) append(wall.tangent[t], tangent_[t]);
   }
   parallel_for(
       blocks(), threads,
       [&](std::size_t i) {
-        const Rows rows = block(i);
-        own_[i].compute(WallMatrix::Identity(rows.count(), rows.count()) - coupling(rows, rows).transpose());
+        const Patches own = block(i);
+        const WallMatrix coupled = coupling(own, own);
+        WallMatrix system(coupled.columns(), coupled.rows());
+        for (std::size_t a = 0; a < system.rows(); ++a) {
+          for (std::size_t b = 0; b < system.columns(); ++b) system(a, b) = (a == b ? 1.0f : 0.0f) - coupled(b, a);
+        }
+        own_[i] = LuFactors(system);
       },
       stop);
 }
@@ -317,34 +343,31 @@ WallCurrents::WallCurrents(std::span<const WallPatch> walls, double k, int threa
 WallMatrix WallCurrents::apply_diagonal_blocks(const WallMatrix& x, int threads) const {
   WallMatrix result = x;
   parallel_for(blocks(), threads, [&](std::size_t i) {
-    const Rows rows = block(i);
-    result.middleRows(rows.start(), rows.count()).noalias() -=
-        coupling(rows, rows).transpose() * x.middleRows(rows.start(), rows.count());
+    const Patches own = block(i);
+    add_transposed_product(-1, coupling(own, own), x, own.rows(), result, own.rows());
   });
   return result;
 }
 
 // Solves (D - K_L) y = x (upwards: K_U), D the diagonal blocks, K_L the coupling from preceding blocks.
 WallMatrix WallCurrents::half_sweep(const WallMatrix& x, bool upwards, int threads, const StopFlag* stop) const {
-  WallMatrix y(x.rows(), x.cols());
+  WallMatrix known = x, y(x.rows(), x.columns());
   for (std::size_t n = 0; n < blocks(); ++n) {
     const std::size_t at = upwards ? blocks() - 1 - n : n;
-    const Rows rows = block(at);
-    WallMatrix known = x.middleRows(rows.start(), rows.count());
-    const Rows done = upwards ? Rows{rows.last, patches_} : Rows{0, rows.first};
-    const std::size_t tiles = (rows.last - rows.first + kTile - 1) / kTile;
+    const Patches own = block(at);
+    const Patches done = upwards ? Patches{own.last, patches_} : Patches{0, own.first};
+    const std::size_t tiles = (own.count() + kTile - 1) / kTile;
     parallel_for(
-        done.first == done.last ? 0 : tiles, threads,
+        done.count() == 0 ? 0 : tiles, threads,
         [&](std::size_t t) {
-          const Rows tile{rows.first + t * kTile, std::min(rows.last, rows.first + (t + 1) * kTile)};
+          const Patches tile{own.first + t * kTile, std::min(own.last, own.first + (t + 1) * kTile)};
           for (std::size_t j = done.first; j < done.last; j += kColumns) {
-            const Rows from{j, std::min(done.last, j + kColumns)};
-            known.middleRows(tile.start() - rows.start(), tile.count()).noalias() +=
-                coupling(tile, from).transpose() * y.middleRows(from.start(), from.count());
+            const Patches from{j, std::min(done.last, j + kColumns)};
+            add_transposed_product(1, coupling(tile, from), y, from.rows(), known, tile.rows());
           }
         },
         stop);
-    y.middleRows(rows.start(), rows.count()) = own_[at].solve(known);
+    own_[at].solve(known, y, own.rows());
   }
   return y;
 }
@@ -354,40 +377,44 @@ WallMatrix WallCurrents::half_sweep(const WallMatrix& x, bool upwards, int threa
 // Trans. AP-53, 2005, 793-799). With 1 - K = D - K_L - K_U and T = (D - K_U)^-1 D,
 //   (D - K_L)^-1 (1 - K) T = T + (D - K_L)^-1 D (1 - T)
 // so that each application needs one product with K (Eisenstat, SIAM J. Sci. Stat. Comput. 2, 1981, 1-4).
-WallMatrix WallCurrents::solve(const WallMatrix& driven, const Eigen::VectorXd& strength, int threads,
+WallMatrix WallCurrents::solve(const WallMatrix& driven, std::span<const double> strength, int threads,
                                const StopFlag* stop) const {
-  WallMatrix currents(driven.rows(), driven.cols());
-  const double strongest = (driven.colwise().norm().transpose().cast<double>().array() * strength.array()).maxCoeff();
-  for (Eigen::Index first = 0; first < driven.cols(); first += kColumnsPerSolve) {
-    const Eigen::Index count = std::min(kColumnsPerSolve, driven.cols() - first);
-    std::vector<WallMatrix> directions{half_sweep(driven.middleCols(first, count), false, threads, stop)};
-    std::vector<KrylovColumn> fields(static_cast<std::size_t>(count));
-    for (Eigen::Index c = 0; c < count; ++c) {
-      auto direction = directions.front().col(c);
-      fields[static_cast<std::size_t>(c)].column = c;
-      fields[static_cast<std::size_t>(c)].length = direction.norm();
-      direction.normalize();
+  WallMatrix currents(driven.rows(), 0);
+  double strongest = 0;
+  for (std::size_t c = 0; c < driven.columns(); ++c)
+    strongest = std::max(strongest, norm(driven.column(c)) * strength[c]);
+  for (std::size_t first = 0; first < driven.columns(); first += kColumnsPerSolve) {
+    const std::size_t count = std::min(kColumnsPerSolve, driven.columns() - first);
+    std::vector<WallMatrix> directions{half_sweep(columns_of(driven, first, count), false, threads, stop)};
+    std::vector<KrylovColumn> fields(count);
+    for (std::size_t c = 0; c < count; ++c) {
+      const std::span<ComplexFloat> direction = directions.front().column(c);
+      fields[c].column = c;
+      fields[c].length = norm(direction);
+      if (fields[c].length > 0) scale(direction, 1 / fields[c].length);
     }
     for (double worst = strongest; worst > kResidual * strongest;) {
       if (directions.size() > kMaxIterations)
         throw WorkError(fmt::format("cavity currents did not converge in {} iterations: residual {:.1e}",
                                     kMaxIterations, worst / strongest));
       const WallMatrix outward = half_sweep(apply_diagonal_blocks(directions.back(), threads), true, threads, stop);
-      WallMatrix next =
-          outward + half_sweep(apply_diagonal_blocks(directions.back() - outward, threads), false, threads, stop);
+      WallMatrix rest = directions.back(), next = outward;
+      for (std::size_t c = 0; c < count; ++c) add(-1, outward.column(c), rest.column(c));
+      const WallMatrix inward = half_sweep(apply_diagonal_blocks(rest, threads), false, threads, stop);
+      for (std::size_t c = 0; c < count; ++c) add(1, inward.column(c), next.column(c));
       worst = 0;
       for (KrylovColumn& field : fields) {
-        field.add(directions, next);
-        const double left = field.residual * strength(first + field.column);
+        field.add_direction(directions, next);
+        const double left = field.residual * strength[first + field.column];
         if (!std::isfinite(left))
           throw WorkError("the cavity's currents have no finite solution: walls too near each other for their patches");
         worst = std::max(worst, left);
       }
       directions.push_back(std::move(next));
     }
-    WallMatrix sum = WallMatrix::Zero(driven.rows(), count);
+    WallMatrix sum(driven.rows(), count);
     for (const KrylovColumn& field : fields) field.sum(directions, sum);
-    currents.middleCols(first, count) = half_sweep(apply_diagonal_blocks(sum, threads), true, threads, stop);
+    currents.append(half_sweep(apply_diagonal_blocks(sum, threads), true, threads, stop));
   }
   return currents;
 }

@@ -4,11 +4,11 @@
 // Walls of a cavity: their division into patches of nearly uniform size, independent of the triangulation, and the
 // surface currents on the perfectly conducting patches for given excitations, by the magnetic-field integral equation.
 
-#include <Eigen/LU>
 #include <array>
 #include <span>
 #include <vector>
 
+#include "sim/core/numbers/dense.h"
 #include "sim/core/process/parallel.h"
 #include "sim/geometry/mesh/triangle_mesh.h"
 
@@ -31,7 +31,7 @@ std::vector<WallPatch> wall_patches(const TriangleMesh& walls, double size);
 inline constexpr std::size_t kMaxPatches = 20'000;
 
 // One row per patch and tangent, 2 i + t; one column per excitation.
-using WallMatrix = Eigen::MatrixXcf;
+using WallMatrix = ComplexFloatMatrix;
 
 class WallCurrents {
  public:
@@ -42,25 +42,27 @@ class WallCurrents {
   // Solves for eta J: J = 2 n x H + 2 n x PV integral of grad G x J' dS', in the unit of `mfie_excitation` = 2 n x eta
   // H. The residual of a column times its strength (> 0) is at most kResidual of that of the strongest. Throws
   // WorkError when this needs too many iterations, Interrupted when *stop becomes true.
-  WallMatrix solve(const WallMatrix& driven, const Eigen::VectorXd& strength, int threads, const StopFlag* stop) const;
+  WallMatrix solve(const WallMatrix& driven, std::span<const double> strength, int threads, const StopFlag* stop) const;
 
   static constexpr double kResidual = 1e-3;
 
  private:
-  struct Rows;  // of patches
+  using PatchValues = std::vector<float>;  // one number per patch
+  using PatchVectors = std::array<PatchValues, 3>;
+  struct Patches;  // a range of them
 
   std::size_t blocks() const;
-  Rows block(std::size_t i) const;
-  WallMatrix coupling(const Rows& to, const Rows& from) const;
+  Patches block(std::size_t i) const;
+  WallMatrix coupling(const Patches& to, const Patches& from) const;
   WallMatrix apply_diagonal_blocks(const WallMatrix& x, int threads) const;
   WallMatrix half_sweep(const WallMatrix& x, bool upwards, int threads, const StopFlag* stop) const;
 
   std::size_t patches_;
   double k_;
-  Eigen::ArrayXf area_;  // of the patches, m^2
-  Eigen::ArrayX3f centre_, normal_;
-  std::array<Eigen::ArrayX3f, 2> tangent_;
-  std::vector<Eigen::PartialPivLU<WallMatrix>> own_;  // of the diagonal blocks
+  PatchValues area_;  // m^2
+  PatchVectors centre_, normal_;
+  std::array<PatchVectors, 2> tangent_;
+  std::vector<LuFactors> own_;  // of the diagonal blocks
 };
 
 }  // namespace seaglint

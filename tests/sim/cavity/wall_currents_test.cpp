@@ -32,15 +32,15 @@ TEST(WallCurrents, OnTheOutsideOfASphereHaveItsExactEcho) {
   const RadarBasis radar = radar_basis(Vec3::UnitX());
   const auto echo = [&](double patches_per_wavelength) {
     const std::vector<WallPatch> walls = wall_patches(sphere, 2 * kPi / ka / patches_per_wavelength);
-    WallMatrix driven(2 * static_cast<Eigen::Index>(walls.size()), 1);
-    const auto row = [](std::size_t i, int t) { return 2 * static_cast<Eigen::Index>(i) + t; };
+    WallMatrix driven(2 * walls.size(), 1);
+    const auto row = [](std::size_t i, int t) { return 2 * i + static_cast<std::size_t>(t); };
     for (std::size_t i = 0; i < walls.size(); ++i) {
       const Vec3 J = 2 * walls[i].normal.cross(-radar.r.cross(radar.h));
       for (int t = 0; t < 2; ++t)
         driven(row(i, t), 0) =
             std::complex<float>(walls[i].tangent[t].dot(J) * std::polar(1.0, ka * radar.r.dot(walls[i].centre)));
     }
-    const WallMatrix J = WallCurrents(walls, ka, 2, nullptr).solve(driven, Eigen::VectorXd::Ones(1), 2, nullptr);
+    const WallMatrix J = WallCurrents(walls, ka, 2, nullptr).solve(driven, std::array{1.0}, 2, nullptr);
     Complex S = 0;
     for (std::size_t i = 0; i < walls.size(); ++i) {
       for (int t = 0; t < 2; ++t)
