@@ -3,18 +3,65 @@
 
 // Small convolutional network that classifies a map by the images of its scattering centres; its embedding is the
 // paper's lambda_CNN.
+//
+// Its input: two images of a map's scattering centres, without their level, place and mean velocity. The motions that
+// separate a rigid body from free ones are fractions of a velocity cell, so that they show in the fitted velocities of
+// the centres, not in the cells of the map. Training maps are varied by changes that leave the class: each epoch trains
+// on other versions of them.
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <span>
 #include <vector>
 
-#include "classify/cnn/network_input.h"
+#include "classify/features/scattering_centres.h"
 #include "sim/core/process/parallel.h"
 #include "sim/scenario/learning_spec.h"
 
 namespace seaglint {
+
+class Random;
+
+inline constexpr std::size_t kInputChannels = 2;
+inline constexpr std::size_t kInputRows = 32;     // velocity
+inline constexpr std::size_t kInputColumns = 64;  // range
+inline constexpr std::size_t kInputCells = kInputChannels * kInputRows * kInputColumns;
+
+using CentreList = std::vector<ScatteringCentre>;
+
+// Displacement of the images on their grid, in cells.
+struct ImageOffset {
+  double rows = 0, columns = 0;
+};
+
+// [channel][velocity][range]. Each centre is a Gaussian of standard deviation 0.8 cells at its exact place; its height
+// falls from 1 at the total power of all centres to 0 at floor_db below it (negative), linearly in dB; of overlapping
+// ones the higher counts; centres beyond an axis are at its end. Axes, relative to the mean of the centres weighted by
+// amplitude:
+//   channel 0, overview   range +-96 m, velocity +-1 m/s, both linear
+//   channel 1, zoom       range +-2.5 standard deviations (at least 1 m each); velocity relative to
+//                         robust_velocity_line(), +-1 m/s, on the axis asinh(v / 0.01 m/s)
+// Invariant to multiplication of the amplitudes, to shifts in range and velocity and, in the zoom, to a constant
+// rotation of the target, up to rounding. Zeros without centres.
+std::vector<float> network_input(std::span<const ScatteringCentre> centres, double floor_db,
+                                 const ImageOffset& offset = {});
+
+// The centres of another observation of the same kind of target, in the same order. The ranges change sign in half of
+// the cases, as seen from the other end, and so do the velocities, as for the same motion run backwards. The ranges are
+// multiplied by a factor uniform in 0.8..1.25, another aspect or spacing. v += w (r - mean r) with w normal of 0.00125
+// rad/s adds a constant rotation of the whole, or the radar's own motion. Residuals from the line of velocity over
+// range keep their magnitude.
+CentreList observed_otherwise(std::span<const ScatteringCentre> centres, Random& random);
+
+// Adds errors of estimation, normal: 0.001 m/s in velocity, that of a centre 32 dB above clutter and noise in its cell
+// (Cramer-Rao bound, sqrt(3)/(2 pi) cells / sqrt(SNR)); 0.02 m in range and 1 dB in amplitude, above that bound, as
+// scatterers in one cell interfere.
+CentreList with_errors(CentreList centres, Random& random);
+
+// Range and velocity shift of the images, uniform within +-2 columns and +-0.5 rows.
+ImageOffset random_offset(Random& random);
 
 // Outputs of the network per map: `size` embedding values and the logit of label 1, of more than two classes one logit
 // of each.
@@ -45,7 +92,7 @@ struct TrainingHistory {
 class Network {
  public:
   // Trains with cross-entropy (binary; of more than two classes that of the softmax) and Adam (Kingma and Ba 2015) on
-  // varied versions of the maps (network_input.h), at most spec.epochs passes; ends when spec.patience epochs have not
+  // varied versions of the maps, at most spec.epochs passes; ends when spec.patience epochs have not
   // lowered the loss of the validation rows. Weights, the order of the batches and the variations come from stream
   // kNetwork of (seed, index). Repeats bit for bit for any spec.threads on one kind of processor. Throws Interrupted
   // when *stop becomes true.

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "classify/features/feature_matrix.h"
+#include "classify/features/feature_vector.h"
 #include "sim/core/process/parallel.h"
 #include "sim/scenario/learning_spec.h"
 

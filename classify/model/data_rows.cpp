@@ -12,15 +12,15 @@
 #include <tuple>
 #include <utility>
 
-#include "classify/dataset/format/layout.h"
-#include "sim/core/numbers/quantile.h"
+#include "classify/dataset/format/shard.h"
+#include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/real_functions.h"
 #include "sim/core/process/error.h"
 #include "sim/core/text/names.h"
 
 namespace seaglint {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* kDataSet = "data_set";
 constexpr const char* kSea = "sea";
 
@@ -217,7 +217,6 @@ bool ValueRange::excludes(double value) const {
 
 ValueRange range_of(const ColumnOfRows& column, std::span<const std::size_t> rows, std::span<const int> labels,
                     std::size_t classes) {
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   ValueRange range{column.name, column.unit, kNan, kNan, {}};
   std::vector<std::vector<double>> by_label(classes);
   for (const std::size_t row : rows) {

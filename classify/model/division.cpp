@@ -30,8 +30,7 @@ constexpr std::uint64_t kOrderOfStates = std::uint64_t{1} << 32;
 template <class T>
 void shuffle(std::vector<T>& values, const RandomKey& key) {
   Random random(key);
-  for (std::size_t i = values.size(); i > 1; --i)
-    std::swap(values[i - 1], values[random.below(static_cast<std::uint32_t>(i))]);
+  shuffle(values, random);
 }
 
 Split cut(std::span<const RowGroup> rows, const std::vector<std::size_t>& candidates, Protocol protocol,

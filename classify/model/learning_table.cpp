@@ -121,7 +121,7 @@ enum ProbeIndex {
   kFloor,
   kPedestal,
   kAbove,
-  kCentres,
+  kCentreCount,
   kHopCode,
   kOrder,
   kMwr,
@@ -146,7 +146,7 @@ std::vector<Probe> empty_probes(std::size_t bands) {
                        "median over velocity at the strongest cell's range, below that cell, dB",
                        {{"pedestal_db"}, {}}};
   probes[kAbove] = {"cells above threshold", ProbeKind::kShape, "cells within 20 dB of the strongest", {{"cells"}, {}}};
-  probes[kCentres] = {"number of centres", ProbeKind::kShape, "scattering centres found", {{"centres"}, {}}};
+  probes[kCentreCount] = {"number of centres", ProbeKind::kShape, "scattering centres found", {{"centres"}, {}}};
   probes[kHopCode] = {"hop code", ProbeKind::kBlind, "how often each carrier is used", {{}, {}}};
   for (std::size_t band = 0; band < bands; ++band)
     probes[kHopCode].features.names.push_back(fmt::format("carrier_{}", band));
@@ -244,7 +244,7 @@ LearningTable load_learning_table(const DatasetReader& data, const StopFlag* sto
       add(kFloor, levels.floor_db);
       add(kPedestal, levels.pedestal_db);
       add(kAbove, levels.above_threshold);
-      add(kCentres, static_cast<double>(record.centres));
+      add(kCentreCount, static_cast<double>(record.centres));
       add(kOrder, static_cast<double>(record.sample));
       add(kOrder, static_cast<double>(record.sample % 2));
       add(kMwr, record.mwr);

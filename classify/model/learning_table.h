@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "classify/cnn/network_input.h"
+#include "classify/cnn/network.h"
 #include "classify/dataset/directory/dataset_reader.h"
 #include "classify/dataset/format/sample.h"
 #include "classify/model/classifiers.h"

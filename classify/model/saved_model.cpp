@@ -2,19 +2,237 @@
 #include "classify/model/saved_model.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
+#include <cmath>
+#include <limits>
 #include <optional>
+#include <set>
 
-#include "classify/cnn/network_input.h"
+#include "classify/cnn/network.h"
 #include "classify/dataset/format/manifest.h"
 #include "classify/dataset/format/sample.h"
 #include "classify/features/feature_vector.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
+#include "sim/core/process/printable.h"
+#include "sim/core/text/json.h"
 #include "sim/core/text/text_table.h"
 #include "sim/core/text/words.h"
+#include "sim/scenario/scenario.h"
 
 namespace seaglint {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr const char* kFormat = "seaglint model 1";
+
+AxisExtent extent_of(const std::vector<double>& axis) { return {axis.size(), axis.front(), axis.back()}; }
+
+std::string axis_difference(const char* name, const AxisExtent& axis, const AxisExtent& of_model) {
+  // Both are computed from the same settings: they differ by rounding only, in the last digits.
+  const double tolerance = 1e-9 * (std::abs(of_model.first) + std::abs(of_model.last));
+  if (axis.cells == of_model.cells && std::abs(axis.first - of_model.first) <= tolerance &&
+      std::abs(axis.last - of_model.last) <= tolerance)
+    return "";
+  const auto text = [](const AxisExtent& extent) {
+    return fmt::format("{} cells from {:.6g} to {:.6g}", extent.cells, extent.first, extent.last);
+  };
+  return fmt::format("{}: {} instead of {}", name, text(axis), text(of_model));
+}
+
+// JSON has no NaN: an undefined value is null.
+
+double number(const ordered_json& json) {
+  return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
+}
+
+ordered_json to_object(const AxisExtent& axis) {
+  return {{"cells", axis.cells}, {"first", axis.first}, {"last", axis.last}};
+}
+AxisExtent axis_from(const ordered_json& json, const std::string& file) {
+  return {whole_number(json, "cells", file), json.at("first").get<double>(), json.at("last").get<double>()};
+}
+
+ordered_json to_array(const std::vector<ValueRange>& ranges, const std::vector<std::string>& classes) {
+  ordered_json json = ordered_json::array();
+  for (const ValueRange& range : ranges) {
+    ordered_json entry{{"name", range.name},
+                       {"units", range.unit},
+                       {"lowest", number_or_null(range.lowest)},
+                       {"highest", number_or_null(range.highest)},
+                       {"undefined_in_some", range.has_undefined}};
+    for (std::size_t label = 0; label < classes.size(); ++label)
+      for (const double quantile : range.by_label[label])
+        entry["quantiles_5_50_95"][classes[label]].push_back(number_or_null(quantile));
+    json.push_back(std::move(entry));
+  }
+  return json;
+}
+std::vector<ValueRange> ranges_from(const ordered_json& json, const std::vector<std::string>& classes) {
+  std::vector<ValueRange> ranges;
+  for (const ordered_json& entry : json) {
+    ValueRange range{entry.at("name").get<std::string>(),
+                     entry.at("units").get<std::string>(),
+                     number(entry.at("lowest")),
+                     number(entry.at("highest")),
+                     {},
+                     entry.at("undefined_in_some").get<bool>()};
+    for (const std::string& name : classes) {
+      const ordered_json& quantiles = entry.at("quantiles_5_50_95").at(name);
+      range.by_label.push_back({number(quantiles.at(0)), number(quantiles.at(1)), number(quantiles.at(2))});
+    }
+    ranges.push_back(std::move(range));
+  }
+  return ranges;
+}
+
+}  // namespace
+
+StoredGrid grid_of(const StoredAxes& axes) { return {extent_of(axes.range_m), extent_of(axes.velocity_mps)}; }
+
+std::string grid_difference(const StoredGrid& grid, const StoredGrid& of_model) {
+  const std::string range = axis_difference("range_m", grid.range_m, of_model.range_m);
+  return range.empty() ? axis_difference("velocity_mps", grid.velocity_mps, of_model.velocity_mps) : range;
+}
+
+std::string classes_difference(const std::vector<std::string>& classes, const std::vector<std::string>& of_model) {
+  if (classes == of_model) return "";
+  return fmt::format("{} instead of {}", fmt::join(classes, ", "), fmt::join(of_model, ", "));
+}
+
+std::map<std::string, SectionSettings> settings_of(const Scenario& scenario) {
+  std::map<std::string, SectionSettings> settings;
+  for (const char* section : {"map", "features", "learning"}) settings[section] = section_values(scenario, section);
+  // The number of threads changes no result.
+  std::erase_if(settings["learning"], [](const auto& entry) { return entry.first == "threads"; });
+  return settings;
+}
+
+std::string settings_difference(const std::map<std::string, SectionSettings>& settings,
+                                const std::map<std::string, SectionSettings>& of_model) {
+  for (const char* section : {"map", "features"}) {
+    const auto as_map = [section](const std::map<std::string, SectionSettings>& all) {
+      const SectionSettings& entries = all.at(section);
+      return std::map<std::string, std::string>(entries.begin(), entries.end());
+    };
+    const std::map<std::string, std::string> here = as_map(settings), there = as_map(of_model);
+    const auto value = [](const std::map<std::string, std::string>& values, const std::string& key) {
+      const auto found = values.find(key);
+      return found == values.end() ? std::string("absent") : found->second;
+    };
+    for (const auto* keys : {&here, &there})
+      for (const auto& [key, unused] : *keys)
+        if (value(here, key) != value(there, key))
+          return fmt::format("{}.{}: {} instead of {}", section, key, value(here, key), value(there, key));
+  }
+  return "";
+}
+
+LearningSpec learning_spec(const ModelCard& card, const std::filesystem::path& file) {
+  std::vector<Override> overrides;
+  for (const auto& [key, value] : card.settings.at("learning")) overrides.push_back({"learning." + key, value});
+  try {
+    return parse_scenario(
+               "seaglint: 1\ntargets: {any: {label: 0, points: [{position_m: [0, 0, 0], amplitude_m: 1}]}}\n",
+               file.string(), overrides)
+        .learning;
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: settings: {}", file.string(), error.what()));
+  }
+}
+
+std::string to_json(const ModelCard& card) {
+  ordered_json json;
+  json["format"] = kFormat;
+  json["program_version"] = card.program_version;
+  json["seed"] = card.seed;
+  json["classes"] = card.classes;
+  json["features"] = card.features;
+  json["embedding"] = card.embedding;
+  json["grid"] = {{"range_m", to_object(card.grid.range_m)}, {"velocity_mps", to_object(card.grid.velocity_mps)}};
+  for (const auto& [section, entries] : card.settings) {
+    json["settings"][section] = ordered_json::object();
+    for (const auto& [key, value] : entries) json["settings"][section][key] = value;
+  }
+  json["data_sets"] = ordered_json::array();
+  for (const TrainingData& data : card.data_sets) {
+    json["data_sets"].push_back({{"scenario", data.scenario},
+                                 {"scenario_sha256", data.scenario_sha256},
+                                 {"seed", data.seed},
+                                 {"samples", data.samples}});
+  }
+  json["division"] = card.division;
+  json["train_rows"] = card.train_rows;
+  json["feature_ranges"] = to_array(card.feature_ranges, card.classes);
+  json["condition_ranges"] = to_array(card.condition_ranges, card.classes);
+  json["sha256"] = card.sha256;
+  return json.dump(2) + "\n";
+}
+
+ModelCard read_model_card(const std::filesystem::path& file, const std::string& program_version) {
+  const std::string text = read_file(file, std::size_t{16} << 20);
+  check_json(text, file.string(), kMaxOrderedKeys);
+  try {
+    const ordered_json json = ordered_json::parse(text);
+    const auto refuse = [&](const char* what, const std::string& found, const std::string& own) {
+      throw InputError(fmt::format("{}: {} {}; this program applies models of {}: train it again by `seaglint train`",
+                                   file.string(), what, shown(found), own));
+    };
+    if (json.at("format") != kFormat) refuse("format", json.at("format").dump(), fmt::format("\"{}\"", kFormat));
+    ModelCard card;
+    card.program_version = json.at("program_version").get<std::string>();
+    if (card.program_version != program_version) refuse("program_version", card.program_version, program_version);
+    card.classes = json.at("classes").get<std::vector<std::string>>();
+    const std::set<std::string> different(card.classes.begin(), card.classes.end());
+    if (different.size() != card.classes.size() || card.classes.size() < kMinClasses ||
+        card.classes.size() > kMaxClasses || different.contains(""))
+      throw InputError(fmt::format("{}: classes {}: must be {} to {} different names", file.string(),
+                                   shown(fmt::format("{}", fmt::join(card.classes, ", "))), kMinClasses, kMaxClasses));
+    const auto whole = [&](const ordered_json& object, const char* key) {
+      return whole_number(object, key, file.string());
+    };
+    card.seed = whole(json, "seed");
+    card.features = json.at("features").get<std::vector<std::string>>();
+    card.embedding = json.at("embedding").get<std::vector<std::string>>();
+    const ordered_json& grid = json.at("grid");
+    card.grid = {axis_from(grid.at("range_m"), file.string()), axis_from(grid.at("velocity_mps"), file.string())};
+    for (const char* section : {"map", "features", "learning"}) {
+      SectionSettings& entries = card.settings[section];
+      for (const auto& [key, value] : json.at("settings").at(section).items())
+        entries.emplace_back(key, value.get<std::string>());
+    }
+    for (const ordered_json& entry : json.at("data_sets")) {
+      card.data_sets.push_back({entry.at("scenario").get<std::string>(), entry.at("scenario_sha256").get<std::string>(),
+                                whole(entry, "seed"), whole(entry, "samples")});
+    }
+    card.division = json.at("division").get<std::string>();
+    card.train_rows = whole(json, "train_rows");
+    card.feature_ranges = ranges_from(json.at("feature_ranges"), card.classes);
+    card.condition_ranges = ranges_from(json.at("condition_ranges"), card.classes);
+    card.sha256 = json.at("sha256").get<std::map<std::string, std::string>>();
+    bool same_features = card.features.size() == card.feature_ranges.size();
+    for (std::size_t i = 0; same_features && i < card.features.size(); ++i)
+      same_features = card.features[i] == card.feature_ranges[i].name;
+    if (!same_features) throw InputError(fmt::format("{}: feature_ranges: not those of features", file.string()));
+    for (const auto* ranges : {&card.feature_ranges, &card.condition_ranges}) {
+      for (const ValueRange& range : *ranges) {
+        const ColumnOfRows column = column_of({}, range.name);
+        if (column.is_text)
+          throw InputError(fmt::format("{}: {}: a column of text has no range", file.string(), shown(range.name)));
+        if (range.unit != column.unit)
+          throw InputError(fmt::format("{}: {}: units {}, must be {}", file.string(), range.name, in_quotes(range.unit),
+                                       in_quotes(column.unit)));
+      }
+    }
+    return card;
+  } catch (const ordered_json::exception& error) {
+    throw InputError(fmt::format("{}: {}", file.string(), json_problem(error)));
+  }
+}
 
 namespace fs = std::filesystem;
 

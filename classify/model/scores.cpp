@@ -9,14 +9,13 @@
 #include <unordered_map>
 #include <utility>
 
-#include "sim/core/numbers/quantile.h"
+#include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/random.h"
+#include "sim/core/numbers/real_functions.h"
 
 namespace seaglint {
 
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 // Mann and Whitney's statistic over n0 n1, from mid-ranks; of values with label 0 or 1.
 double area_under_roc(std::vector<std::pair<double, int>> sorted) {

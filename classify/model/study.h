@@ -5,16 +5,20 @@
 // motion_features()), each with the same trees, under two protocols (random rows as in the paper, whole seas) and two
 // fusions of network and trees, with probes for leaks of the class.
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "classify/cnn/network.h"
 #include "classify/model/data_rows.h"
 #include "classify/model/learning_table.h"
 #include "classify/model/scores.h"
+#include "sim/scenario/learning_spec.h"
 
 namespace seaglint {
 
@@ -56,6 +60,9 @@ struct ProbeResult {
   std::vector<Evaluation> evaluations;  // as FeatureGroupResult::outcomes
 
   const Evaluation& of_group() const { return evaluations.back(); }
+  const Evaluation& of(Protocol protocol) const {
+    return protocol == Protocol::kGroup ? evaluations.back() : evaluations.front();
+  }
 };
 
 // kPrimary: the primary results of the group protocol, with the same figures as in kFull by one of six trainings of the
@@ -75,6 +82,9 @@ struct Study {
   std::string division;            // how the group protocol divides
 };
 
+// Of the group of this name under a protocol that the study has.
+const Outcome& outcome_of(const Study& study, std::string_view group, Protocol protocol = Protocol::kGroup);
+
 // The network's outputs as columns lambda_1, lambda_2, ..., logit; of more than two classes logit_0, logit_1, ...
 FeatureMatrix embedding_matrix(const Embeddings& embeddings);
 
@@ -85,6 +95,7 @@ std::uint64_t bootstrap_index(std::size_t group, Protocol protocol);
 void check_splits(const Division& division, const LearningSpec& spec, double train_fraction, std::uint64_t seed);
 
 inline constexpr const char* kNetworkFile = "network.bin";
+inline constexpr const char* kModelFile = "model.json";
 inline constexpr const char* kSplitsFile = "splits.csv";
 
 // Trains and evaluates; writes nothing. The result depends only on data, spec and seed, not on `threads`. Throws
@@ -99,5 +110,27 @@ std::vector<std::string> model_files();
 // splits.csv, `random` and `by_group` are train, test or unused. Throws WorkError when a file
 // cannot be written.
 void save_models(const Study& study, const LearningTable& table, const std::filesystem::path& model_directory);
+
+// Text output of a study: the accuracy table for the terminal and the numbers of metrics.json.
+
+// Table of accuracies by wave height as plain text.
+std::string accuracy_table(const Study& study);
+
+// "93.3 (88-98)": accuracy in % with its 95 % interval, if there is one; "-" without rows.
+std::string percent(const Scores& scores);
+
+// The name of a class in names of columns and members: '_' for a space.
+std::string one_word(std::string class_name);
+// "probability_fused"; of more than two classes "probability_fused_ship", one for each.
+std::vector<std::string> probability_columns(const std::string& model, const std::vector<std::string>& classes);
+
+// JSON objects of scores and of roc_curves(), for more than two classes by class name; undefined values are null.
+nlohmann::ordered_json to_object(const Scores& scores, const std::vector<std::string>& classes);
+nlohmann::ordered_json to_object(const std::vector<std::vector<RocPoint>>& curves,
+                                 const std::vector<std::string>& classes);
+
+// The study as a JSON object with the members handmade, cnn, fused, extended, probes, network; without what the scope
+// of the study leaves out.
+nlohmann::ordered_json to_json(const Study& study, const LearningSpec& spec);
 
 }  // namespace seaglint

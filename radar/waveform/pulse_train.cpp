@@ -46,14 +46,9 @@ std::vector<int> hop_code(HopCode kind, int pulses, int carriers, std::uint64_t 
     // The labels are shuffled first, so that the carriers with one pulse more, when M does not divide N, are random.
     std::vector<int> label(carriers);
     for (int i = 0; i < carriers; ++i) label[i] = i;
-    const auto shuffle = [&random](std::vector<int>& values) {  // Fisher and Yates
-      for (std::size_t last = values.size(); last > 1; --last) {
-        std::swap(values[last - 1], values[random.below(static_cast<std::uint32_t>(last))]);
-      }
-    };
-    shuffle(label);
+    shuffle(label, random);
     for (int& c : code) c = label[c];
-    shuffle(code);
+    shuffle(code, random);
   }
   return code;
 }

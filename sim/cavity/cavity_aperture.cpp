@@ -181,7 +181,7 @@ std::vector<ApertureCell> aperture_cells(const TriangleMesh& walls, double pitch
 
 namespace {
 
-constexpr std::size_t kTile = 32;  // patches that one thread takes at a time
+constexpr std::size_t kWallsPerTask = 32;  // patches that one thread takes at a time
 
 // Cells of the aperture with an unobstructed path to the antenna.
 std::vector<bool> visible_cells(std::span<const ApertureCell> aperture, const Vec3& r_hat, const RayScene& scene,
@@ -234,7 +234,7 @@ WallFields wall_fields(std::span<const ApertureCell> aperture, std::span<const W
   std::ranges::transform(fields.values(), sources.values().begin(), [](Complex x) { return ComplexFloat(x); });
   WallFields result{WallMatrix(2 * walls.size(), fields.columns()), WallMatrix(2 * walls.size(), fields.columns())};
   const auto fill = [&](std::size_t tile) {
-    const std::size_t first = tile * kTile, last = std::min(walls.size(), first + kTile);
+    const std::size_t first = tile * kWallsPerTask, last = std::min(walls.size(), first + kWallsPerTask);
     const RowRange rows{2 * first, 2 * (last - first)};
     // Transposed: one column per patch tangent, with its excitation by every source.
     WallMatrix to_E(sources.rows(), rows.count), to_J(sources.rows(), rows.count);
@@ -272,7 +272,7 @@ WallFields wall_fields(std::span<const ApertureCell> aperture, std::span<const W
     add_transposed_product(1, to_E, sources, all, result.incident_electric, rows);
     add_transposed_product(1, to_J, sources, all, result.mfie_excitation, rows);
   };
-  parallel_for((walls.size() + kTile - 1) / kTile, threads, fill, stop);
+  parallel_for((walls.size() + kWallsPerTask - 1) / kWallsPerTask, threads, fill, stop);
   return result;
 }
 

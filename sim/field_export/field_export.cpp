@@ -6,14 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <vector>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/core/numbers/dbsm.h"
+#include "sim/core/numbers/real_functions.h"
 #include "sim/core/process/error.h"
-#include "sim/field_tables/pandas_table.h"
 
 namespace seaglint {
 namespace {
@@ -238,22 +236,6 @@ std::vector<NamedFile> cst_texts(std::span<const RcsCut> cuts, bool transmitted_
     }
   }
   return texts;
-}
-
-PyaedtPair pyaedt_pair(const RcsCut& cut, const std::string& stem) {
-  require_complete(cut, "an export of PyAEDT");
-  if (!cut.transmitter->is_monostatic) throw InputError("an export of PyAEDT is monostatic: this cut is not");
-  std::vector<PandasRow> rows;
-  for (const FieldValue& value : cut.values) {
-    const Complex component_m = is_cross(cut.element) ? -*value.amplitude_m : *value.amplitude_m;
-    rows.push_back({value.frequency_hz * 1e-9, value.theta_deg, value.phi_deg, component_m * std::sqrt(4 * kPi)});
-  }
-  const nlohmann::ordered_json json = {{"solution", stem},
-                                       {"monostatic_file", stem + ".h5"},
-                                       {"model_units", "meter"},
-                                       {"frequency_units", "GHz"},
-                                       {"model_info", nlohmann::json::object()}};
-  return {json.dump(2) + "\n", pandas_table_bytes(rows)};
 }
 
 }  // namespace seaglint

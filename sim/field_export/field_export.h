@@ -28,15 +28,4 @@ struct NamedFile {
 // it: `STEM (f = 9.5), theta = (85,85,1), phi = (0,30,10), VP.txt`, ranges where it is monostatic.
 std::vector<NamedFile> cst_texts(std::span<const RcsCut> cuts, bool transmitted_v, const std::string& stem);
 
-struct PyaedtPair {
-  std::string json;   // text; names the table STEM.h5
-  std::string table;  // bytes of the HDF5 file, which pandas.read_hdf() opens
-};
-
-// One monostatic element: sqrt(4 pi) S in metres over Freq in GHz, IWavePhi and IWaveTheta in degrees, along
-// theta^ = -v and phi^ = h, exact but for the last bit. `stem` is the name of both files without its ending; the
-// element should stand in it as a word VV, HV, VH or HH (received, transmitted), which no key states. Throws InputError
-// for a bistatic cut and one without phases.
-PyaedtPair pyaedt_pair(const RcsCut& cut, const std::string& stem);
-
 }  // namespace seaglint

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/field_tables/column_tables.h"
+#include "sim/field_tables/field_formats.h"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@
 #include <string_view>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/core/numbers/dbsm.h"
+#include "sim/core/numbers/real_functions.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/printable.h"
 #include "sim/core/text/text_table.h"
@@ -23,11 +23,9 @@ namespace seaglint {
 namespace {
 
 constexpr const char* kKindKey = "transmitter";
-constexpr const char* kMonostatic = "monostatic";
+constexpr const char* kMonostaticWord = "monostatic";
 constexpr const char* kAzimuthKey = "transmitter_azimuth_deg";
 constexpr const char* kElevationKey = "transmitter_elevation_deg";
-
-bool is_key(const std::string& name) { return name == kKindKey || name == kAzimuthKey || name == kElevationKey; }
 
 double angle_deg(const std::map<std::string, std::string>& keys, const char* name) {
   const auto place = keys.find(name);
@@ -37,22 +35,15 @@ double angle_deg(const std::map<std::string, std::string>& keys, const char* nam
   return *value;
 }
 
-}  // namespace
-
-std::string transmitter_line(const std::optional<FixedTransmitter>& transmitter) {
-  if (!transmitter) return fmt::format("# {}={}", kKindKey, kMonostatic);
-  return fmt::format("# {}={:.9g} {}={:.9g}", kAzimuthKey, transmitter->azimuth_deg, kElevationKey,
-                     transmitter->elevation_deg);
-}
-
-std::optional<TransmitterKeys> read_transmitter_line(const std::string& line) {
+// The transmitter that a line of a table states; empty if its first word is no key of the transmitter. Throws
+// InputError naming a key that is missing, unknown or has an invalid value.
+std::optional<DeclaredTransmitter> transmitter_in(std::string_view line) {
   if (!line.starts_with("# ")) return std::nullopt;
   std::map<std::string, std::string> keys;
-  std::string_view rest = std::string_view(line).substr(2);
-  for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest)) {
+  for (const std::string_view word : words_of(line.substr(2))) {
     const std::size_t equals = word.find('=');
     const std::string name(word.substr(0, equals));
-    if (equals == std::string_view::npos || !is_key(name)) {
+    if (equals == std::string_view::npos || (name != kKindKey && name != kAzimuthKey && name != kElevationKey)) {
       if (keys.empty()) return std::nullopt;
       throw InputError(fmt::format("{}: no key of the transmitter", in_quotes(word)));
     }
@@ -61,28 +52,24 @@ std::optional<TransmitterKeys> read_transmitter_line(const std::string& line) {
   }
   if (keys.empty()) return std::nullopt;
   const auto kind = keys.find(kKindKey);
-  if (kind == keys.end())
-    return TransmitterKeys{FixedTransmitter{angle_deg(keys, kAzimuthKey), angle_deg(keys, kElevationKey)}};
-  if (kind->second != kMonostatic || keys.size() > 1)
-    throw InputError(fmt::format("{}: must be {}={} or {}=A {}=B", line.substr(2), kKindKey, kMonostatic, kAzimuthKey,
-                                 kElevationKey));
-  return TransmitterKeys{};
+  if (kind == keys.end()) {
+    const double azimuth_deg = angle_deg(keys, kAzimuthKey);
+    DeclaredTransmitter transmitter{false, 90 - angle_deg(keys, kElevationKey), azimuth_deg};
+    fold_direction(transmitter.theta_deg, transmitter.phi_deg);
+    return transmitter;
+  }
+  if (kind->second != kMonostaticWord || keys.size() > 1)
+    throw InputError(fmt::format("{}: must be {}={} or {}=A {}=B", line.substr(2), kKindKey, kMonostaticWord,
+                                 kAzimuthKey, kElevationKey));
+  return DeclaredTransmitter{};
 }
-
-namespace {
 
 // Transmitter that a comment of the table states; empty if none does.
 std::optional<DeclaredTransmitter> stated_transmitter(const TextSource& source) {
   for (std::string_view rest = source.text(); !rest.empty();) {
     const std::string_view line = next_line(rest);
-    if (!line.starts_with('#')) continue;
     try {
-      const std::optional<TransmitterKeys> keys = read_transmitter_line(std::string(line));
-      if (!keys) continue;
-      if (!keys->fixed) return DeclaredTransmitter{};
-      DeclaredTransmitter transmitter{false, 90 - keys->fixed->elevation_deg, keys->fixed->azimuth_deg};
-      fold_direction(transmitter.theta_deg, transmitter.phi_deg);
-      return transmitter;
+      if (const auto transmitter = transmitter_in(line)) return transmitter;
     } catch (const InputError& error) {
       source.fail(line, error.what());
     }
@@ -119,6 +106,12 @@ struct ElementColumns {
 
 }  // namespace
 
+std::string transmitter_line(const std::optional<FixedTransmitter>& transmitter) {
+  if (!transmitter) return fmt::format("# {}={}", kKindKey, kMonostaticWord);
+  return fmt::format("# {}={:.9g} {}={:.9g}", kAzimuthKey, transmitter->azimuth_deg, kElevationKey,
+                     transmitter->elevation_deg);
+}
+
 bool is_own_table(const TextSource& source) {
   const bool has_head = source.text().starts_with("# seaglint ");
   return any_first_row(source, [&](const FirstRow& row) {
@@ -153,10 +146,7 @@ void read_own_table(const TextSource& source, const FieldTableSettings& settings
       const char* name = kPolarisationNames[static_cast<int>(element)];
       throw InputError(fmt::format("{0}: neither columns {1}_re and {1}_im nor {1}_dbsm", source.name(), name));
     }
-    RcsCut cut;
-    cut.element = element;
-    cut.transmitter = transmitter;
-    cut.values.reserve(rows.rows());
+    RcsCut& cut = cut_for(table, quantity_of(element, false), transmitter);
     for (std::size_t row = 0; row < rows.rows(); ++row) {
       FieldValue value{rows.positive(row, 0), 90 - rows.number(row, 2), rows.number(row, 1), 0, {}, rows.line(row)};
       fold_direction(value.theta_deg, value.phi_deg);
@@ -165,7 +155,6 @@ void read_own_table(const TextSource& source, const FieldTableSettings& settings
                                  : std::max(rows.level(row, columns.level), kMinLevel_dbsm);
       cut.values.push_back(value);
     }
-    table.cuts.push_back(std::move(cut));
   }
 }
 
@@ -348,11 +337,7 @@ class NamedTable {
   double frequency_hz(std::size_t row) const {
     if (!rows_.has(kFrequencyColumn)) return *settings_.frequency_hz;
     const std::string& key = rows_.key(kFrequencyColumn);
-    const double unit_hz = key.ends_with("_thz")   ? 1e12
-                           : key.ends_with("_ghz") ? 1e9
-                           : key.ends_with("_mhz") ? 1e6
-                           : key.ends_with("_khz") ? 1e3
-                                                   : 1;
+    const double unit_hz = frequency_unit_hz(std::string_view(key).substr(key.rfind('_') + 1)).value_or(1);
     return rows_.positive(row, kFrequencyColumn) * unit_hz;
   }
   double theta_deg(std::size_t row) const {
@@ -428,14 +413,11 @@ bool is_named_table(const TextSource& source) {
 
 void read_four_columns(const TextSource& source, const FieldTableSettings& settings, FieldTable& table) {
   const TextTable rows = TextTable::without_names(source, {"frequency_hz", "theta_deg", "phi_deg", "dbsm"});
-  RcsCut cut;
-  cut.element = only_element(source.name(), settings);
-  cut.transmitter = settings.transmitter;
+  RcsCut& cut = cut_for(table, quantity_of(only_element(source.name(), settings), false), settings.transmitter);
   for (std::size_t row = 0; row < rows.rows(); ++row) {
     cut.values.push_back(level_value(rows.positive(row, 0), rows.number(row, 1), rows.number(row, 2),
                                      std::max(rows.level(row, 3), kMinLevel_dbsm), rows.line(row)));
   }
-  table.cuts.push_back(std::move(cut));
 }
 
 void read_named_table(const TextSource& source, const FieldTableSettings& settings, FieldTable& table) {

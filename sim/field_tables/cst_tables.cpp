@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/field_tables/cst_tables.h"
+#include "sim/field_tables/field_formats.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include <string>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/core/numbers/dbsm.h"
+#include "sim/core/numbers/real_functions.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/printable.h"
 #include "sim/core/text/text_table.h"
@@ -147,17 +147,7 @@ std::optional<CstComponent> total_of(const CstTable& table) {
 
 }  // namespace
 
-bool is_cst_table(const TextSource& source) {
-  constexpr int kMaxLines = 20;
-  std::string_view rest = source.text();
-  for (int n = 0; n < kMaxLines && !rest.empty();) {
-    const std::string_view line = next_line(rest);
-    if (trimmed(line).empty() || is_comment(line)) continue;
-    ++n;
-    if (is_cst_header(line)) return true;
-  }
-  return false;
-}
+bool is_cst_table(const TextSource& source) { return any_first_line(source, is_cst_header); }
 
 void read_cst_table(const TextSource& source, const FieldTableSettings& settings, FieldTable& table) {
   table.notes.emplace_back("e^{+jwt}; theta^ = -v, phi^ = h");
@@ -183,9 +173,7 @@ void read_cst_table(const TextSource& source, const FieldTableSettings& settings
   }
   for (const Polarisation element : settings.elements) {
     const ReceivedField field(source, cst, receives_v(element));
-    RcsCut cut;
-    cut.element = element;
-    cut.transmitter = settings.transmitter;
+    RcsCut& cut = cut_for(table, quantity_of(element, false), settings.transmitter);
     for (std::size_t row = 0; row < rows.rows(); ++row) {
       const double theta_deg = rows.number(row, theta), phi_deg = rows.number(row, phi);
       if (field.has_phase()) {
@@ -197,7 +185,6 @@ void read_cst_table(const TextSource& source, const FieldTableSettings& settings
       }
       cut.values.push_back(level_value(frequency_hz, theta_deg, phi_deg, field.level_dbsm(rows, row), rows.line(row)));
     }
-    table.cuts.push_back(std::move(cut));
   }
 }
 

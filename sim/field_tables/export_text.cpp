@@ -160,22 +160,12 @@ namespace {
 
 bool is_word_character(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; }
 
-char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
-
-bool equals_ignoring_case(std::string_view text, std::string_view word) {
-  if (text.size() != word.size()) return false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (lower(text[i]) != lower(word[i])) return false;
-  }
-  return true;
-}
-
-// Place of a word that stands by itself; npos if it does not.
+// Place of a word that stands by itself, in any case; npos if it does not.
 std::size_t find_word(std::string_view text, std::string_view word) {
-  for (std::size_t at = 0; at + word.size() <= text.size(); ++at) {
-    const bool begins = at == 0 || !is_word_character(text[at - 1]);
-    const bool ends = at + word.size() == text.size() || !is_word_character(text[at + word.size()]);
-    if (begins && ends && equals_ignoring_case(text.substr(at, word.size()), word)) return at;
+  const std::string in = lower_case(text), wanted = lower_case(word);
+  for (std::size_t at = in.find(wanted); at != std::string::npos; at = in.find(wanted, at + 1)) {
+    const std::size_t end = at + wanted.size();
+    if ((at == 0 || !is_word_character(in[at - 1])) && (end == in.size() || !is_word_character(in[end]))) return at;
   }
   return std::string_view::npos;
 }
@@ -196,16 +186,22 @@ std::optional<double> leading_number(std::string_view text) {
 
 bool has_word(std::string_view name, std::string_view word) { return find_word(name, word) != std::string_view::npos; }
 
+std::optional<double> frequency_unit_hz(std::string_view unit) {
+  constexpr std::pair<std::string_view, double> kUnits[] = {
+      {"ghz", 1e9}, {"mhz", 1e6}, {"khz", 1e3}, {"thz", 1e12}, {"hz", 1}};
+  for (const auto& [name, hz] : kUnits) {
+    if (lower_case(unit) == name) return hz;
+  }
+  return std::nullopt;
+}
+
 std::optional<double> frequency_in_name(std::string_view text) {
   const std::size_t digits = std::min(text.find_first_not_of("+-.0123456789eE"), text.size());
   const std::optional<double> value = parse_number(text.substr(0, digits));
   if (!value || *value <= 0) return std::nullopt;
   const std::string_view unit = trimmed(text.substr(digits));
-  for (const auto& [name, hz] :
-       {std::pair<std::string_view, double>{"ghz", 1e9}, {"mhz", 1e6}, {"khz", 1e3}, {"thz", 1e12}, {"hz", 1}}) {
-    if (equals_ignoring_case(unit.substr(0, name.size()), name)) return *value * hz;
-  }
-  return *value * 1e9;
+  const std::optional<double> of_two = frequency_unit_hz(unit.substr(0, 2));
+  return *value * (of_two ? *of_two : frequency_unit_hz(unit.substr(0, 3)).value_or(1e9));
 }
 
 NameFacts facts_of_name(const std::string& name) {

@@ -52,6 +52,18 @@ class LineReader {
   int number_ = 0;
 };
 
+// Whether one of the first 20 lines that are neither empty nor comments is such a line.
+template <class Is>
+bool any_first_line(const TextSource& source, Is is) {
+  LineReader lines(source);
+  for (int n = 0; n < 20 && lines.advance();) {
+    if (is_comment(lines.line())) continue;
+    ++n;
+    if (is(lines.line())) return true;
+  }
+  return false;
+}
+
 // A row at the beginning of a text, cut at one separator.
 struct FirstRow {
   std::vector<std::string_view> cells;
@@ -114,6 +126,8 @@ std::optional<std::string_view> value_in_name(std::string_view name, std::string
 std::optional<double> leading_number(std::string_view text);
 // Whether the word stands in a name by itself, in any case.
 bool has_word(std::string_view name, std::string_view word);
+// Hz in Hz, kHz, MHz, GHz, THz in any case; nullopt for another unit.
+std::optional<double> frequency_unit_hz(std::string_view unit);
 // Hz of `9.5 GHz`, without a unit in GHz; nullopt unless it is a number above 0.
 std::optional<double> frequency_in_name(std::string_view text);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/field_tables/far_fields.h"
+#include "sim/field_tables/field_formats.h"
 
 #include <fmt/format.h>
 
@@ -216,10 +216,8 @@ void read_cst_source(const TextSource& source, const FieldTableSettings& setting
   table.notes.push_back(fmt::format("e^{{+jwt}}; theta^ = -v, phi^ = h; phase origin of the file at {:g}, {:g}, {:g} m",
                                     position[0], position[1], position[2]));
   for (const Polarisation element : settings.elements) {
-    RcsCut& cut = table.cuts.emplace_back();
-    cut.element = element;
-    cut.transmitter = settings.transmitter;
-    cut.origin_m = Vec3(position[0], position[1], position[2]);
+    cut_for(table, quantity_of(element, false), settings.transmitter).origin_m =
+        Vec3(position[0], position[1], position[2]);
   }
   for (const double f : frequency_hz) {
     lines.seek("// >> Total #phi");

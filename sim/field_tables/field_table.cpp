@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/core/numbers/dbsm.h"
+#include "sim/core/numbers/real_functions.h"
 #include "sim/core/process/error.h"
 
 namespace seaglint {

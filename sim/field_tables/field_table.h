@@ -63,6 +63,16 @@ struct DeclaredTransmitter {
   }
 };
 
+// Direction of a transmitter that does not move with the receiver, in the angles of `seaglint rcs`.
+struct FixedTransmitter {
+  double azimuth_deg = 0, elevation_deg = 0;
+  bool operator==(const FixedTransmitter&) const = default;
+};
+
+// The head line of a fixed transmitter in a table of `seaglint rcs`, `# transmitter_azimuth_deg=20
+// transmitter_elevation_deg=3`; without one that of the monostatic case, `# transmitter=monostatic`. No line break.
+std::string transmitter_line(const std::optional<FixedTransmitter>& transmitter);
+
 // Properties that a file does not state itself, and the relation of its angles to those of the body.
 struct FieldTableSettings {
   std::vector<Polarisation> elements;              // wanted ones; empty: all that the file or its name states
@@ -103,6 +113,15 @@ struct FieldTable {
   std::vector<RcsCut> cuts;            // by quantity and transmitter; not empty, none without values
   std::vector<GeometryFile> geometry;  // that the file names and that exist; empty: none
 };
+
+// Reads a file whose format is recognised by its content (README.md). What neither the file nor its name states comes
+// from the settings; a setting that contradicts the file is an error. Throws InputError naming the file, the line, what
+// is missing and the format that was recognised, or why each format was not.
+FieldTable read_field_table(const std::filesystem::path& file, const FieldTableSettings& settings);
+
+// Whether read_field_table() recognises a file: HDF5 not, which the JSON of its pair reads, nor results of `seaglint
+// compare`. False too where it cannot be read.
+bool is_field_table(const std::filesystem::path& file);
 
 // The cut of this quantity and transmitter, made where it is missing. It stays in place until another one is made.
 RcsCut& cut_for(FieldTable& table, std::size_t quantity, const std::optional<DeclaredTransmitter>& transmitter);

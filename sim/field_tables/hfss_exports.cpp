@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/field_tables/hfss_exports.h"
+#include "sim/field_tables/field_formats.h"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/core/numbers/dbsm.h"
+#include "sim/core/numbers/real_functions.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/core/process/printable.h"
@@ -379,10 +379,7 @@ struct Description {
 };
 
 double hz_of_unit(const fs::path& json, const nlohmann::json& unit) {
-  for (const auto& [name, hz] :
-       {std::pair<const char*, double>{"GHz", 1e9}, {"MHz", 1e6}, {"kHz", 1e3}, {"Hz", 1}, {"THz", 1e12}}) {
-    if (unit == name) return hz;
-  }
+  if (const auto hz = unit.is_string() ? frequency_unit_hz(unit.get<std::string>()) : std::nullopt) return *hz;
   throw InputError(
       fmt::format("{}: frequency_units {}: must be GHz, MHz, kHz, Hz or THz", json.string(), shown(unit.dump())));
 }
@@ -526,9 +523,7 @@ void read_pyaedt_file(const fs::path& file, const FieldTableSettings& settings, 
     throw InputError(fmt::format("{}: {} {}: no such HDF5 file beside it", json.string(), kFileKey,
                                  in_quotes(description.data_file)));
   table.notes.emplace_back("e^{+jwt}; theta^ = -v, phi^ = h; monostatic");
-  RcsCut cut;
-  cut.element = element_of_pair(json, data, settings, table);
-  cut.transmitter.emplace();
+  RcsCut& cut = cut_for(table, quantity_of(element_of_pair(json, data, settings, table), false), DeclaredTransmitter{});
   const double to_hz = hz_of_unit(json, description.unit);
   for (const PandasRow& row : read_pandas_table(data)) {
     if (row.frequency <= 0)
@@ -536,7 +531,6 @@ void read_pyaedt_file(const fs::path& file, const FieldTableSettings& settings, 
     cut.values.push_back(
         field_value(cut.element, row.frequency * to_hz, row.theta_deg, row.phi_deg, row.value / std::sqrt(4 * kPi), 0));
   }
-  table.cuts.push_back(std::move(cut));
   add_geometry(json, description.model, table);
 }
 

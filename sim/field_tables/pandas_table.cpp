@@ -201,14 +201,6 @@ Handle file_access() {
   return access;
 }
 
-// Complex numbers as PyTables has them; `real` is the type of both parts.
-Handle complex_type(hid_t real) {
-  const std::size_t bytes = H5Tget_size(real);
-  Handle type(H5Tcreate(H5T_COMPOUND, 2 * bytes), H5Tclose, "HDF5: no complex type");
-  require(H5Tinsert(type, "r", 0, real) >= 0 && H5Tinsert(type, "i", bytes, real) >= 0, "HDF5: no complex type");
-  return type;
-}
-
 // Place and kind of a number in the bytes of a row.
 struct NumberPlace {
   std::size_t offset = 0, bytes = 0;
@@ -360,133 +352,6 @@ class ReadTable {
   std::size_t count_ = 0;
 };
 
-// A file in memory that is written.
-class WrittenTable {
- public:
-  WrittenTable() : file_(create()) {}
-
-  void attribute(hid_t object, const char* name, std::string_view text) const {
-    const Handle type(H5Tcopy(H5T_C_S1), H5Tclose, kWhat);
-    require(H5Tset_size(type, text.size()) >= 0, kWhat);
-    put(object, name, type, text.data());
-  }
-  void attribute(hid_t object, const char* name, std::int64_t value) const { put(object, name, H5T_STD_I64LE, &value); }
-
-  Handle group(const char* path) const {
-    const Handle properties(H5Pcreate(H5P_GROUP_CREATE), H5Pclose, kWhat);
-    require(H5Pset_obj_track_times(properties, false) >= 0, kWhat);
-    return Handle(H5Gcreate2(file_, path, H5P_DEFAULT, properties, H5P_DEFAULT), H5Gclose, kWhat);
-  }
-
-  Handle table(const std::vector<PandasRow>& rows) const {
-    struct FileRow {
-      std::int64_t index;
-      Complex value;
-      std::array<double, kIndex.size()> columns;
-    };
-    const Handle type(H5Tcreate(H5T_COMPOUND, sizeof(FileRow)), H5Tclose, kWhat);
-    const Handle value = complex_type(H5T_IEEE_F64LE);
-    const hsize_t one = 1, count = rows.size(), most = H5S_UNLIMITED;
-    const Handle array(H5Tarray_create2(value, 1, &one), H5Tclose, kWhat);
-    require(H5Tinsert(type, "index", offsetof(FileRow, index), H5T_STD_I64LE) >= 0 &&
-                H5Tinsert(type, kValues, offsetof(FileRow, value), array) >= 0,
-            kWhat);
-    for (std::size_t k = 0; k < kIndex.size(); ++k) {
-      require(H5Tinsert(type, kIndex[k], offsetof(FileRow, columns) + k * sizeof(double), H5T_IEEE_F64LE) >= 0, kWhat);
-    }
-    std::vector<FileRow> written;
-    for (const PandasRow& row : rows) {
-      written.push_back(
-          {static_cast<std::int64_t>(written.size()), row.value, {row.theta_deg, row.phi_deg, row.frequency}});
-    }
-    constexpr hsize_t kChunk = 1365;  // rows of 48 bytes below 64 KiB, as PyTables has it
-    const hsize_t chunk = std::clamp<hsize_t>(count, 1, kChunk);
-    const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, kWhat);
-    require(H5Pset_obj_track_times(properties, false) >= 0 && H5Pset_chunk(properties, 1, &chunk) >= 0, kWhat);
-    const Handle space(H5Screate_simple(1, &count, &most), H5Sclose, kWhat);
-    Handle set(H5Dcreate2(file_, kPath, type, space, H5P_DEFAULT, properties, H5P_DEFAULT), H5Dclose, kWhat);
-    require(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, static_cast<const void*>(written.data())) >= 0, kWhat);
-    return set;
-  }
-
-  hid_t file() const { return file_; }
-
-  std::string bytes() const {
-    require(H5Fflush(file_, H5F_SCOPE_GLOBAL) >= 0, kWhat);
-    const ssize_t size = H5Fget_file_image(file_, nullptr, 0);
-    require(size > 0, kWhat);
-    std::string image(static_cast<std::size_t>(size), '\0');
-    require(H5Fget_file_image(file_, image.data(), image.size()) == size, kWhat);
-    return image;
-  }
-
- private:
-  static constexpr const char* kWhat = "HDF5: no file in memory";
-
-  static Handle create() {
-    const Handle access = file_access();
-    constexpr std::size_t kStep = std::size_t{1} << 20;
-    require(H5Pset_fapl_core(access, kStep, false) >= 0, kWhat);
-    const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, kWhat);
-    require(H5Pset_obj_track_times(creation, false) >= 0, kWhat);
-    return Handle(H5Fcreate("table in memory", H5F_ACC_TRUNC, creation, access), H5Fclose, kWhat);
-  }
-  static void put(hid_t object, const char* name, hid_t type, const void* value) {
-    const Handle space(H5Screate(H5S_SCALAR), H5Sclose, kWhat);
-    const Handle made(H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, kWhat);
-    require(H5Awrite(made, type, value) >= 0, kWhat);
-  }
-
-  Handle file_;
-};
-
-struct NamedText {
-  const char* name;
-  const char* text;
-};
-
-// What pandas 1.5 and PyTables 3.7 write beside the rows; lists and dictionaries are pickled, protocol 0.
-constexpr std::array<NamedText, 3> kRootTexts{
-    {{"CLASS", "GROUP"}, {"PYTABLES_FORMAT_VERSION", "2.1"}, {"VERSION", "1.0"}}};
-constexpr std::array<NamedText, 14> kGroupTexts{{
-    {"CLASS", "GROUP"},
-    {"VERSION", "1.0"},
-    {"data_columns", "(lp0\nVIWaveTheta\np1\naVIWavePhi\np2\naVFreq\np3\na."},
-    {"encoding", "UTF-8"},
-    {"errors", "strict"},
-    {"index_cols", "(lp0\n(I0\nVindex\np1\ntp2\na."},
-    {"info", "(dp0\nI1\n(dp1\nVnames\np2\n(lp3\nNasVtype\np4\nVIndex\np5\nssVindex\np6\n(dp7\ns."},
-    {"levels", "(lp0\nVFreq\np1\naVIWavePhi\np2\naVIWaveTheta\np3\na."},
-    {"nan_rep", "nan"},
-    {"non_index_axes", "(lp0\n(I1\n(lp1\nVFreq\np2\naVIWavePhi\np3\naVIWaveTheta\np4\naVdata\np5\natp6\na."},
-    {"pandas_type", "frame_table"},
-    {"pandas_version", "0.15.2"},
-    {"table_type", "appendable_multiframe"},
-    {"values_cols", "(lp0\nVvalues_block_0\np1\naVIWaveTheta\np2\naVIWavePhi\np3\naVFreq\np4\na."},
-}};
-constexpr std::array<NamedText, 20> kTableTexts{{
-    {"CLASS", "TABLE"},
-    {"VERSION", "2.7"},
-    {"FIELD_0_NAME", "index"},
-    {"FIELD_1_NAME", kValues},
-    {"FIELD_2_NAME", "IWaveTheta"},
-    {"FIELD_3_NAME", "IWavePhi"},
-    {"FIELD_4_NAME", "Freq"},
-    {"index_kind", "integer"},
-    {"values_block_0_dtype", "complex128"},
-    {"values_block_0_kind", "(lp0\nVdata\np1\na."},
-    {"values_block_0_meta", "N."},
-    {"IWaveTheta_dtype", "float64"},
-    {"IWaveTheta_kind", "(lp0\nVIWaveTheta\np1\na."},
-    {"IWaveTheta_meta", "N."},
-    {"IWavePhi_dtype", "float64"},
-    {"IWavePhi_kind", "(lp0\nVIWavePhi\np1\na."},
-    {"IWavePhi_meta", "N."},
-    {"Freq_dtype", "float64"},
-    {"Freq_kind", "(lp0\nVFreq\np1\na."},
-    {"Freq_meta", "N."},
-}};
-
 }  // namespace
 
 bool is_hdf5_file(const std::filesystem::path& file) {
@@ -506,21 +371,6 @@ std::vector<PandasRow> read_pandas_table(const std::filesystem::path& file) {
       require(std::isfinite(x), fmt::format("{}: row {} of {}: must be finite numbers", file.string(), n, kPath));
   }
   return rows;
-}
-
-std::string pandas_table_bytes(const std::vector<PandasRow>& rows) try {
-  const WrittenTable written;
-  for (const NamedText& text : kRootTexts) written.attribute(written.file(), text.name, text.text);
-  {
-    const Handle group = written.group("/df");
-    for (const NamedText& text : kGroupTexts) written.attribute(group, text.name, text.text);
-    const Handle table = written.table(rows);
-    for (const NamedText& text : kTableTexts) written.attribute(table, text.name, text.text);
-    written.attribute(table, "NROWS", static_cast<std::int64_t>(rows.size()));
-  }
-  return written.bytes();
-} catch (const InputError& error) {
-  throw WorkError(error.what());
 }
 
 }  // namespace seaglint

@@ -26,10 +26,6 @@ bool is_hdf5_file(const std::filesystem::path& file);
 // naming the file and what is missing or wrong.
 std::vector<PandasRow> read_pandas_table(const std::filesystem::path& file);
 
-// The bytes of such a file, which pandas.read_hdf() opens; they depend on the rows alone. Throws WorkError when
-// memory is exhausted.
-std::string pandas_table_bytes(const std::vector<PandasRow>& rows);
-
 // Whether the free list of every local heap in the file, where names of groups' members lie, ends within its heap and
 // the heap within the file: HDF5 1.10 follows the list without end if it is a circle (section III.D).
 bool has_sound_heaps(const std::filesystem::path& file);

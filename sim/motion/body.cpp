@@ -26,8 +26,6 @@ constexpr double kWaterlineToOverallLength = 0.985;
 constexpr double kWaterlineToOverallBeam = 0.95;
 constexpr double kBeamToDraught = 3.1;
 
-double given_or(double value, double derived) { return value > 0 ? value : derived; }
-
 bool is_wamit(const std::filesystem::path& file) { return file.extension() == ".4"; }
 
 // Reads a table of responses: speed and reference point come from the file (VERES) or from the spec (WAMIT).

@@ -10,7 +10,7 @@
 #include "sim/geometry/mesh/triangle_mesh.h"
 #include "sim/motion/float/float.h"
 #include "sim/motion/recorded/attitude_series.h"
-#include "sim/motion/ship/rao_table.h"
+#include "sim/motion/ship/responses.h"
 #include "sim/motion/ship/ship.h"
 #include "sim/motion/strip_theory/hull_sections.h"
 #include "sim/scenario/target_spec.h"

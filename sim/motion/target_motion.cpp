@@ -70,18 +70,18 @@ std::uint64_t body_index(std::uint64_t sea_index, std::size_t body) {
   return sea_index * kMaxBodies + body;
 }
 
-std::vector<Trajectory> simulate_target(const TargetSpec& target, std::span<const Body* const> models,
-                                        const SeaState& state, const WaveField& sea, double duration_s,
-                                        std::uint64_t seed, std::uint64_t sea_index, std::size_t first_body,
-                                        int threads) {
-  SEAGLINT_CHECK(models.size() == 1 || models.size() == body_count(target.layout),
-                 fmt::format("{} motion models of {} bodies", models.size(), body_count(target.layout)));
+std::vector<Trajectory> simulate_target(const TargetMotionRequest& request) {
+  const TargetSpec& target = request.target;
+  const std::size_t models = request.models.size();
+  SEAGLINT_CHECK(models == 1 || models == body_count(target.layout),
+                 fmt::format("{} motion models of {} bodies", models, body_count(target.layout)));
   const auto moved = [&](const Vec3& rest, std::size_t i) {
-    const Body& body = *models[models.size() == 1 ? 0 : i];
-    const std::uint64_t index = body_index(sea_index, first_body + i);
+    const Body& body = *request.models[models == 1 ? 0 : i];
+    const std::uint64_t index = body_index(request.sea_index, request.first_body + i);
     if (target.motion.waves == WaveSharing::kSameField)
-      return simulate_motion(body, rest, sea, duration_s, seed, index);
-    return simulate_motion(body, rest, realise_sea(state, seed, kIndependentSeas + index), duration_s, seed, index);
+      return simulate_motion(body, rest, request.sea, request.duration_s, request.seed, index);
+    const WaveField own_sea = realise_sea(request.state, request.seed, kIndependentSeas + index);
+    return simulate_motion(body, rest, own_sea, request.duration_s, request.seed, index);
   };
   const std::vector<Vec3> rests = rest_positions(target);
   const std::vector<double> heights_m = body_heights_m(target.layout), headings = body_headings_rad(target.layout);
@@ -93,7 +93,7 @@ std::vector<Trajectory> simulate_target(const TargetSpec& target, std::span<cons
       trajectories[i] = raft.of_point(rests[i] - origin).turned(headings[i]);
     return trajectories;
   }
-  parallel_for(rests.size(), thread_count(threads), [&](std::size_t i) {
+  parallel_for(rests.size(), thread_count(request.threads), [&](std::size_t i) {
     const Vec3 above(0, 0, heights_m[i]);
     trajectories[i] = moved(rests[i] - above, i).of_point(above).turned(headings[i]);
   });

@@ -43,15 +43,22 @@ std::vector<Vec3> rest_positions(const TargetSpec& target);
 // (below 65536).
 std::uint64_t body_index(std::uint64_t sea_index, std::size_t body);
 
-// One trajectory per body of the layout, from t = 0 to duration_s. `models`: the motion model of each body, or one for
-// all; a rigid raft (layout.bodies: rigid) has the first: it moves in the waves at its origin, and each reflector with
-// it. A free body with a height of its own is that far above its float, fixed to it. Bodies are turned by their
-// headings. `sea` is realise_sea(state, seed, sea_index), common to all bodies unless the spec has `waves:
-// independent`: then each body has a realisation of its own (index body_index + 2^48). The result does not depend on
-// `threads` (0 = all). first_body: number of bodies of the targets before this one.
-std::vector<Trajectory> simulate_target(const TargetSpec& target, std::span<const Body* const> models,
-                                        const SeaState& state, const WaveField& sea, double duration_s,
-                                        std::uint64_t seed, std::uint64_t sea_index, std::size_t first_body = 0,
-                                        int threads = 1);
+// What moves the bodies of a target.
+struct TargetMotionRequest {
+  const TargetSpec& target;
+  std::span<const Body* const> models;  // the motion model of each body, or one for all
+  const SeaState& state;
+  const WaveField& sea;  // realise_sea(state, seed, sea_index)
+  double duration_s = 0;
+  std::uint64_t seed = 1, sea_index = 0;
+  std::size_t first_body = 0;  // number of bodies of the targets before this one
+  int threads = 1;             // 0 = all; without influence on the result
+};
+
+// One trajectory per body of the layout, from t = 0 to duration_s. A rigid raft (layout.bodies: rigid) has the first
+// model: it moves in the waves at its origin, and each reflector with it. A free body with a height of its own is that
+// far above its float, fixed to it. Bodies are turned by their headings. The sea is common to all bodies unless the
+// spec has `waves: independent`: then each body has a realisation of its own (index body_index + 2^48).
+std::vector<Trajectory> simulate_target(const TargetMotionRequest& request);
 
 }  // namespace seaglint

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/scenario/contradictions.h"
+// Consistency of a scenario whose fields are individually valid.
 
 #include <fmt/format.h>
 
@@ -13,8 +13,7 @@
 #include "sim/core/numbers/dispersion.h"
 #include "sim/core/process/error.h"
 #include "sim/scenario/cases.h"
-#include "sim/scenario/files/error_list.h"
-#include "sim/scenario/files/override.h"
+#include "sim/scenario/fields.h"
 #include "sim/scenario/layout/layout.h"
 
 namespace seaglint {

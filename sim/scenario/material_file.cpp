@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/scenario/material_file.h"
+#include "sim/scenario/material_spec.h"
 
 #include <fmt/format.h>
 
@@ -10,9 +10,6 @@
 #include "sim/core/process/file.h"
 #include "sim/core/text/names.h"
 #include "sim/scenario/fields.h"
-#include "sim/scenario/files/error_list.h"
-#include "sim/scenario/files/scenario_document.h"
-#include "sim/scenario/reader.h"
 
 namespace seaglint {
 
@@ -24,76 +21,62 @@ constexpr std::size_t kMaxTerms = 64, kMaxRows = 10000, kMaxLayers = 100;
 
 void visit(DebyeSpec& spec, FieldVisitor& v) {
   v.require("strength");
-  v.number("strength", spec.strength, within(0, 1e5));
+  v.number("strength", spec.strength, within(0, 1e5), "");
   v.require("relaxation_ghz");
-  v.number("relaxation_ghz", spec.relaxation_ghz, within(1e-6, 1e6));
+  v.number("relaxation_ghz", spec.relaxation_ghz, within(1e-6, 1e6), "");
 }
 
 void visit(MeasuredSpec& spec, FieldVisitor& v) {
   v.require("frequency_ghz");
-  v.number("frequency_ghz", spec.frequency_ghz, within(1e-3, 1000));
+  v.number("frequency_ghz", spec.frequency_ghz, within(1e-3, 1000), "");
   v.require("real");
-  v.number("real", spec.real, above_up_to(0, 1e5));
-  v.number("loss", spec.loss, within(0, 1e5));
-}
-
-void visit(LayerSpec& spec, FieldVisitor& v);
-
-template <typename Item>
-void visit_list(FieldVisitor& v, const char* key, std::vector<Item>& items, std::size_t max_size) {
-  if (!v.optional(key, !items.empty())) return;
-  v.list(
-      key, items.size(), max_size, [&](std::size_t size) { items.resize(size); },
-      [&](std::size_t i, FieldVisitor& item) { visit(items[i], item); });
+  v.number("real", spec.real, above_up_to(0, 1e5), "");
+  v.number("loss", spec.loss, within(0, 1e5), "");
 }
 
 void visit(DispersionSpec& spec, FieldVisitor& v) {
-  v.number("real", spec.real, above_up_to(0, 1e5));
-  v.number("loss", spec.loss, within(0, 1e5));
-  v.number("conductivity_s_m", spec.conductivity_s_m, within(0, 1e9));
-  visit_list(v, "debye", spec.debye, kMaxTerms);
-  visit_list(v, "table", spec.table, kMaxRows);
+  v.number("real", spec.real, above_up_to(0, 1e5), "");
+  v.number("loss", spec.loss, within(0, 1e5), "");
+  v.number("conductivity_s_m", spec.conductivity_s_m, within(0, 1e9), "");
+  v.list("debye", spec.debye, kMaxTerms, visit, "");
+  v.list("table", spec.table, kMaxRows, visit, "");
 }
 
 void visit(LayerSpec& spec, FieldVisitor& v) {
   v.require("thickness_mm");
-  v.number("thickness_mm", spec.thickness_mm, above_up_to(0, 1000));
-  v.section("permittivity", [&](FieldVisitor& section) { visit(spec.permittivity, section); });
-  v.section("permeability", [&](FieldVisitor& section) { visit(spec.permeability, section); });
+  v.number("thickness_mm", spec.thickness_mm, above_up_to(0, 1000), "");
+  v.section("permittivity", spec.permittivity, visit, "");
+  v.section("permeability", spec.permeability, visit, "");
 }
 
 void visit(MaterialSpec& spec, FieldVisitor& v) {
   v.require("material");
-  v.text("material", spec.name);
+  v.text("material", spec.name, "");
   v.require("source");
-  v.text("source", spec.source);
+  v.text("source", spec.source, "");
   v.require("kind");
-  auto kind = static_cast<std::size_t>(spec.kind);
-  v.choice("kind", kind, std::array{"pec", "conductor", "impedance", "layers", "sea_water"});
-  spec.kind = static_cast<SurfaceKind>(kind);
-  v.number("lowest_ghz", spec.lowest_ghz, within(0.001, 1000));
-  v.number("highest_ghz", spec.highest_ghz, within(0.001, 1000));
-  v.number("roughness_mm", spec.roughness_mm, within(0, 100));
+  v.choice("kind", spec.kind, {"pec", "conductor", "impedance", "layers", "sea_water"}, "");
+  v.number("lowest_ghz", spec.lowest_ghz, within(0.001, 1000), "");
+  v.number("highest_ghz", spec.highest_ghz, within(0.001, 1000), "");
+  v.number("roughness_mm", spec.roughness_mm, within(0, 100), "");
   if (v.optional("conductivity_s_m", spec.kind == SurfaceKind::kConductor)) {
-    v.number("conductivity_s_m", spec.conductivity_s_m, within(1, 1e9));
+    v.number("conductivity_s_m", spec.conductivity_s_m, within(1, 1e9), "");
   }
   if (v.optional("resistance", spec.kind == SurfaceKind::kImpedance)) {
-    v.number("resistance", spec.resistance, within(0, 1e6));
+    v.number("resistance", spec.resistance, within(0, 1e6), "");
   }
   if (v.optional("reactance", spec.kind == SurfaceKind::kImpedance)) {
-    v.number("reactance", spec.reactance, within(-1e6, 1e6));
+    v.number("reactance", spec.reactance, within(-1e6, 1e6), "");
   }
   if (v.optional("backing", spec.kind == SurfaceKind::kLayers)) {
-    auto backing = static_cast<std::size_t>(spec.backing);
-    v.choice("backing", backing, std::array{"pec", "air"});
-    spec.backing = static_cast<Backing>(backing);
+    v.choice("backing", spec.backing, {"pec", "air"}, "");
   }
-  visit_list(v, "layers", spec.layers, kMaxLayers);
+  v.list("layers", spec.layers, kMaxLayers, visit, "");
   if (v.optional("temperature_c", spec.kind == SurfaceKind::kSeaWater)) {
-    v.number("temperature_c", spec.temperature_c, within(-2, 29));
+    v.number("temperature_c", spec.temperature_c, within(-2, 29), "");
   }
   if (v.optional("salinity_psu", spec.kind == SurfaceKind::kSeaWater)) {
-    v.number("salinity_psu", spec.salinity_psu, within(0, 40));
+    v.number("salinity_psu", spec.salinity_psu, within(0, 40), "");
   }
 }
 

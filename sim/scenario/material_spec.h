@@ -4,6 +4,8 @@
 // Surface material, as in a file of assets/materials. Time factor e^{+jwt}: permittivity and permeability are real - j
 // loss; a passive medium has loss >= 0.
 
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,12 +15,16 @@ namespace seaglint {
 struct DebyeSpec {
   double strength = 0;         // 0 <= x <= 1e5
   double relaxation_ghz = 10;  // 1e-6 <= x <= 1e6
+
+  bool operator==(const DebyeSpec&) const = default;
 };
 
 struct MeasuredSpec {
   double frequency_ghz = 10;  // 1e-3 <= x <= 1000, ascending
   double real = 1;            // 0 < x <= 1e5
   double loss = 0;            // 0 <= x <= 1e5
+
+  bool operator==(const MeasuredSpec&) const = default;
 };
 
 // A relative permittivity or permeability over frequency: a table of measured values, interpolated linearly in the
@@ -30,12 +36,16 @@ struct DispersionSpec {
   double conductivity_s_m = 0;  // 0 <= x <= 1e9; of a permittivity
   std::vector<DebyeSpec> debye;
   std::vector<MeasuredSpec> table;
+
+  bool operator==(const DispersionSpec&) const = default;
 };
 
 struct LayerSpec {
   double thickness_mm = 1;  // 0 < x <= 1000
   DispersionSpec permittivity;
   DispersionSpec permeability;
+
+  bool operator==(const LayerSpec&) const = default;
 };
 
 enum class SurfaceKind {
@@ -62,6 +72,20 @@ struct MaterialSpec {
   std::vector<LayerSpec> layers;
   double temperature_c = 20;  // of sea water, -2 <= x <= 29
   double salinity_psu = 35;   // of sea water, 0 <= x <= 40
+
+  bool operator==(const MaterialSpec&) const = default;
 };
+
+// Reads and checks a material file. Throws InputError "file:line:col: key.path: value ...: bound".
+MaterialSpec read_material(const std::filesystem::path& file);
+MaterialSpec parse_material(const std::string& yaml, const std::string& file_name);
+
+// File of a material: a path, or NAME for assets/materials/NAME.yaml; searched in `folder`, then in the working
+// directory. nullopt for `pec`. Throws InputError, beginning with `where`, when there is none.
+std::optional<std::filesystem::path> find_material_file(const std::string& name, const std::filesystem::path& folder,
+                                                        const std::string& where);
+
+// Contents of that file; a perfect conductor for `pec`. Throws likewise.
+MaterialSpec find_material(const std::string& name, const std::filesystem::path& folder, const std::string& where);
 
 }  // namespace seaglint

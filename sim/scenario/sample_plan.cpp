@@ -52,14 +52,12 @@ SamplePlan::SamplePlan(const Scenario& scenario)
 
 std::size_t SamplePlan::size() const { return sea_states_.size() * realisations_ * per_realisation_ * per_interval_; }
 
-// Fisher-Yates shuffle with a key per realisation.
+// Shuffled with a key per realisation.
 std::vector<std::uint32_t> SamplePlan::order(std::size_t realisation_number) const {
   std::vector<std::uint32_t> order(per_realisation_);
   std::iota(order.begin(), order.end(), 0u);
   Random random({seed_, Stream::kTargetOrder, realisation_number});
-  for (std::size_t i = order.size(); i > 1; --i) {
-    std::swap(order[i - 1], order[random.below(static_cast<std::uint32_t>(i))]);
-  }
+  shuffle(order, random);
   return order;
 }
 

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "sim/core/numbers/dispersion.h"
-#include "sim/scenario/files/spectrum_table.h"
+#include "sim/scenario/files/tables.h"
 #include "sim/scenario/radar_spec.h"
 
 namespace seaglint {
@@ -29,60 +29,62 @@ enum class Spreading { kNone, kCos2s, kMitsuyasu, kWrappedNormal };
 // Directional spreading (sim/sea/README.md, "Directions").
 struct SpreadingSpec {
   Spreading kind = Spreading::kNone;
-  double s = 10;          // of cos2s; of mitsuyasu at the peak; 0 < x <= 200
-  double width_deg = 30;  // standard deviation of wrapped_normal, 0 < x <= 180
+  double s = 10;
+  double width_deg = 30;
+
+  bool operator==(const SpreadingSpec&) const = default;
 };
 
 // U and F of Hasselmann et al. (1973), for `peak_period_s: wind_and_fetch`.
 struct WindSpec {
-  double speed_mps = 10;  // 10 m above the water, 1 <= x <= 60
-  double fetch_km = 100;  // 0.1 <= x <= 5000
+  double speed_mps = 10;
+  double fetch_km = 100;
+
+  bool operator==(const WindSpec&) const = default;
 };
 
 // Swell: a second wave system.
 struct SwellSpec {
-  double significant_wave_height_m = 0;  // 0 = none, or 1e-6 <= x <= 30
-  double peak_period_s = 12;             // 0.5 <= x <= 40
-  double gamma = 5;                      // 1 <= x <= 20
-  // In the place of peak_period_s: mean periods as of the sea, 0.3 <= x <= 40
+  double significant_wave_height_m = 0;
+  double peak_period_s = 12;
+  double gamma = 5;
   std::optional<double> energy_period_s, zero_crossing_period_s;
-  double propagation_deg = 120;           // as of the sea, -360 <= x <= 360
-  std::optional<double> coming_from_deg;  // in its place, as of the sea
-  int components = 128;                   // 1 <= x <= 100000
+  double propagation_deg = 120;
+  std::optional<double> coming_from_deg;
+  int components = 128;
   SpreadingSpec spreading;
+
+  bool operator==(const SwellSpec&) const = default;
 };
 
 struct SeaSpec {
-  Sweep significant_wave_height_m{1};  // of the wind sea, 0 or 1e-6 <= x <= 30; empty with from_table
+  Sweep significant_wave_height_m{1};  // empty with from_table
   WaveHeight height_rule = WaveHeight::kGiven;
-  Sweep peak_period_s{8};  // 0.5 <= x <= 40; empty when a rule gives it
+  Sweep peak_period_s{8};  // empty when a rule or another key gives it
   PeakPeriod period_rule = PeakPeriod::kGiven;
-  // In the place of peak_period_s: the mean periods Te = 2 pi m_-1/m_0 and Tz = 2 pi sqrt(m_0/m_2) of the whole
-  // spectrum without a cut-off, 0.3 <= x <= 40; empty: not given. The peak period that they give is within its bounds.
-  Sweep energy_period_s, zero_crossing_period_s;
-  // In the place of peak_period_s: Sp = 2 pi Hs / (g Tp^2) (DNV-RP-C205, 3.5.4.1), with the deep-water wavelength at
-  // any depth, 1e-4 <= x <= 0.14; empty: not given.
-  Sweep steepness;
-  // In the place of wave height and period: file of pairs of them, of which each sea realisation has one.
+  Sweep energy_period_s, zero_crossing_period_s;  // empty: not given
+  Sweep steepness;                                // empty: not given
   std::string scatter_diagram;
   WindSpec wind;
   SpectrumKind spectrum = SpectrumKind::kJonswap;
-  std::string table;       // file of spectrum: table, in the scenario's folder or the working directory
-  std::string table_time;  // of a file of several spectra: "2018-01-01 00:40"
-  std::shared_ptr<const SpectrumTable> table_values;  // contents of that file
-  Sweep gamma{3.3};                                   // peak enhancement, 1 <= x <= 20; empty when a rule gives it
+  std::string table;
+  std::string table_time;
+  FileContents<SpectrumTable> table_values;  // contents of that file
+  Sweep gamma{3.3};                          // empty when a rule gives it
   PeakEnhancement gamma_rule = PeakEnhancement::kGiven;
   SpectrumNormalisation normalisation = SpectrumNormalisation::kExact;
-  Sweep propagation_deg{120};  // direction the waves travel towards, in the target frame, -360 <= x <= 360
-  Sweep coming_from_deg;       // in its place: direction the waves come from, likewise; empty: not given
+  Sweep propagation_deg{120};
+  Sweep coming_from_deg;  // empty: not given
   SpreadingSpec spreading;
   SwellSpec swell;
-  std::optional<double> depth_m;  // 0.5 <= x <= 12000; deep water without it
+  std::optional<double> depth_m;
   WaveAmplitude amplitude = WaveAmplitude::kFixed;
-  int order = 2;                         // 1 or 2
-  int components = 512;                  // of the wind sea, 1 <= x <= 100000
-  double cutoff_rad_s = 0;               // highest linear component; 0 = max(8, 4 wp); 0 <= x <= 100
-  double second_order_cutoff_rad_s = 0;  // highest component in the quadratic sums; 0 = where k Hs = 2; 0 <= x <= 1000
+  int order = 2;
+  int components = 512;
+  double cutoff_rad_s = 0;
+  double second_order_cutoff_rad_s = 0;
+
+  bool operator==(const SeaSpec&) const = default;
 };
 
 enum class SeaSurface { kSeaWater, kConductor };
@@ -95,10 +97,12 @@ enum class SeaPaths { kAll, kDirect, kMultipath };
 struct SeaReflectionSpec {
   bool enabled = false;
   SeaSurface surface = SeaSurface::kSeaWater;
-  double temperature_c = 20;  // -2 <= x <= 29
-  double salinity_psu = 35;   // 0 <= x <= 40
+  double temperature_c = 20;
+  double salinity_psu = 35;
   SeaRoughness roughness = SeaRoughness::kMillerBrownVegh;
-  SeaPaths paths = SeaPaths::kAll;  // kDirect: without paths via the sea surface; kMultipath: only those
+  SeaPaths paths = SeaPaths::kAll;
+
+  bool operator==(const SeaReflectionSpec&) const = default;
 };
 
 // One wave system of a state: wind sea or swell.
@@ -109,6 +113,8 @@ struct WaveSystemState {
   double propagation_rad = 0;
   SpreadingSpec spreading;
   int components = 128;
+
+  bool operator==(const WaveSystemState&) const = default;
 };
 
 // One sea state: a SeaSpec with one value of each sweep. The first four fields describe the wind sea.
@@ -128,6 +134,8 @@ struct SeaState {
   WaveSystemState swell;                       // height 0: none
   double depth_m = kDeepWater;
   WaveAmplitude amplitude = WaveAmplitude::kFixed;
+
+  bool operator==(const SeaState&) const = default;
 };
 
 }  // namespace seaglint

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/scenario/writer.h"
-
+// Writes the effective scenario: every field with its value, defaults included.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "sim/core/process/error.h"
+#include "sim/core/text/words.h"
 #include "sim/scenario/fields.h"
 
 namespace seaglint {
@@ -34,6 +35,12 @@ std::string text_as_yaml(const std::string& text) {
   return quoted + '"';
 }
 
+std::string list_as_yaml(const std::vector<std::string>& texts) {
+  std::vector<std::string> items;
+  for (const std::string& text : texts) items.push_back(text_as_yaml(text));
+  return fmt::format("[{}]", fmt::join(items, ", "));
+}
+
 // The smallest whole numbers a:b with a/(a+b) equal to the fraction to the last bit; otherwise fraction:(1-fraction).
 std::string ratio_as_yaml(double fraction) {
   for (int whole = 2; whole <= 100; ++whole) {
@@ -43,53 +50,45 @@ std::string ratio_as_yaml(double fraction) {
   return fmt::format("{}:{}", fraction, 1 - fraction);
 }
 
-// Writes values as YAML: the distribution of a key that is drawn; doubles have the fewest digits that read back to the
-// same bits (fmt).
-class ValueVisitor : public FieldVisitor {
- public:
-  ValueVisitor(const std::vector<Variation>& variations, std::string path)
-      : variations_(variations), path_(std::move(path)) {}
-
-  void number(const char* key, double& value, const Bound&) override { line(key, fmt::format("{}", value)); }
-  void number_or_auto(const char* key, std::optional<double>& value, const Bound&) override {
-    line(key, value ? fmt::format("{}", *value) : "auto");
+// Writes a value as YAML; doubles have the fewest digits that read back to the same bits (fmt).
+struct ValueWriter {
+  template <typename Field>
+  std::string operator()(
+      const Field& field) const requires std::is_arithmetic_v<std::remove_reference_t<decltype(field.value)>> {
+    return fmt::format("{}", field.value);
   }
-  void integer(const char* key, int& value, const Bound&) override { line(key, fmt::format("{}", value)); }
-  void natural(const char* key, std::uint64_t& value) override { line(key, fmt::format("{}", value)); }
-  void flag(const char* key, bool& value) override { line(key, value ? "true" : "false"); }
-  void text(const char* key, std::string& value) override { line(key, text_as_yaml(value)); }
-  void choice(const char* key, std::size_t& index, Names names) override {
-    SEAGLINT_CHECK(index < names.size(), fmt::format("{}: choice {} of {}", key, index, names.size()));
-    line(key, names[index]);
+  std::string operator()(const NumberOrAutoField& field) const {
+    return field.value ? fmt::format("{}", *field.value) : "auto";
   }
-  void triple(const char* key, std::array<double, 3>& values, const Bound&) override {
-    line(key, fmt::format("[{}]", fmt::join(values, ", ")));
+  std::string operator()(const TextField& field) const { return text_as_yaml(field.value); }
+  std::string operator()(const ChoiceField& field) const {
+    SEAGLINT_CHECK(field.index < field.words.size(), fmt::format("{} of {}", field.index, field.words.size()));
+    return field.words[field.index];
   }
-  void ratio(const char* key, double& fraction) override { line(key, ratio_as_yaml(fraction)); }
-  void sweep(const char* key, Sweep& values, const Bound&, Names words, std::size_t* word) override {
-    if (word != nullptr && *word > 0) {
-      line(key, words[*word - 1]);
-    } else if (values.size() == 1) {
-      line(key, fmt::format("{}", values[0]));
-    } else {
-      line(key, fmt::format("[{}]", fmt::join(values, ", ")));
-    }
+  std::string operator()(const TripleField& field) const { return fmt::format("[{}]", fmt::join(field.values, ", ")); }
+  std::string operator()(const RatioField& field) const { return ratio_as_yaml(field.fraction); }
+  std::string operator()(const SweepField& field) const {
+    if (field.word > 0) return field.words[field.word - 1];
+    return fmt::format(fmt::runtime(field.values.size() == 1 ? "{}" : "[{}]"), fmt::join(field.values, ", "));
   }
-  void hold_outs(const char* key, std::vector<HoldOutSpec>& columns) override {
+  std::string operator()(const HoldOutsField& field) const {
     std::vector<std::string> entries;
-    for (const HoldOutSpec& column : columns) {
-      std::vector<std::string> values;
-      for (const std::string& value : column.values) values.push_back(text_as_yaml(value));
-      entries.push_back(fmt::format("{}: [{}]", text_as_yaml(column.column), fmt::join(values, ", ")));
-    }
-    line(key, fmt::format("{{{}}}", fmt::join(entries, ", ")));
+    for (const HoldOutSpec& column : field.columns)
+      entries.push_back(fmt::format("{}: {}", text_as_yaml(column.column), list_as_yaml(column.values)));
+    return fmt::format("{{{}}}", fmt::join(entries, ", "));
   }
-  void words(const char* key, std::vector<std::string>& values, std::size_t, std::size_t) override {
-    std::vector<std::string> as_yaml;
-    for (const std::string& value : values) as_yaml.push_back(text_as_yaml(value));
-    line(key, fmt::format("[{}]", fmt::join(as_yaml, ", ")));
+  std::string operator()(const NamesField& field) const { return list_as_yaml(field.values); }
+};
+
+// Passes on each value as YAML: the distribution of a key that is drawn.
+class ValueVisitor : public PathVisitor {
+ public:
+  explicit ValueVisitor(const std::vector<Variation>& variations) : variations_(variations) {}
+
+  void value(const char* key, const KeyField& value, const char*) override {
+    const Variation* drawn = variation_of(key);
+    write(key, drawn == nullptr ? std::visit(ValueWriter(), value) : drawn->text());
   }
-  void require(const char*) override {}
   // A key that is drawn, or a section with one, is written even where the middle of its distribution is the default.
   bool optional(const char* key, bool present) override {
     const std::string section = path_of(key) + ".";
@@ -98,16 +97,9 @@ class ValueVisitor : public FieldVisitor {
   }
 
  protected:
-  std::string path_of(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
-  const std::vector<Variation>& variations() const { return variations_; }
   virtual void write(const char* key, const std::string& value) = 0;
 
  private:
-  void line(const char* key, const std::string& value) {
-    const Variation* drawn = variation_of(key);
-    write(key, drawn == nullptr ? value : drawn->text());
-  }
-
   // Null for a key that is not drawn.
   const Variation* variation_of(const char* key) const {
     const auto drawn = std::ranges::find(variations_, path_of(key), &Variation::key_path);
@@ -115,91 +107,103 @@ class ValueVisitor : public FieldVisitor {
   }
 
   const std::vector<Variation>& variations_;
-  std::string path_;
 };
 
+// `given`: only the keys of this document, each under a comment; null: all keys.
 class Writer : public ValueVisitor {
  public:
-  Writer(const std::vector<Variation>& variations, std::string& out, std::string path = {}, int depth = 0)
-      : ValueVisitor(variations, std::move(path)), out_(out), depth_(depth) {}
+  Writer(const std::vector<Variation>& variations, const ScenarioDocument* given = nullptr)
+      : ValueVisitor(variations), given_(given) {}
 
-  void section(const char* key, const Fields& fields) override {
-    write(key, "");
-    Writer nested(variations(), out_, path_of(key), depth_ + 1);
-    fields(nested);
+  void value(const char* key, const KeyField& value, const char* meaning) override {
+    const std::optional<DrawnPer> drawn = drawn_per(path_of(key));
+    const std::string end = drawn ? fmt::format("; may be drawn, once per {}", name(*drawn)) : "";
+    if (comment(key, fmt::format("{} [{}{}]", meaning, allowed_text(value, unit_of(key)), end)))
+      ValueVisitor::value(key, value, meaning);
   }
-  void list(const char* key, std::size_t size, std::size_t, const std::function<void(std::size_t)>&,
-            const std::function<void(std::size_t, FieldVisitor&)>& item) override {
+  void section(const char* key, const Fields& fields, const char* meaning) override {
+    if (!comment(key, meaning)) return;
     write(key, "");
-    for (std::size_t i = 0; i < size; ++i) {
-      out_ += indent(depth_ + 1) + "-\n";
-      Writer nested(variations(), out_, path_of(fmt::format("{}.{}", key, i)), depth_ + 2);
-      item(i, nested);
+    indented(key, [&] { fields(*this); });
+  }
+  void items(const char* key, const FieldItems& items, const char* meaning) override {
+    if (!comment(key, meaning)) return;
+    write(key, "");
+    for (std::size_t i = 0; i < items.names.size(); ++i) {
+      out += std::string(indent_ + 2, ' ') + (items.is_list ? "-" : text_as_yaml(items.names[i]) + ":") + "\n";
+      indent_ += 2;
+      indented(std::string(key) + "." + items.names[i], [&] { items.item(i, *this); });
+      indent_ -= 2;
     }
   }
-  void dictionary(const char* key, const std::vector<std::string>& names, std::size_t,
-                  const std::function<void(const std::vector<std::string>&)>&,
-                  const std::function<void(std::size_t, FieldVisitor&)>& item) override {
-    write(key, "");
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      out_ += indent(depth_ + 1) + text_as_yaml(names[i]) + ":\n";
-      Writer nested(variations(), out_, path_of(fmt::format("{}.{}", key, names[i])), depth_ + 2);
-      item(i, nested);
-    }
-  }
+
+  std::string out;
 
  private:
-  static std::string indent(int depth) { return std::string(2 * static_cast<std::size_t>(depth), ' '); }
   void write(const char* key, const std::string& value) override {
-    out_ += indent(depth_) + key + (value.empty() ? ":" : ": ") + value + "\n";
+    out += std::string(indent_, ' ') + key + (value.empty() ? ":" : ": ") + value + "\n";
+  }
+  // Writes the comment of a key that is given; false for a key that is not.
+  bool comment(const char* key, const std::string& text) {
+    if (given_ == nullptr) return true;
+    if (!given_->has(path_of(key))) return false;
+    constexpr std::size_t kWidth = 110;
+    std::string line;
+    const auto end_line = [&] { out += std::string(indent_, ' ') + "#" + std::exchange(line, "") + "\n"; };
+    for (const std::string_view word : words_of(text)) {
+      if (indent_ + line.size() + word.size() > kWidth) end_line();
+      line += fmt::format(" {}", word);
+    }
+    end_line();
+    return true;
+  }
+  template <typename Write>
+  void indented(const std::string& key, const Write& write_below) {
+    indent_ += 2;
+    below(key, [&](FieldVisitor&) { write_below(); });
+    indent_ -= 2;
   }
 
-  std::string& out_;
-  int depth_;
+  const ScenarioDocument* given_;
+  std::size_t indent_ = 0;
 };
 
 // The values of one section by their keys; those of a section within it as "split.by".
 class SectionValues : public ValueVisitor {
  public:
   SectionValues(const std::vector<Variation>& variations, const std::string& section)
-      : ValueVisitor(variations, section), section_(section) {}
+      : ValueVisitor(variations), prefix_(section + ".") {}
 
-  void section(const char* key, const Fields& fields) override {
-    if (!inside_ && key != section_) return;
-    const bool is_outer = !inside_;
-    const std::string before = prefix_;
-    if (!is_outer) prefix_ += std::string(key) + ".";
-    inside_ = true;
-    fields(*this);
-    inside_ = !is_outer;
-    prefix_ = before;
-  }
-  void list(const char*, std::size_t, std::size_t, const std::function<void(std::size_t)>&,
-            const std::function<void(std::size_t, FieldVisitor&)>&) override {}
-  void dictionary(const char*, const std::vector<std::string>&, std::size_t,
-                  const std::function<void(const std::vector<std::string>&)>&,
-                  const std::function<void(std::size_t, FieldVisitor&)>&) override {}
+  void items(const char*, const FieldItems&, const char*) override {}
 
   std::vector<std::pair<std::string, std::string>> values;
 
  private:
   void write(const char* key, const std::string& value) override {
-    if (inside_) values.emplace_back(prefix_ + key, value);
+    const std::string path = path_of(key);
+    if (path.starts_with(prefix_)) values.emplace_back(path.substr(prefix_.size()), value);
   }
 
-  std::string section_;
-  std::string prefix_;  // of the keys, within the section
-  bool inside_ = false;
+  std::string prefix_;
 };
 
 }  // namespace
 
+std::string value_as_yaml(const KeyField& value) { return std::visit(ValueWriter(), value); }
+
 std::string effective_yaml(const Scenario& scenario) {
   Scenario copy = scenario;
-  std::string out;
-  Writer writer(scenario.variations, out);
+  Writer writer(scenario.variations);
   visit_fields(copy, writer);
-  return out;
+  return std::move(writer.out);
+}
+
+std::string commented_yaml(const Scenario& scenario, const std::string& head) {
+  Scenario copy = scenario;
+  Writer writer(scenario.variations, scenario.document.get());
+  writer.out = head;
+  visit_fields(copy, writer);
+  return std::move(writer.out);
 }
 
 std::vector<std::pair<std::string, std::string>> section_values(const Scenario& scenario, const std::string& section) {

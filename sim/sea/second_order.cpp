@@ -181,8 +181,8 @@ struct Pair {
 // with running sums over j < i. Slopes follow from d c/d xi = k s, d s/d xi = -k c, rates from d c/dt = -w s, d s/dt =
 // w c. The terms i = j of the difference sum vanish in deep water, so the mean level is zero.
 template <bool kWithMotion>
-LongCrestedSurface surface(const WaveComponent* component, const double* cosine, const double* sine, std::size_t count,
-                           std::size_t quadratic) {
+SurfaceState surface_along(std::span<const WaveComponent> component, std::span<const double> cosine,
+                           std::span<const double> sine, std::size_t quadratic) {
   double elevation = 0, slope = 0;               // components beyond the quadratic sums
   Pair sum0, sum1, sum2;                         // sum v, sum k v, sum k^2 v over the components so far
   Pair difference, difference_slope;             //
@@ -218,7 +218,7 @@ LongCrestedSurface surface(const WaveComponent* component, const double* cosine,
   }
   Pair high;             // sum w v
   double high_lift = 0;  // sum w^2 c
-  for (std::size_t i = quadratic; i < count; ++i) {
+  for (std::size_t i = quadratic; i < component.size(); ++i) {
     const double v_c = component[i].amplitude * cosine[i];
     const double v_s = component[i].amplitude * sine[i];
     elevation += v_c;
@@ -230,14 +230,17 @@ LongCrestedSurface surface(const WaveComponent* component, const double* cosine,
     }
   }
 
-  LongCrestedSurface state;
+  const Vec2& xi = component.front().direction;
+  SurfaceState state;
   state.elevation_linear = elevation + sum0.c;
   const double sum = 0.5 * (sum1.c * sum0.c - sum1.s * sum0.s);
   state.elevation = state.elevation_linear + sum - 0.5 * (difference.c + difference.s);
   // d/d xi of the sums: products of running sums for eta2+, (k_i - k_j)^2 (s_i c_j - c_i s_j) for each pair of eta2-.
   const double sum_slope = 0.5 * (sum2.s * sum0.c + 2 * sum1.c * sum1.s + sum2.c * sum0.s);
   const double difference_slope_sum = -0.5 * (difference_slope.c - difference_slope.s);
-  state.slope = slope + sum1.s + sum_slope + difference_slope_sum;
+  const double slope_along = slope + sum1.s + sum_slope + difference_slope_sum;
+  state.slope_x = slope_along * xi.x();
+  state.slope_y = slope_along * xi.y();
   if constexpr (kWithMotion) {
     const double eta = sum0.c, eta_slope = sum1.s;  // of the linear waves in the quadratic sums
     const double lift = -kGravity * sum1.c;         // their vertical acceleration
@@ -247,25 +250,22 @@ LongCrestedSurface surface(const WaveComponent* component, const double* cosine,
         -0.5 * (kGravity * (sum2.c * sum0.c - sum2.s * sum0.s) + 2 * (omega1.c * omega0.c - omega1.s * omega0.s) +
                 kGravity * (sum1.c * sum1.c - sum1.s * sum1.s)) +
         0.5 * elevation_tt;
-    state.velocity = high.c + omega0.c + eta * omega1.c - drift;
-    state.vertical_velocity = -high.s - omega0.s + rate2 + omega0.c * eta_slope;
-    state.acceleration = -kGravity * state.slope - lift * eta_slope;
-    state.vertical_acceleration =
-        -high_lift + lift + rate_of_rate2 + 2 * omega0.c * omega1.c - kGravity * eta_slope * eta_slope;
+    const double velocity = high.c + omega0.c + eta * omega1.c - drift;
+    const double acceleration = -kGravity * slope_along - lift * eta_slope;
+    state.velocity = {velocity * xi.x(), velocity * xi.y(), -high.s - omega0.s + rate2 + omega0.c * eta_slope};
+    state.acceleration = {
+        acceleration * xi.x(), acceleration * xi.y(),
+        -high_lift + lift + rate_of_rate2 + 2 * omega0.c * omega1.c - kGravity * eta_slope * eta_slope};
   }
   return state;
 }
 
 }  // namespace
 
-LongCrestedSurface long_crested_kinematics(const WaveComponent* component, const double* cosine, const double* sine,
-                                           std::size_t count, std::size_t quadratic) {
-  return surface<true>(component, cosine, sine, count, quadratic);
-}
-
-LongCrestedSurface long_crested_elevation(const WaveComponent* component, const double* cosine, const double* sine,
-                                          std::size_t count, std::size_t quadratic) {
-  return surface<false>(component, cosine, sine, count, quadratic);
+SurfaceState long_crested_surface(std::span<const WaveComponent> components, std::span<const double> cosine,
+                                  std::span<const double> sine, std::size_t quadratic, SurfaceQuantities detail) {
+  return detail == SurfaceQuantities::kKinematics ? surface_along<true>(components, cosine, sine, quadratic)
+                                                  : surface_along<false>(components, cosine, sine, quadratic);
 }
 
 }  // namespace seaglint

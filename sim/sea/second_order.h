@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// One plane wave of the sea, and the second-order interactions of all pairs of waves: any directions and depth, or in
-// closed form.
+// One plane wave of the sea, the surface at one point, and the second-order interactions of all pairs of waves: any
+// directions and depth, or in closed form.
 
 #include <cstddef>
 #include <span>
@@ -20,6 +20,20 @@ struct WaveComponent {
   double phase = 0;       // rad, at x = 0, t = 0
   double wavenumber = 0;  // rad/m, by the dispersion relation at the depth
   Vec2 direction{1, 0};   // of propagation, unit vector, in T
+};
+
+// Quantities to evaluate: elevation and slopes, or also the motion of the water.
+enum class SurfaceQuantities { kElevationAndSlope, kKinematics };
+
+// Surface quantities to the order of the field. Velocity and acceleration: at the mean level for order 1; for order 2
+// at the moving surface, velocity = u1 + eta1 du1/dz + u2, acceleration of the water particle there (du/dt + u.grad u).
+struct SurfaceState {
+  double elevation = 0;         // m
+  double elevation_linear = 0;  // m
+  double slope_x = 0;           // d eta / dx
+  double slope_y = 0;
+  Vec3 velocity = Vec3::Zero();      // m/s; NaN for kElevationAndSlope
+  Vec3 acceleration = Vec3::Zero();  // m/s^2; likewise
 };
 
 // Second-order part of the surface at one point and time.
@@ -57,24 +71,10 @@ class PairInteractions {
   std::vector<double> elevation_even_, elevation_odd_, potential_even_, potential_odd_;
 };
 
-// Waves of one direction in deep water: the double sums reduce to running sums, exact in O(N).
-
-// Surface along the propagation direction xi.
-struct LongCrestedSurface {
-  double elevation_linear = 0;  // m
-  double elevation = 0;         // m
-  double slope = 0;             // d/d xi
-  double velocity = 0;          // m/s, along xi
-  double vertical_velocity = 0;
-  double acceleration = 0;  // m/s^2, along xi
-  double vertical_acceleration = 0;
-};
-
-// cosine, sine: of the phase angle of each component; the first `quadratic` components, ascending in omega, enter the
-// quadratic sums. The second function leaves velocity and acceleration at 0.
-LongCrestedSurface long_crested_kinematics(const WaveComponent* component, const double* cosine, const double* sine,
-                                           std::size_t count, std::size_t quadratic);
-LongCrestedSurface long_crested_elevation(const WaveComponent* component, const double* cosine, const double* sine,
-                                          std::size_t count, std::size_t quadratic);
+// The surface of waves of one direction in deep water: the double sums reduce to running sums, exact in O(N). cosine,
+// sine: of the phase angle of each component; the first `quadratic` components, ascending in omega, enter the quadratic
+// sums.
+SurfaceState long_crested_surface(std::span<const WaveComponent> components, std::span<const double> cosine,
+                                  std::span<const double> sine, std::size_t quadratic, SurfaceQuantities detail);
 
 }  // namespace seaglint

@@ -12,7 +12,7 @@
 #include "sim/core/numbers/real_functions.h"
 #include "sim/core/numbers/reproducible_functions.h"
 #include "sim/core/process/error.h"
-#include "sim/scenario/jonswap.h"
+#include "sim/scenario/cases.h"
 #include "sim/scenario/scenario.h"
 
 namespace seaglint {
@@ -37,20 +37,25 @@ JonswapSpectrum::JonswapSpectrum(double significant_wave_height_m, double peak_p
   }
 }
 
-double JonswapSpectrum::shape(double u) const {
-  if (!(u > 0)) return 0;
+namespace {
+
+// u^-5 exp(-1.25 u^-4), u > 0.
+double pierson_moskowitz(double u) {
   const double u4 = u * u * u * u;
-  return reproducible_exp(-1.25 / u4) / (u4 * u) * (1 + jonswap_enhancement(u, gamma_));
+  return reproducible_exp(-1.25 / u4) / (u4 * u);
+}
+
+}  // namespace
+
+double JonswapSpectrum::shape(double u) const {
+  return u > 0 ? pierson_moskowitz(u) * (1 + jonswap_enhancement(u, gamma_)) : 0;
 }
 
 double JonswapSpectrum::density(double omega) const { return scale_ / peak_omega_ * shape(omega / peak_omega_); }
 
 // Contribution of the peak enhancement to the integral of the shape.
 double JonswapSpectrum::enhancement_integral(double lower, double upper) const {
-  const auto added = [this](double u) {
-    const double u4 = u * u * u * u;
-    return reproducible_exp(-1.25 / u4) / (u4 * u) * jonswap_enhancement(u, gamma_);
-  };
+  const auto added = [this](double u) { return pierson_moskowitz(u) * jonswap_enhancement(u, gamma_); };
   constexpr double kPiece = 0.02;
   const auto part = [&](double a, double b) {
     const double from = std::max(a, lower);
@@ -69,8 +74,8 @@ double JonswapSpectrum::energy(double lower, double upper) const {
 
 double JonswapSpectrum::energy_above(double omega) const {
   const double u = std::max(0.0, omega / peak_omega_);
-  const double pierson_moskowitz = u > 0 ? -0.2 * std::expm1(-1.25 / (u * u * u * u)) : 0.2;
-  return scale_ * (pierson_moskowitz + enhancement_integral(u, std::numeric_limits<double>::infinity()));
+  const double without = u > 0 ? -0.2 * std::expm1(-1.25 / (u * u * u * u)) : 0.2;  // without the enhancement
+  return scale_ * (without + enhancement_integral(u, std::numeric_limits<double>::infinity()));
 }
 
 TableSpectrum::TableSpectrum(std::shared_ptr<const SpectrumTable> table, double significant_wave_height_m)

@@ -107,11 +107,11 @@ double ForristallCrests::exceedance(double height) const {
 
 double ForristallCrests::height(double probability) const { return scale * std::pow(-std::log(probability), 1 / beta); }
 
-SeaEnsemble make_ensemble(const SeaState& state, std::size_t state_index, std::uint64_t seed, int count,
-                          double duration_s, double step_s, int threads, const StopFlag& stop) {
+SeaEnsemble make_ensemble(const EnsembleRequest& request) {
+  const SeaState& state = request.state;
   // Crests need about twenty samples per wave.
-  const double step = std::min(step_s, state.peak_period_s / 20);
-  const auto samples = static_cast<std::size_t>(duration_s / step) + 1;
+  const double step = std::min(request.step_s, state.peak_period_s / 20);
+  const auto samples = static_cast<std::size_t>(request.duration_s / step) + 1;
   const double duration = step * static_cast<double>(samples);
   const double resolution = 2 * kPi / duration;
   const double highest = std::min(1.2 * state.cutoff_rad_s, 0.9 * kPi / step);
@@ -123,12 +123,12 @@ SeaEnsemble make_ensemble(const SeaState& state, std::size_t state_index, std::u
     std::vector<std::vector<double>> density;  // of the elevation and of its linear part
     std::array<double, 4> moments{};           // means of eta, its square, cube and fourth power
   };
-  std::vector<Part> parts(static_cast<std::size_t>(count));
+  std::vector<Part> parts(static_cast<std::size_t>(request.realisations));
   Progress progress("sea", parts.size(), "realisations");
   parallel_for(
-      parts.size(), threads,
+      parts.size(), request.threads,
       [&](std::size_t i) {
-        const WaveField field = realise_sea(state, seed, sea_key(state_index, i));
+        const WaveField field = realise_sea(state, request.seed, sea_key(request.state_index, i));
         std::array<std::vector<double>, 2> elevation;
         SurfaceSeries series(field, 0, 0, 0, step, SurfaceQuantities::kElevationAndSlope);
         for (std::size_t n = 0; n < samples; ++n, series.advance()) {
@@ -145,10 +145,10 @@ SeaEnsemble make_ensemble(const SeaState& state, std::size_t state_index, std::u
         part.density = periodograms(elevation, step, lines);
         progress.advance();
       },
-      &stop);
+      request.stop);
 
   SeaEnsemble ensemble;
-  ensemble.realisations = count;
+  const int count = ensemble.realisations = request.realisations;
   std::array<double, 4> m{};
   for (const Part& part : parts) {
     for (std::size_t i = 0; i < m.size(); ++i) m[i] += part.moments[i] / count;

@@ -68,9 +68,18 @@ struct SeaEnsemble {
   std::vector<double> realised_linear;  // of the linear part alone
 };
 
-// Realisations 0 to count - 1 of a scenario's sea state `state_index`, elevation series of `duration_s` at one point.
-// The result does not depend on the number of threads.
-SeaEnsemble make_ensemble(const SeaState& state, std::size_t state_index, std::uint64_t seed, int count,
-                          double duration_s, double step_s, int threads, const StopFlag& stop);
+// Elevation series of realisations 0 to `realisations` - 1 at one point.
+struct EnsembleRequest {
+  const SeaState& state;
+  std::size_t state_index = 0;  // among the sea states of the scenario
+  std::uint64_t seed = 1;
+  int realisations = 20;
+  double duration_s = 600, step_s = 0.1;  // of each series; a step is at most a twentieth of the peak period
+  int threads = 1;                        // without influence on the result
+  const StopFlag* stop = nullptr;
+};
+
+// Throws InputError for a duration too short for a spectrum, Interrupted when *stop becomes true.
+SeaEnsemble make_ensemble(const EnsembleRequest& request);
 
 }  // namespace seaglint

@@ -17,12 +17,6 @@ namespace seaglint {
 
 namespace {
 
-std::vector<WaveComponent> rotated(std::vector<WaveComponent> components, const Vec2& direction) {
-  SEAGLINT_CHECK(direction.norm() > 0, "a direction of length zero");
-  for (WaveComponent& component : components) component.direction = direction.normalized();
-  return components;
-}
-
 // True when every component satisfies the dispersion relation, to the digits of tables.
 bool disperse(const std::vector<WaveComponent>& components, double depth) {
   constexpr double kDigits = 1e-6;
@@ -55,13 +49,7 @@ WaveField::WaveField(std::vector<WaveComponent> components, int order, double se
   }
 }
 
-WaveField::WaveField(std::vector<WaveComponent> components, const Vec2& direction, int order,
-                     double second_order_cutoff_rad_s, double depth)
-    : WaveField(rotated(std::move(components), direction), order, second_order_cutoff_rad_s, depth) {}
-
 namespace {
-
-constexpr double kNotComputed = std::numeric_limits<double>::quiet_NaN();
 
 // Sums over linear waves of any direction and depth; their kinematics at the mean level (Airy).
 struct LinearSums {
@@ -103,11 +91,7 @@ SurfaceState assemble(const LinearSums& low, const LinearSums& all, const Second
   const Vec2 slope = all.slope + second.slope;
   state.slope_x = slope.x();
   state.slope_y = slope.y();
-  if (!motion) {
-    state.velocity = Vec3::Constant(kNotComputed);
-    state.acceleration = Vec3::Constant(kNotComputed);
-    return state;
-  }
+  if (!motion) return state;
   const Vec2 velocity = all.velocity + low.elevation * low.shear + second.velocity;
   state.velocity = {velocity.x(), velocity.y(),
                     all.vertical_velocity + second.elevation_t + low.velocity.dot(low.slope)};
@@ -123,42 +107,29 @@ SurfaceState assemble(const LinearSums& low, const LinearSums& all, const Second
 SurfaceState WaveField::state(std::span<const double> cosine, std::span<const double> sine,
                               SurfaceQuantities detail) const {
   const bool motion = detail == SurfaceQuantities::kKinematics;
-  const std::size_t count = components_.size();
+  const std::size_t count = components_.size(), quadratic = second_order_count_;
   if (count == 0) return {};
+  SurfaceState state;
   if (!pairs_ && long_crested_ && std::isinf(depth_)) {
-    const Vec2& direction = components_.front().direction;
-    const auto sums = motion ? long_crested_kinematics : long_crested_elevation;
-    const LongCrestedSurface along = sums(components_.data(), cosine.data(), sine.data(), count, second_order_count_);
-    SurfaceState state;
-    state.elevation_linear = along.elevation_linear;
-    state.elevation = along.elevation;
-    state.slope_x = along.slope * direction.x();
-    state.slope_y = along.slope * direction.y();
-    state.velocity = {along.velocity * direction.x(), along.velocity * direction.y(), along.vertical_velocity};
-    state.acceleration = {along.acceleration * direction.x(), along.acceleration * direction.y(),
-                          along.vertical_acceleration};
-    if (!motion) {
-      state.velocity = Vec3::Constant(kNotComputed);
-      state.acceleration = Vec3::Constant(kNotComputed);
+    state = long_crested_surface(components_, cosine, sine, quadratic, detail);
+  } else {
+    LinearSums low, all;  // low: components in the quadratic sums
+    for (std::size_t i = 0; i < quadratic; ++i) low.add(components_[i], cosine[i], sine[i]);
+    for (std::size_t i = quadratic; i < count; ++i) all.add(components_[i], cosine[i], sine[i]);
+    all += low;
+    SecondOrder second;
+    if (pairs_) {
+      std::vector<double> c(quadratic), s(quadratic);
+      for (std::size_t i = 0; i < quadratic; ++i) {
+        c[i] = components_[i].amplitude * cosine[i];
+        s[i] = components_[i].amplitude * sine[i];
+      }
+      second = pairs_->evaluate(std::span(components_).first(quadratic), c, s, motion);
     }
-    return state;
+    state = assemble(low, all, second, motion);
   }
-
-  LinearSums low, all;  // low: components in the quadratic sums
-  const std::size_t quadratic = second_order_count_;
-  for (std::size_t i = 0; i < quadratic; ++i) low.add(components_[i], cosine[i], sine[i]);
-  for (std::size_t i = quadratic; i < count; ++i) all.add(components_[i], cosine[i], sine[i]);
-  all += low;
-  SecondOrder second;
-  if (pairs_) {
-    std::vector<double> c(quadratic), s(quadratic);
-    for (std::size_t i = 0; i < quadratic; ++i) {
-      c[i] = components_[i].amplitude * cosine[i];
-      s[i] = components_[i].amplitude * sine[i];
-    }
-    second = pairs_->evaluate(std::span(components_).first(quadratic), c, s, motion);
-  }
-  return assemble(low, all, second, motion);
+  if (!motion) state.velocity = state.acceleration = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+  return state;
 }
 
 SurfaceState WaveField::surface(double x, double y, double t, SurfaceQuantities detail) const {

@@ -17,20 +17,6 @@
 
 namespace seaglint {
 
-// Quantities to evaluate: elevation and slopes, or also the motion of the water.
-enum class SurfaceQuantities { kElevationAndSlope, kKinematics };
-
-// Surface quantities to the order of the field. Velocity and acceleration: at the mean level for order 1; for order 2
-// at the moving surface, velocity = u1 + eta1 du1/dz + u2, acceleration of the water particle there (du/dt + u.grad u).
-struct SurfaceState {
-  double elevation = 0;         // m
-  double elevation_linear = 0;  // m
-  double slope_x = 0;           // d eta / dx
-  double slope_y = 0;
-  Vec3 velocity = Vec3::Zero();      // m/s; NaN for kElevationAndSlope
-  Vec3 acceleration = Vec3::Zero();  // m/s^2; likewise
-};
-
 // Sum of plane waves. Cost per point and time: O(N) for waves of one direction in deep water and for order 1, else
 // O(N^2) (PairInteractions).
 class WaveField {
@@ -40,9 +26,6 @@ class WaveField {
   // the cut-off enter the quadratic sums of order 2: at most PairInteractions::kMaxComponents, unless all have one
   // direction in deep water.
   WaveField(std::vector<WaveComponent> components, int order, double second_order_cutoff_rad_s,
-            double depth = kDeepWater);
-  // The same with all components propagating along `direction`, a non-zero vector.
-  WaveField(std::vector<WaveComponent> components, const Vec2& direction, int order, double second_order_cutoff_rad_s,
             double depth = kDeepWater);
 
   // Valid for |w t| and |k.x| up to 2e8 rad. About 10 us for 512 components of one direction in deep water.

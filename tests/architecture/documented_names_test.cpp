@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every name that a document uses exists: filters of tests and benchmarks in all files; programs, commands and scripts
-// in READMEs.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/architecture/test_names.h"
+#include "tests/architecture/source_files.h"
 
 namespace seaglint {
 namespace {
@@ -20,6 +18,9 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+
+// Every name that a document uses exists: filters of tests and benchmarks in all files; programs, commands and scripts
+// in READMEs.
 
 // Everything that is run by name.
 struct Runnable {
@@ -161,6 +162,31 @@ TEST(DocumentedNames, ThatDoNotExistAreFound) {
   EXPECT_THAT(of("    srun build/release/seaglint simulate"), ElementsAre(HasSubstr("no command simulate")));
   EXPECT_THAT(of("`build/release/test_attic`"), ElementsAre(HasSubstr("no program test_attic")));
   EXPECT_THAT(of("run ./tools/attic, once"), ElementsAre(HasSubstr("no tools/attic")));
+}
+
+// A filter by a suite's name selects the tests of one file.
+
+std::vector<std::string> in_several_files(const std::vector<NamedTest>& tests) {
+  std::map<std::string, std::set<std::string>> files;
+  for (const NamedTest& test : tests) files[test.suite].insert(test.file);
+  std::vector<std::string> found;
+  for (const auto& [suite, of] : files) {
+    if (of.size() < 2) continue;
+    found.push_back(suite + ":");
+    for (const std::string& file : of) found.back() += " " + file;
+  }
+  return found;
+}
+
+TEST(TestSuites, AreInOneFileEach) {
+  const std::vector<NamedTest> tests = all_tests();
+  EXPECT_GT(tests.size(), 800u) << "the test finds no tests";
+  EXPECT_THAT(in_several_files(tests), IsEmpty());
+}
+
+TEST(TestSuites, OfOneNameInSeveralFilesAreFound) {
+  EXPECT_THAT(in_several_files({{"A", "A.x", "a"}, {"A", "A.y", "a"}, {"B", "B.x", "a"}, {"A", "A.z", "b"}}),
+              ElementsAre("A: a b"));
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "tests/architecture/cpp_tokens.h"
 #include "tests/architecture/source_files.h"
 
 namespace seaglint {

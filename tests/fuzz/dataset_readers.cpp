@@ -3,14 +3,11 @@
 #include <filesystem>
 #include <vector>
 
-#include "classify/dataset/cards/croissant.h"
-#include "classify/dataset/directory/croissant_audit.h"
 #include "classify/dataset/directory/dataset_reader.h"
 #include "classify/dataset/format/manifest.h"
 #include "classify/dataset/format/npz.h"
 #include "classify/dataset/format/shard.h"
 #include "tests/fuzz/readers.h"
-#include "tests/fuzz/refusal.h"
 
 namespace seaglint {
 
@@ -41,12 +38,6 @@ void fuzz_npz(const std::string& bytes) {
 void fuzz_inputs(const std::string& bytes) {
   const std::filesystem::path list = file_of(bytes, kInputsFile);
   is_refused([&] { require_same_inputs(list.parent_path(), Scenario{}); });
-}
-
-void fuzz_croissant(const std::string& bytes) {
-  const std::filesystem::path file = file_of(bytes, kCroissantFile);
-  croissant_faults(file.parent_path(), Manifest{});
-  is_croissant_of_seaglint(bytes);
 }
 
 }  // namespace seaglint

@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "tests/fuzz/readers.h"
-#include "tests/fuzz/refusal.h"
 #include "tools/evaluate/classify.h"
 
 namespace seaglint {

@@ -4,7 +4,6 @@
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/mesh/mesh_diagnostics.h"
 #include "tests/fuzz/readers.h"
-#include "tests/fuzz/refusal.h"
 
 namespace seaglint {
 namespace {

@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "classify/cnn/network.h"
+#include "classify/features/feature_vector.h"
 #include "classify/model/classifiers.h"
-#include "classify/model/model_card.h"
+#include "classify/model/saved_model.h"
 #include "sim/core/process/file.h"
 #include "tests/fuzz/readers.h"
-#include "tests/fuzz/refusal.h"
 
 namespace seaglint {
+
+void fuzz_embeddings(const std::string& bytes) {
+  is_refused([&] { read_embeddings(file_of(bytes, "embeddings.csv"), std::vector<std::int64_t>{0, 1, 2}); });
+}
 
 void fuzz_trees(const std::string& bytes) {
   is_refused([&] {

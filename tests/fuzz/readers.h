@@ -4,7 +4,12 @@
 // Every reader of a user's file as a function of the file's bytes. It returns when the file is read or refused with an
 // InputError; anything else that is thrown is a fault, as is a result that breaks the promise of the reader's header.
 
+#include <filesystem>
+#include <fstream>
 #include <string>
+
+#include "sim/core/process/error.h"
+#include "tests/temporary_folder.h"
 
 namespace seaglint {
 
@@ -50,8 +55,7 @@ void fuzz_gmsh(const std::string& bytes);
 void fuzz_manifest(const std::string& bytes);
 void fuzz_shard(const std::string& bytes);
 void fuzz_npz(const std::string& bytes);
-void fuzz_inputs(const std::string& bytes);  // inputs.sha256
-void fuzz_croissant(const std::string& bytes);
+void fuzz_inputs(const std::string& bytes);      // inputs.sha256
 void fuzz_embeddings(const std::string& bytes);  // embeddings.csv
 
 // Models and echoes.
@@ -59,5 +63,29 @@ void fuzz_trees(const std::string& bytes);       // handmade.json, with the prob
 void fuzz_model_card(const std::string& bytes);  // model.json
 void fuzz_network(const std::string& bytes);     // network.bin, with its outputs for a map
 void fuzz_echo(const std::string& bytes);        // I/Q samples over time
+
+// What their definitions share.
+
+// Writes the bytes into a file of this name in a folder of this process (below TMPDIR); the next call replaces it.
+inline std::filesystem::path file_of(const std::string& bytes, const char* name) {
+  static const TemporaryFolder folder;
+  std::filesystem::path path = folder.path() / name;
+  std::ofstream(path, std::ios::binary | std::ios::trunc)
+      .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  return path;
+}
+
+// Calls use(); true if it threw an InputError, false if it returned.
+template <class Use>
+bool is_refused(Use use) {
+  try {
+    use();
+    return false;
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    SEAGLINT_CHECK(!message.empty(), "an InputError without a message");
+    return true;
+  }
+}
 
 }  // namespace seaglint

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 
+#include "sim/core/process/file.h"
+#include "sim/field_tables/field_table.h"
 #include "sim/field_tables/pandas_table.h"
-#include "sim/field_tables/read_field_table.h"
 #include "tests/fuzz/readers.h"
-#include "tests/fuzz/refusal.h"
 
 namespace seaglint {
 namespace {
@@ -74,7 +74,7 @@ void fuzz_pyaedt(const std::string& bytes) {
 }
 
 void fuzz_pyaedt_json(const std::string& bytes) {
-  static const std::string table = pandas_table_bytes({{10, 90, 0, 1}});
+  static const std::string table = read_file(SEAGLINT_SOURCE_DIR "/tests/cases/exports/pyaedt_VV.h5");
   file_of(table, "export_HH.h5");
   read_file_of(file_of(bytes, "export_HH.json"), {});
 }

@@ -2,12 +2,10 @@
 #include <cstddef>
 
 #include "sim/scenario/files/document.h"
-#include "sim/scenario/material_file.h"
+#include "sim/scenario/material_spec.h"
 #include "sim/scenario/sample_plan.h"
 #include "sim/scenario/scenario.h"
-#include "sim/scenario/writer.h"
 #include "tests/fuzz/readers.h"
-#include "tests/fuzz/refusal.h"
 
 namespace seaglint {
 namespace {

@@ -7,11 +7,8 @@
 #include "sim/motion/recorded/attitude_series.h"
 #include "sim/motion/ship/rao_files.h"
 #include "sim/motion/strip_theory/hull_sections.h"
-#include "sim/scenario/files/hop_code_file.h"
-#include "sim/scenario/files/scatter_diagram.h"
-#include "sim/scenario/files/spectrum_table.h"
+#include "sim/scenario/files/tables.h"
 #include "tests/fuzz/readers.h"
-#include "tests/fuzz/refusal.h"
 
 namespace seaglint {
 namespace {

@@ -137,9 +137,6 @@ const char* const kEmbeddings = R"(sample,label,target,group,sea_state,mwr,ccf,s
 2,1,ship,1,0,0.1,0.2,0.3,0.4,0.5,0.6
 )";
 
-const char* const kCroissant = R"({"isBasedOn": {"name": "seaglint"}, "distribution": [
-{"@id": "a", "contentUrl": "manifest.json", "sha256": "0f"}, {"contentUrl": "https://example.org/b", "sha256": "1"}]})";
-
 // One tree with one split.
 const char* const kTrees = R"({"learner": {"attributes": {}, "feature_names": [], "feature_types": [],
 "gradient_booster": {"model": {
@@ -204,7 +201,6 @@ void write_texts(const fs::path& root) {
   write_file(seed(root, "series", "openfast.out"), kOpenFast);
   write_file(seed(root, "own_table", "own.csv"), kOwnCut);
   write_file(seed(root, "embeddings", "embeddings.csv"), kEmbeddings);
-  write_file(seed(root, "croissant", "croissant.json"), kCroissant);
   write_file(seed(root, "trees", "trees.json"), kTrees);
   write_file(seed(root, "model_card", "model.json"), kModelCard);
   write_file(seed(root, "hop_code", "code.txt"), "# carriers\n0, 5, 3, 15\n1;2\t7 8\n");

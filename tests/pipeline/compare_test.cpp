@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `seaglint compare`: what was put into a table of this program is found again, and files that cannot be compared are
-// refused.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <sstream>
 
 #include "sim/core/numbers/random.h"
 #include "sim/core/process/file.h"
-#include "sim/field_tables/read_field_table.h"
+#include "sim/field_tables/field_table.h"
 #include "sim/scattering/observation/observation.h"
 #include "tests/pipeline/program.h"
 
@@ -18,15 +18,13 @@ namespace seaglint {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
+
+// `seaglint compare`: what was put into a table of this program is found again, and files that cannot be compared are
+// refused.
 
 const std::string kReflector = "assets/icosahedral_reflector.glb";
 const std::string kExports = "tests/cases/exports/";
-
-void expect_refused(const std::vector<std::string>& arguments, const std::string& message) {
-  const ProgramResult result = run_program(arguments);
-  EXPECT_EQ(result.code, 2) << result.err;
-  EXPECT_THAT(result.err, HasSubstr(message));
-}
 
 class CompareCommand : public testing::Test {
  protected:
@@ -34,10 +32,8 @@ class CompareCommand : public testing::Test {
 
   // The program's own table of the reflector at 21 frequencies, two elevations and 31 azimuths.
   FieldTable own_table() const {
-    const ProgramResult result =
-        run_program({"rcs", "--target", kReflector, "--frequency-ghz", "9.5:10.5:0.05", "--azimuth-deg", "0:15:0.5",
-                     "--elevation-deg", "2:5:3", "-o", path("own.csv")});
-    EXPECT_EQ(result.code, 0) << result.err;
+    completed({"rcs", "--target", kReflector, "--frequency-ghz", "9.5:10.5:0.05", "--azimuth-deg", "0:15:0.5",
+               "--elevation-deg", "2:5:3", "-o", path("own.csv")});
     return read_field_table(path("own.csv"), {});
   }
 
@@ -77,8 +73,7 @@ TEST_F(CompareCommand, FindsOffsetOriginTimeFactorAndSigns) {
   const Vec3 origin(0.31, -0.2, 0.05);
   write_file(path("other.csv"), disturbed(own_table(), origin, 0.6));
   const ProgramResult result =
-      run_program({"compare", path("other.csv"), "--target", kReflector, "-o", path("compared")});
-  ASSERT_EQ(result.code, 0) << result.err;
+      completed({"compare", path("other.csv"), "--target", kReflector, "-o", path("compared")});
   EXPECT_THAT(result.err, HasSubstr("other.csv: read as a table of seaglint rcs"));
   EXPECT_THAT(result.out, HasSubstr("other.csv: warning: the export has the other time factor, e^{-jwt}"));
   EXPECT_THAT(result.out, HasSubstr("other.csv: warning: vv of the export has the opposite sign"));
@@ -117,9 +112,8 @@ TEST_F(CompareCommand, FindsOffsetOriginTimeFactorAndSigns) {
 
 TEST_F(CompareCommand, OfAFileWithItselfFindsNoDifference) {
   const std::string file = kExports + "bistatic.ffe";
-  const ProgramResult result = run_program({"compare", file, "--against", file, "--tolerance-db", "0.001",
-                                            "--min-correlation", "0.9999", "-o", path("compared")});
-  EXPECT_EQ(result.code, 0) << result.err;
+  completed({"compare", file, "--against", file, "--tolerance-db", "0.001", "--min-correlation", "0.9999", "-o",
+             path("compared")});
   const nlohmann::json json = compared();
   for (const auto& entry : json["exports"]) {
     EXPECT_EQ(entry["pairs"], 12);
@@ -131,19 +125,15 @@ TEST_F(CompareCommand, OfAFileWithItselfFindsNoDifference) {
 // A table at other azimuths is interpolated on request; the reflector is within 0.6 m.
 TEST_F(CompareCommand, InterpolatesOnRequest) {
   const auto table = [&](const std::string& name, const std::string& azimuths) {
-    const ProgramResult result = run_program({"rcs", "--target", kReflector, "--frequency-ghz", "9.5:10.5:0.5",
-                                              "--azimuth-deg", azimuths, "-o", path(name)});
-    ASSERT_EQ(result.code, 0) << result.err;
+    completed({"rcs", "--target", kReflector, "--frequency-ghz", "9.5:10.5:0.5", "--azimuth-deg", azimuths, "-o",
+               path(name)});
   };
   table("fine.csv", "0:15:0.25");
   table("other.csv", "0.1:14:0.5");
-  std::vector<std::string> words{"compare", path("other.csv"), "--against", path("fine.csv"), "--as-is",
-                                 "-o",      path("compared")};
+  Words words{"compare", path("other.csv"), "--against", path("fine.csv"), "--as-is", "-o", path("compared")};
   expect_refused(words, "nothing is interpolated without --interpolate METRES");
   words.insert(words.end(), {"--interpolate", "0.6"});
-  const ProgramResult result = run_program(words);
-  ASSERT_EQ(result.code, 0) << result.err;
-  EXPECT_THAT(result.out, HasSubstr("fine.csv: interpolated at "));
+  EXPECT_THAT(completed(words).out, HasSubstr("fine.csv: interpolated at "));
   const nlohmann::json json = compared();
   for (const auto& entry : json["exports"]) {
     EXPECT_EQ(entry["interpolation"]["omitted"], 0);
@@ -162,12 +152,10 @@ TEST_F(CompareCommand, InterpolatesOnRequest) {
 // NumPy's file of a bistatic sweep has the values of the table.
 TEST_F(CompareCommand, OpensTheSolvedValuesInNumPy) {
   if (run_words({kPython, "-c", "import numpy"}).code != 0) GTEST_SKIP() << "needs the package python3-numpy";
-  ASSERT_EQ(run_program({"rcs", "--target", kReflector, "--frequency-ghz", "9.5:10.5:0.5", "--azimuth-deg", "0:30:10",
-                         "--elevation-deg", "2:5:3", "--transmit-azimuth-deg", "40", "--transmit-elevation-deg", "-3",
-                         "-o", path("own.csv"), "--export-as", "npz"})
-                .code,
-            0);
-  const ProgramResult result = run_words({kPython, "-W", "error", "-c", R"(
+  completed({"rcs", "--target", kReflector, "--frequency-ghz", "9.5:10.5:0.5", "--azimuth-deg", "0:30:10",
+             "--elevation-deg", "2:5:3", "--transmit-azimuth-deg", "40", "--transmit-elevation-deg", "-3", "-o",
+             path("own.csv"), "--export-as", "npz"});
+  completed(run_words({kPython, "-W", "error", "-c", R"(
 import csv, json, numpy, sys
 solved = numpy.load(sys.argv[1])
 rows = list(csv.DictReader(line for line in open(sys.argv[2]) if not line.startswith('#')))
@@ -183,23 +171,16 @@ for row in rows:
             pair = received + transmitted
             assert abs(s[p, q] - complex(float(row[pair + '_re']), float(row[pair + '_im']))) <= 2e-8 * abs(S).max(), pair
 )",
-                                          path("own.npz"), path("own.csv")});
-  EXPECT_EQ(result.code, 0) << result.err;
+                       path("own.npz"), path("own.csv")}));
 }
 
 // The solved values of a comparison, of two transmitters.
 TEST_F(CompareCommand, WritesTheSolvedValuesForOtherPrograms) {
-  const ProgramResult result = run_program({"compare", kExports + "bistatic.ffe", "--target", kReflector, "--export-as",
-                                            "feko", "--export-as", "npz", "-o", path("compared")});
-  ASSERT_EQ(result.code, 0) << result.err;
+  const ProgramResult result = completed({"compare", kExports + "bistatic.ffe", "--target", kReflector, "--export-as",
+                                          "feko", "--export-as", "npz", "-o", path("compared")});
   EXPECT_THAT(result.out, HasSubstr("solved.npz"));
-  const ProgramResult again =
-      run_program({"compare", path("compared/solved_v.ffe"), "--target", kReflector, "--as-is", "--tolerance-db",
-                   "0.001", "--min-correlation", "0.999999", "-o", path("again")});
-  EXPECT_EQ(again.code, 0) << again.err << again.out;
-  expect_refused(
-      {"compare", kExports + "bistatic.ffe", "--target", kReflector, "--export-as", "pyaedt", "-o", path("compared")},
-      "--export-as pyaedt: these files hold monostatic values only");
+  completed({"compare", path("compared/solved_v.ffe"), "--target", kReflector, "--as-is", "--tolerance-db", "0.001",
+             "--min-correlation", "0.999999", "-o", path("again")});
   expect_refused({"compare", kExports + "bistatic.ffe", "--against", kExports + "bistatic.ffe", "--export-as", "npz",
                   "-o", path("compared")},
                  "--export-as is for --target");
@@ -207,18 +188,13 @@ TEST_F(CompareCommand, WritesTheSolvedValuesForOtherPrograms) {
 
 // What `rcs` writes for other programs is read back as the same sweep.
 TEST_F(CompareCommand, OfTheFilesForOtherProgramsFindsNoDifference) {
-  ASSERT_EQ(run_program({"rcs", "--target", kReflector, "--frequency-ghz", "9.5:10.5:0.5", "--azimuth-deg", "0:30:10",
-                         "--elevation-deg", "2:5:3", "-o", path("own.csv"), "--export-as", "feko", "--export-as", "cst",
-                         "--export-as", "pyaedt"})
-                .code,
-            0);
-  for (const char* name : {"own_v.ffe", "own VH.json", "own (f = 10), theta = (85,88,3), phi = (0,30,10), HP.txt"}) {
+  completed({"rcs", "--target", kReflector, "--frequency-ghz", "9.5:10.5:0.5", "--azimuth-deg", "0:30:10",
+             "--elevation-deg", "2:5:3", "-o", path("own.csv"), "--export-as", "feko", "--export-as", "cst"});
+  for (const char* name : {"own_v.ffe", "own (f = 10), theta = (85,88,3), phi = (0,30,10), HP.txt"}) {
     SCOPED_TRACE(name);
-    std::vector<std::string> words{"compare",        path(name), "--against",         path("own.csv"), "--as-is",
-                                   "--tolerance-db", "0.001",    "--min-correlation", "0.999999",      "-o",
-                                   path("compared")};
-    const ProgramResult result = run_program(words);
-    EXPECT_EQ(result.code, 0) << result.err << result.out;
+    Words words{"compare",           path(name), "--against", path("own.csv"), "--as-is", "--tolerance-db", "0.001",
+                "--min-correlation", "0.999999", "-o",        path("compared")};
+    completed(words);
   }
   EXPECT_TRUE(std::filesystem::exists(path("own_h.ffe")));
 }
@@ -228,9 +204,7 @@ TEST_F(CompareCommand, TakesSeveralExports) {
   write_file(path("hh.csv"), head + "hh_dbsm\n1e10,0,0,3\n1e10,1,0,2\n");
   write_file(path("vv.csv"), head + "vv_dbsm\n1e10,0,0,5\n1e10,1,0,4\n");
   write_file(path("both.csv"), head + "hh_dbsm,vv_dbsm\n1e10,0,0,4,4\n1e10,1,0,3,3\n");
-  const ProgramResult result =
-      run_program({"compare", path("hh.csv"), path("vv.csv"), "--against", path("both.csv"), "-o", path("compared")});
-  ASSERT_EQ(result.code, 0) << result.err;
+  completed({"compare", path("hh.csv"), path("vv.csv"), "--against", path("both.csv"), "-o", path("compared")});
   const nlohmann::json json = compared();
   ASSERT_EQ(json["exports"].size(), 2u);
   EXPECT_NEAR(json["exports"][0]["bias_db"], 1, 1e-9);
@@ -251,8 +225,7 @@ TEST_F(CompareCommand, SuggestsWhatIsWrongWithLevels) {
   const auto warnings = [&](const std::string& text) {
     write_file(path("other.csv"), text);
     const ProgramResult result =
-        run_program({"compare", path("other.csv"), "--against", path("here.csv"), "-o", path("compared")});
-    EXPECT_EQ(result.code, 0) << result.err;
+        completed({"compare", path("other.csv"), "--against", path("here.csv"), "-o", path("compared")});
     return result.out;
   };
   EXPECT_THAT(warnings(in_mm), HasSubstr("the export is 60.0 dB higher throughout: an area in mm^2 or a mesh in mm?"));
@@ -275,10 +248,9 @@ TEST_F(CompareCommand, SuggestsAMeshOfAnotherSize) {
   };
   write_file(path("here.csv"), table(1));
   write_file(path("other.csv"), table(1.3));
-  const ProgramResult result =
-      run_program({"compare", path("other.csv"), "--against", path("here.csv"), "--as-is", "-o", path("compared")});
-  EXPECT_EQ(result.code, 0) << result.err;
-  EXPECT_THAT(result.out, HasSubstr("the export's mesh is 1.3"));
+  EXPECT_THAT(
+      completed({"compare", path("other.csv"), "--against", path("here.csv"), "--as-is", "-o", path("compared")}).out,
+      HasSubstr("the export's mesh is 1.3"));
 }
 
 // A plate in its plane of symmetry has no cross-polar echo: what both have there is rounding, 0 and 1e-9 m.
@@ -290,11 +262,9 @@ TEST_F(CompareCommand, LeavesOutElementsThatAreRounding) {
   };
   write_file(path("here.csv"), table(0));
   write_file(path("other.csv"), table(1e-9));
-  const std::vector<std::string> words{"compare", path("other.csv"), "--against", path("here.csv"),
-                                       "-o",      path("compared")};
-  const ProgramResult result = run_program(words);
-  EXPECT_EQ(result.code, 0) << result.err;
-  EXPECT_THAT(result.out, HasSubstr("other.csv: hv is not compared: it is 120 dB or more below the strongest in both"));
+  const Words words{"compare", path("other.csv"), "--against", path("here.csv"), "-o", path("compared")};
+  EXPECT_THAT(completed(words).out,
+              HasSubstr("other.csv: hv is not compared: it is 120 dB or more below the strongest in both"));
   ASSERT_EQ(compared().at("exports").size(), 1u);
   EXPECT_EQ(compared().at("exports")[0].at("polarisation"), "vv");
   EXPECT_EQ(compared().at("not_compared")[0].at("name"), "other.csv");
@@ -313,14 +283,11 @@ TEST_F(CompareCommand, LeavesOutElementsThatAreZeroOnOneSide) {
         {"compare", path(name), "--against", path(against), "--tolerance-db", "1", "-o", path("compared")});
   };
   write_file(path("small.csv"), table(1e-4));
-  const ProgramResult small = compare("small.csv", "zero.csv");
-  EXPECT_EQ(small.code, 0) << small.err;
+  const ProgramResult small = completed(compare("small.csv", "zero.csv"));
   EXPECT_THAT(small.out, HasSubstr("small.csv: hv is not compared: 86.0 dB below the strongest in the export, zero in "
                                    "zero.csv"));
   ASSERT_EQ(compared().at("exports").size(), 1u);
-  const ProgramResult reversed = compare("zero.csv", "small.csv");
-  EXPECT_EQ(reversed.code, 0) << reversed.err;
-  EXPECT_THAT(reversed.out,
+  EXPECT_THAT(completed(compare("zero.csv", "small.csv")).out,
               HasSubstr("zero.csv: hv is not compared: zero in the export, 86.0 dB below the strongest in "
                         "small.csv"));
   // 26 dB below vv it is an echo that one of them lacks, which no tolerance covers.
@@ -341,13 +308,10 @@ TEST_F(CompareCommand, LeavesOutElementsThatAreZeroOnOneSide) {
 
 // The files of tests/cases/README.md: their values are those of a dihedral by this solver, in three decimals.
 TEST_F(CompareCommand, ReadsUnitsTotalsAndChamberTablesOfADihedral) {
-  const auto compare = [&](const std::string& file, const std::vector<std::string>& more) {
-    std::vector<std::string> words{"compare",        kExports + file, "--target", kExports + "dihedral.obj",
-                                   "--tolerance-db", "0.001",         "-o",       path("compared")};
-    words.insert(words.end(), more.begin(), more.end());
-    const ProgramResult result = run_program(words);
-    EXPECT_EQ(result.code, 0) << result.err << result.out;
-    return result;
+  const auto compare = [&](const std::string& file, const Words& more) {
+    return completed({"compare", kExports + file, "--target", kExports + "dihedral.obj", "--tolerance-db", "0.001",
+                      "-o", path("compared")},
+                     more);
   };
   compare("hfss dBsm VP.csv", {});
   EXPECT_EQ(compared().at("exports")[0].at("polarisation"), "vv");
@@ -358,9 +322,8 @@ TEST_F(CompareCommand, ReadsUnitsTotalsAndChamberTablesOfADihedral) {
   EXPECT_EQ(compared().at("exports")[0].at("pairs"), 11);
   EXPECT_THAT(read_file(path("compared") + "/compare.csv"), HasSubstr("seaglint,total_v,6e+09,"));
   EXPECT_THAT(read_file(path("compared") + "/compare.html"), HasSubstr("total, v transmitted"));
-  const ProgramResult chamber =
-      compare("chamber_hh_vv.csv", {"--reference-elevation-deg", "8", "--reference-frequency-ghz", "6"});
-  EXPECT_THAT(chamber.err, HasSubstr("elevation 8 deg as given"));
+  EXPECT_THAT(compare("chamber_hh_vv.csv", {"--reference-elevation-deg", "8", "--reference-frequency-ghz", "6"}).err,
+              HasSubstr("elevation 8 deg as given"));
   EXPECT_EQ(compared().at("exports").size(), 2u);
 }
 
@@ -371,54 +334,11 @@ TEST_F(CompareCommand, ComparesATotalWithTheSumOfBothElements) {
   write_file(path("both VP.csv"),
              "IWavePhi [deg],IWaveTheta [deg],Freq [GHz],MonostaticRCSTheta [],MonostaticRCSPhi "
              "[]\n0,90,10,3,2\n2,90,10,1,5\n");
-  const ProgramResult result = run_program({"compare", path("total VP.csv"), "--against", path("both VP.csv"),
-                                            "--tolerance-db", "1e-6", "-o", path("compared")});
-  EXPECT_EQ(result.code, 0) << result.err;
+  completed({"compare", path("total VP.csv"), "--against", path("both VP.csv"), "--tolerance-db", "1e-6", "-o",
+             path("compared")});
   EXPECT_EQ(compared().at("exports")[0].at("pairs"), 2);
   expect_refused({"compare", path("both VP.csv"), "--against", path("total VP.csv"), "-o", path("compared")},
                  "have no element");
-}
-
-// A folder is all its exports, whose JSON names the geometry: neither a target nor a list of files is needed.
-TEST_F(CompareCommand, TakesAFolderAndTheGeometryThatItsExportsName) {
-  std::filesystem::create_directories(path("exports/geometry"));
-  const std::string dihedral = read_file(std::string(SEAGLINT_SOURCE_DIR "/") + kExports + "dihedral.obj");
-  const std::size_t faces = dihedral.find("f 1");
-  write_file(path("exports/geometry/left.obj"), dihedral.substr(0, faces) + "f 1 2 3 4\n");
-  write_file(path("exports/geometry/right.obj"), dihedral.substr(0, faces) + "f 5 1 4 6\n");
-  const std::vector<std::string> sweep{"--frequency-ghz", "6", "--azimuth-deg", "-20:20:4", "--elevation-deg", "8"};
-  std::vector<std::string> words{"rcs",         "--target", kExports + "dihedral.obj", "-o", path("exports/own.csv"),
-                                 "--export-as", "pyaedt"};
-  words.insert(words.end(), sweep.begin(), sweep.end());
-  ASSERT_EQ(run_program(words).code, 0);
-  std::filesystem::remove(path("exports/own.csv"));
-  for (const char* element : {"HH", "HV", "VH", "VV"}) {
-    const std::string file = path(std::string("exports/own ") + element + ".json");
-    nlohmann::json json = nlohmann::json::parse(read_file(file));
-    json["model_info"] = {{"left", {"left.obj", {143, 175, 143}, 1.0, "meter"}},
-                          {"right", {"right.obj", {143, 0, 0}, 1.0, "meter"}}};
-    write_file(file, json.dump());
-  }
-  write_file(path("exports/notes.txt"), "measured on a Monday\n");
-  const ProgramResult one =
-      run_program({"compare", path("exports/own VV.json"), "--tolerance-db", "0.001", "-o", path("compared")});
-  EXPECT_EQ(one.code, 0) << one.err << one.out;
-  EXPECT_THAT(one.err, HasSubstr("target as the export names it: "));
-  const ProgramResult all = run_program({"compare", path("exports"), "--tolerance-db", "0.001", "-o", path("exports")});
-  EXPECT_EQ(all.code, 0) << all.err << all.out;
-  EXPECT_THAT(all.err, HasSubstr("exports: 4 tables; not read as tables: notes.txt, own HH.h5"));
-  EXPECT_EQ(nlohmann::json::parse(read_file(path("exports/compare.json"))).at("exports").size(), 4u);
-  // Its own results there are no exports.
-  EXPECT_EQ(run_program({"compare", path("exports"), "-o", path("exports")}).code, 0);
-  const ProgramResult parts =
-      run_program({"compare", path("exports"), "--target", path("exports/geometry/left.obj"), "--target",
-                   path("exports/geometry/right.obj"), "--tolerance-db", "0.001", "-o", path("compared")});
-  EXPECT_EQ(parts.code, 0) << parts.err << parts.out;
-  std::filesystem::remove(path("exports/geometry/left.obj"));
-  expect_refused({"compare", path("exports/own VV.json"), "-o", path("compared")},
-                 "own VV.json names no geometry that is beside it");
-  expect_refused({"compare", path("exports/geometry"), "--target", kReflector, "-o", path("compared")},
-                 "no file in this folder is a table");
 }
 
 TEST_F(CompareCommand, FailsBelowItsLimits) {
@@ -443,6 +363,169 @@ TEST_F(CompareCommand, RefusesWhatItCannotCompare) {
                  "have no element, incident wave, direction and frequency in common");
   expect_refused({"compare", "README.md", "--target", kReflector, "-o", out},
                  "not a CST farfield source: no first line '// CST Farfield Source File'");
+}
+
+// `seaglint compare`: settings of other programs, a mesh in another unit, and values that are known.
+
+class CompareSettings : public CompareCommand {
+ protected:
+  ProgramResult compare(const std::string& name, const std::string& target, const Words& more = {}) const {
+    return completed({"compare", path(name), "--target", target, "-o", path("compared")}, more);
+  }
+  nlohmann::json exports() const { return compared()["exports"]; }
+
+  // Rows of a table without its head.
+  static std::string rows(const std::string& file) {
+    std::istringstream lines(read_file(file));
+    std::string all;
+    for (std::string line; std::getline(lines, line);) {
+      if (!line.starts_with("#")) all += line + "\n";
+    }
+    return all;
+  }
+};
+
+TEST_F(CompareSettings, LikeIsTheOptionsOfItsTableAndGivenOnesTakePrecedence) {
+  const auto table = [&](const std::string& name, const Words& more) {
+    completed({"rcs", "--target", kReflector, "--frequency-ghz", "10", "--azimuth-deg", "0:20:5", "-o", path(name)},
+              more);
+    return rows(path(name));
+  };
+  EXPECT_EQ(table("like.csv", {"--like", "hfss"}),
+            table("given.csv", {"--crease-deg", "0", "--edges", "off", "--max-bounces", "3"}));
+  EXPECT_THAT(read_file(path("like.csv")), HasSubstr("max_bounces 3, edges off, crease_deg 0"));
+  EXPECT_THAT(read_file(path("like.csv")), HasSubstr(", like hfss\n"));
+  EXPECT_EQ(table("like.csv", {"--like", "hfss", "--edges", "on", "--max-bounces", "40"}),
+            table("given.csv", {"--crease-deg", "0"}));
+  expect_refused({"rcs", "--target", kReflector, "--frequency-ghz", "10", "--azimuth-deg", "0", "-o", path("x.csv"),
+                  "--like", "xpatch"},
+                 "--like");
+}
+
+TEST_F(CompareSettings, TheTableAndThePageStateTheSettings) {
+  completed({"rcs", "--target", kReflector, "--frequency-ghz", "10", "--azimuth-deg", "0:10:5", "--like", "hfss", "-o",
+             path("other.csv")});
+  const ProgramResult result = compare("other.csv", kReflector, {"--like", "hfss", "--tolerance-db", "0.001"});
+  const std::string settings = "seaglint solved with flat facets, no edge diffraction, at most 3 bounces, method beams";
+  EXPECT_THAT(result.out, HasSubstr(settings + " (--like hfss)"));
+  EXPECT_THAT(read_file(path("compared/compare.html")), HasSubstr(settings));
+  EXPECT_EQ(exports()[0]["solver"]["like"], "hfss");
+  EXPECT_EQ(exports()[0]["solver"]["max_bounces"], 3);
+  EXPECT_TRUE(exports()[0]["trials"].empty());
+  expect_refused(
+      {"compare", path("other.csv"), "--against", path("other.csv"), "--like", "hfss", "-o", path("compared")},
+      "--like is for --target");
+}
+
+// A trihedral of 0.5 m whose file is in mm or in: the levels are those of 500 m until the unit is given.
+TEST_F(CompareSettings, NamesTheUnitOfTheMesh) {
+  completed({"mesh", "make", "trihedral", "--leg-m", "0.5", "-o", path("metres.obj")});
+  completed({"rcs", "--target", path("metres.obj"), "--frequency-ghz", "9.5:10.5:0.5", "--azimuth-deg", "35:55:4",
+             "--elevation-deg", "35", "-o", path("other.csv")});
+  for (const auto& [unit, metres] : {std::pair{"mm", 1e-3}, {"in", 0.0254}, {"ft", 0.3048}}) {
+    SCOPED_TRACE(unit);
+    std::istringstream lines(read_file(path("metres.obj")));
+    std::string scaled;
+    for (std::string line; std::getline(lines, line);) {
+      std::istringstream words(line);
+      std::string kind;
+      double x = 0, y = 0, z = 0;
+      words >> kind >> x >> y >> z;
+      scaled += kind == "v" ? fmt::format("v {:.9g} {:.9g} {:.9g}\n", x / metres, y / metres, z / metres) : line + "\n";
+    }
+    write_file(path("scaled.obj"), scaled);
+    const ProgramResult result = compare("other.csv", path("scaled.obj"));
+    EXPECT_THAT(result.out, HasSubstr(fmt::format("with --unit {} the median difference of 8 views falls from", unit)));
+    EXPECT_THAT(result.out, HasSubstr(fmt::format(" to 0.0 dB: the mesh is in {}, not in m", unit)));
+    EXPECT_EQ(exports()[0]["trials"][0]["option"], fmt::format("--unit {}", unit));
+    EXPECT_TRUE(exports()[0]["known"].is_null()) << "the closed form of a trihedral of the wrong size";
+    EXPECT_THAT(compare("other.csv", path("scaled.obj"), {"--unit", unit}).out, Not(HasSubstr("warning")));
+  }
+}
+
+// A plate far from its normal: edge diffraction is most of its echo, which physical optics alone lacks.
+TEST_F(CompareSettings, SolvesAFewViewsWithTheSettingsOfTheExportsProgram) {
+  completed({"mesh", "make", "plate", "--length-m", "0.3", "--width-m", "0.2", "-o", path("plate.obj")});
+  completed({"rcs", "--target", path("plate.obj"), "--frequency-ghz", "10", "--azimuth-deg", "60:85:0.5", "--edges",
+             "off", "-o", path("other.csv"), "--export-as", "feko"});
+  const ProgramResult result = compare("other_v.ffe", path("plate.obj"));
+  EXPECT_THAT(result.out,
+              HasSubstr("other_v.ffe: warning: with --like feko the median difference of 8 views falls from"));
+  EXPECT_THAT(result.out, HasSubstr(" to 0.0 dB: flat facets"));
+  EXPECT_TRUE(exports()[0]["trials"][0]["helps"].get<bool>());
+  // An export that no setting explains.
+  std::istringstream lines(rows(path("other.csv")));
+  std::string noise = "# transmitter=monostatic\nfrequency_hz,azimuth_deg,elevation_deg,vv_dbsm\n";
+  for (int n = 0; n <= 50; ++n) noise += fmt::format("1e10,{},0,{}\n", 60 + 0.5 * n, -15 + 7 * (n * n % 3));
+  write_file(path("noise.csv"), noise);
+  EXPECT_THAT(compare("noise.csv", path("plate.obj")).out, HasSubstr("dB, not less with --like hfss ("));
+}
+
+// The exact levels of a sphere (independent series, tests/reference/rcs/mie_sphere.csv) less 1.05 dB as the export.
+TEST_F(CompareSettings, StatesTheExactValueOfASphere) {
+  completed({"mesh", "make", "sphere", "--radius-m", "0.3", "-o", path("sphere.obj")});
+  std::istringstream lines(read_file(SEAGLINT_SOURCE_DIR "/tests/reference/rcs/mie_sphere.csv"));
+  std::string csv = "# transmitter=monostatic\nfrequency_hz,azimuth_deg,elevation_deg,vv_dbsm\n", line;
+  std::getline(lines, line);
+  while (std::getline(lines, line)) {
+    double ka = 0, re = 0, im = 0;
+    ASSERT_EQ(std::sscanf(line.c_str(), "%lf,%lf,%lf", &ka, &re, &im), 3);
+    if (ka > 110) continue;
+    csv += fmt::format("{:.9g},0,0,{:.9g}\n", ka * 299792458.0 / (2 * std::numbers::pi * 0.3),
+                       10 * std::log10(4 * std::numbers::pi * 0.09 * (re * re + im * im)) - 1.05);
+  }
+  write_file(path("other.csv"), csv);
+  const ProgramResult result = compare("other.csv", path("sphere.obj"));
+  EXPECT_THAT(result.out, HasSubstr("vv: exact (Mie series) of a sphere of radius 0.3 m, 3 places: export bias -1.05"));
+  EXPECT_THAT(result.out, HasSubstr(": seaglint is closer"));
+  const auto known = exports()[0]["known"];
+  EXPECT_NEAR(known["export_bias_db"].get<double>(), -1.05, 1e-3);
+  EXPECT_LT(std::abs(known["compared_bias_db"].get<double>()), 0.15);  // of the solver, CHANGELOG's table of spheres
+  EXPECT_EQ(known["verdict"], "seaglint is closer");
+  EXPECT_THAT(read_file(path("compared/compare.html")), HasSubstr("Against the known value"));
+  EXPECT_THAT(read_file(path("compared/compare.csv")), HasSubstr("compared_im,known_dbsm\n"));
+  const ProgramResult failed = run_program(
+      {"compare", path("other.csv"), "--target", path("sphere.obj"), "--tolerance-db", "0.5", "-o", path("compared")});
+  EXPECT_EQ(failed.code, 1);
+  EXPECT_THAT(failed.err, HasSubstr("from the known value (exact (Mie series)) the export differs by 1.05 dB rms"));
+}
+
+// The sign of an element means something where both agree in it: hv here has unrelated phases, vv the opposite sign.
+TEST_F(CompareSettings, NamesTheSignOfAnElementOnlyWhereBothAgree) {
+  std::string here =
+      "# transmitter=monostatic\nfrequency_hz,azimuth_deg,elevation_deg,hh_re,hh_im,hv_re,hv_im,vv_re,vv_im\n";
+  std::string other = here;
+  for (int n = 0; n <= 40; ++n) {
+    const double h = n * n, o = 7 * n * n + 3;
+    here += fmt::format("{},0,0,3,0,{},{},2,0\n", 9e9 + 1e7 * n, 1e-2 * std::cos(h), 1e-2 * std::sin(h));
+    other += fmt::format("{},0,0,3,0,{},{},-2,0\n", 9e9 + 1e7 * n, 1e-2 * (std::cos(o) - 0.3 * std::cos(h)),
+                         1e-2 * (std::sin(o) - 0.3 * std::sin(h)));
+  }
+  write_file(path("here.csv"), here);
+  write_file(path("other.csv"), other);
+  const std::string out =
+      completed({"compare", path("other.csv"), "--against", path("here.csv"), "-o", path("compared")}).out;
+  EXPECT_THAT(out, HasSubstr("vv of the export has the opposite sign"));
+  EXPECT_THAT(out, Not(HasSubstr("hv of the export has the opposite sign")));
+}
+
+// hv and vh of two files that differ by 3 dB, as those of a solver with coarse rays; equal ones are not named.
+TEST_F(CompareSettings, NamesCrossPolarLevelsThatViolateReciprocity) {
+  const auto file = [&](const std::string& name, const std::string& column, double level) {
+    std::string csv = "# transmitter=monostatic\nfrequency_hz,azimuth_deg,elevation_deg,hh_dbsm," + column + "\n";
+    for (int n = 0; n < 6; ++n) csv += fmt::format("1e10,{},0,0,{}\n", n, level + n);
+    write_file(path(name), csv);
+  };
+  std::string both = "# transmitter=monostatic\nfrequency_hz,azimuth_deg,elevation_deg,hv_dbsm,vh_dbsm\n";
+  for (int n = 0; n < 6; ++n) both += fmt::format("1e10,{},0,-18,-18\n", n);
+  write_file(path("both.csv"), both);
+  file("hv.csv", "hv_dbsm", -20);
+  file("vh.csv", "vh_dbsm", -17);
+  const Words words{"compare", path("hv.csv"), path("vh.csv"), "--against", path("both.csv"), "-o", path("compared")};
+  EXPECT_THAT(completed(words).out,
+              HasSubstr("vh.csv: warning: hv and vh of the export differ by 3.0 dB (median of 6"));
+  file("hv.csv", "hv_dbsm", -17);
+  EXPECT_THAT(completed(words).out, Not(HasSubstr("reciprocity")));
 }
 
 }  // namespace

@@ -11,11 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "classify/dataset/cards/cards.h"
 #include "classify/dataset/directory/dataset_reader.h"
 #include "sim/core/numbers/random.h"
 #include "sim/core/process/file.h"
-#include "sim/scenario/key_list.h"
+#include "sim/scenario/keys.h"
 #include "tests/temporary_folder.h"
 #include "tools/evaluate/evaluate.h"
 #include "tools/report/report.h"
@@ -294,13 +293,12 @@ class DrawnJob : public testing::Test {
     return overrides;
   }
 
-  // The data set, learning, report, cards and evaluation, and what they state of the keys.
+  // The data set, learning, report and evaluation, and what they state of the keys.
   void do_job(const std::vector<DrawnKey>& keys) {
     const Scenario scenario = read_scenario(folder_.path() / "scenario.yaml", overrides_of(keys));
     const fs::path run = folder_.path() / "run";
     fs::remove_all(run);
     run_scenario(scenario, run, {.resume = false, .threads = 1});
-    write_cards(DatasetReader(run / "data"), {});
     EvaluateRequest request;
     request.model = run / "model";
     request.data_sets = {run / "data"};

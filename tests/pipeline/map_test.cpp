@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `seaglint map` on ideal points.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,21 +15,20 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const std::string kPoints = "scenarios/points.yaml";
+// `seaglint map` on ideal points.
+
 // One approaching point 30 m nearer than the reference point, viewed from ahead.
-const std::vector<std::string> kOnePoint = {
+const Words kOnePoint = {
     "--set", "view={azimuth_deg: 0, elevation_deg: 0}", "--set",
     "targets={line: {label: 1, points: [{position_m: [30, 0, 0], amplitude_m: 2, velocity_mps: [1.5, 0, 0]}]}}"};
 
-std::vector<std::string> map_of(const std::string& output, std::vector<std::string> more = {}) {
-  more.insert(more.begin(), {"map", kPoints, "-o", output});
-  return more;
+std::vector<std::string> map_of(const std::string& output, Words more = {}) {
+  return with({"map", kPoints, "-o", output}, more);
 }
 
 TEST(MapCommand, DrawsTheMapAndListsTheCentre) {
   const TemporaryFolder folder;
-  const ProgramResult result = run_program(map_of(folder.path() / "map.png", kOnePoint));
-  ASSERT_EQ(result.code, 0) << result.err;
+  const ProgramResult result = completed(map_of(folder.path() / "map.png", kOnePoint));
   EXPECT_TRUE(read_file(folder.path() / "map.png").starts_with("\x89PNG"));
   std::istringstream lines(result.out);
   std::string header;
@@ -50,15 +48,11 @@ TEST(MapCommand, EchoAndGenerateWarnOfGapsInTheBand) {
       "seaglint: warning: radar.bandwidth_mhz: 24 MHz between the bands of neighbouring carriers: range sidelobes "
       "every 5.996 m\n";
   const std::vector<std::string> gaps{"--set", "radar.bandwidth_mhz=1"};
-  std::vector<std::string> echo{"echo", kPoints, "-o", folder.path() / "echo.npz"},
-      generate{"generate", kPoints, "-o", folder.path() / "data"};
-  echo.insert(echo.end(), gaps.begin(), gaps.end());
-  generate.insert(generate.end(), gaps.begin(), gaps.end());
-  generate.insert(generate.end(), {"--set", "dataset={maps_per_case: 1, realisations_per_case: 1}"});
-  for (const std::vector<std::string>& words : {map_of(folder.path() / "map.png", gaps), echo, generate}) {
-    const ProgramResult result = run_program(words);
-    EXPECT_EQ(result.code, 0) << words[0] << ": " << result.err;
-    EXPECT_THAT(result.err, HasSubstr(warning)) << words[0];
+  const Words echo = with({"echo", kPoints, "-o", folder.path() / "echo.npz"}, gaps),
+              generate = with(with({"generate", kPoints, "-o", folder.path() / "data"}, gaps),
+                              {"--set", "dataset={maps_per_case: 1, realisations_per_case: 1}"});
+  for (const Words& words : {map_of(folder.path() / "map.png", gaps), echo, generate}) {
+    EXPECT_THAT(completed(words).err, HasSubstr(warning)) << words[0];
   }
   EXPECT_EQ(run_program(map_of(folder.path() / "map.png")).err, "");
 }
@@ -66,13 +60,11 @@ TEST(MapCommand, EchoAndGenerateWarnOfGapsInTheBand) {
 TEST(MapCommand, APointOnAConductingSeaIsFourTimesAsStrong) {
   // On the plane itself all four paths are equal, and rho_v = +1.
   const TemporaryFolder folder;
-  const auto amplitude = [&](std::vector<std::string> more) {
+  const auto amplitude = [&](Words more) {
     const std::vector<std::string> scene = {
         "--set", "view={azimuth_deg: 0, elevation_deg: 2}", "--set",
         "targets={line: {label: 1, points: [{position_m: [30, 0, 0], amplitude_m: 2}]}}"};
-    more.insert(more.begin(), scene.begin(), scene.end());
-    const ProgramResult result = run_program(map_of(folder.path() / "map.png", more));
-    EXPECT_EQ(result.code, 0) << result.err;
+    const ProgramResult result = completed(map_of(folder.path() / "map.png", with(scene, more)));
     std::istringstream lines(result.out);
     std::string header;
     double range_m = 0, velocity_mps = 0, amplitude_m = 0;
@@ -89,48 +81,33 @@ TEST(MapCommand, APointOnAConductingSeaIsFourTimesAsStrong) {
 
 TEST(MapCommand, RefusesASeaReflectionWithoutAnImage) {
   const TemporaryFolder folder;
-  std::vector<std::string> more = kOnePoint;  // at elevation 0
-  more.insert(more.end(), {"--set", "sea_reflection.enabled=true"});
-  const ProgramResult result = run_program(map_of(folder.path() / "map.png", more));
-  EXPECT_EQ(result.code, 2);
-  EXPECT_THAT(result.err, HasSubstr("view.elevation_deg: value '0': must be greater than 0 with sea_reflection"));
+  const Words more = with(kOnePoint, {"--set", "sea_reflection.enabled=true"});  // at elevation 0
+  expect_refused(map_of(folder.path() / "map.png", more),
+                 "view.elevation_deg: value '0': must be greater than 0 with sea_reflection");
 }
 
 TEST(MapCommand, RefusesARadarThatDescendsBelowTheReflectingSea) {
   // 64 ms at 1000 m/s, from 0.2 deg at 10 km.
   const TemporaryFolder folder;
-  std::vector<std::string> more = kOnePoint;
-  more.insert(more.end(), {"--set", "view.elevation_deg=0.2", "--set", "sea_reflection.enabled=true", "--set",
-                           "radar.range_km=10", "--set", "radar.platform.velocity_mps=[0, 0, -1000]"});
-  const ProgramResult result = run_program(map_of(folder.path() / "map.png", more));
-  EXPECT_EQ(result.code, 2);
-  EXPECT_THAT(result.err,
-              HasSubstr("radar.platform.velocity_mps: value -1000 upwards: the radar sinks 64 m in an interval, "
-                        "must be less than its height, 34.91 m, with sea_reflection"));
+  const Words more =
+      with(kOnePoint, {"--set", "view.elevation_deg=0.2", "--set", "sea_reflection.enabled=true", "--set",
+                       "radar.range_km=10", "--set", "radar.platform.velocity_mps=[0, 0, -1000]"});
+  expect_refused(map_of(folder.path() / "map.png", more),
+                 "radar.platform.velocity_mps: value -1000 upwards: the radar sinks 64 m in an interval, "
+                 "must be less than its height, 34.91 m, with sea_reflection");
 }
 
 TEST(MapCommand, WarnsAboutPointsOutsideTheMap) {
   const TemporaryFolder folder;
-  std::vector<std::string> more = kOnePoint;
-  more.insert(more.end(), {"--set", "map.velocity_span_mps=2"});
-  const ProgramResult result = run_program(map_of(folder.path() / "map.svg", more));
-  EXPECT_EQ(result.code, 0);
-  EXPECT_THAT(result.err, HasSubstr("moves at -1.50 to 0.00 m/s, the map shows"));
-}
-
-TEST(MapCommand, RefusesInvalidSamplesAndFiles) {
-  const TemporaryFolder folder;
-  EXPECT_EQ(run_program(map_of(folder.path() / "map.png", {"--sample", "1000000"})).code, 2);
-  EXPECT_EQ(run_program(map_of(folder.path() / "map.jpg")).code, 2);
-  EXPECT_EQ(run_program(map_of(folder.path() / "missing" / "map.png")).code, 1);
-  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+  const Words more = with(kOnePoint, {"--set", "map.velocity_span_mps=2"});
+  EXPECT_THAT(completed(map_of(folder.path() / "map.svg", more)).err,
+              HasSubstr("moves at -1.50 to 0.00 m/s, the map shows"));
 }
 
 // Range, velocity and amplitude of the listed centres.
-std::vector<std::array<double, 3>> cluster_centres(const std::vector<std::string>& more) {
+std::vector<std::array<double, 3>> cluster_centres(const Words& more) {
   const TemporaryFolder folder;
-  const ProgramResult result = run_program(map_of(folder.path() / "map.png", more));
-  EXPECT_EQ(result.code, 0) << result.err;
+  const ProgramResult result = completed(map_of(folder.path() / "map.png", more));
   std::istringstream lines(result.out);
   std::string header;
   std::getline(lines, header);
@@ -196,15 +173,68 @@ TEST(MapCommand, CompanionsOfAShipUnderWayStayInTheWater) {
 }
 
 TEST(MapCommand, PlatformMotionIsVisibleUnlessCompensated) {
-  std::vector<std::string> moving = kOnePoint;
-  moving.insert(moving.end(), {"--set", "radar.platform={velocity_mps: [2.5, 0, 0], motion_compensated: false}",
-                               "--set", "clutter.scr_db=60"});
+  const Words moving = with(
+      kOnePoint,
+      {"--set", "radar.platform={velocity_mps: [2.5, 0, 0], motion_compensated: false}", "--set", "clutter.scr_db=60"});
   const auto detected = cluster_centres(moving);
   ASSERT_GE(detected.size(), 1u);
   EXPECT_NEAR(detected[0][1], -1.5 + 2.5, 0.005);  // the radar ahead recedes
   EXPECT_NEAR(detected[0][0], -30, 0.02);
-  moving.insert(moving.end(), {"--set", "radar.platform.motion_compensated=true"});
-  EXPECT_NEAR(cluster_centres(moving)[0][1], -1.5, 0.005);
+  EXPECT_NEAR(cluster_centres(with(moving, {"--set", "radar.platform.motion_compensated=true"}))[0][1], -1.5, 0.005);
+}
+
+// `seaglint echo`: the samples that NumPy reads are the chirp of the scenario, delayed by the point's range.
+
+// One point of 2 m, 30 m nearer than the reference point, approaching at 1.5 m/s.
+std::vector<std::string> echo_of(const std::string& output, Words more = {}) {
+  return with(
+      {"echo", "scenarios/points.yaml", "-o", output, "--set", "view={azimuth_deg: 0, elevation_deg: 0}", "--set",
+       "targets={line: {label: 1, points: [{position_m: [30, 0, 0], amplitude_m: 2, velocity_mps: [1.5, 0, 0]}]}}"},
+      more);
+}
+
+TEST(EchoCommand, WritesSamplesThatNumpyCompressesToThePoint) {
+  const TemporaryFolder folder;
+  const std::string file = folder.path() / "echo.npz";
+  EXPECT_THAT(completed(echo_of(file)).out, HasSubstr("256 pulses of"));
+  if (run_words({kPython, "-c", "import numpy"}).code != 0) GTEST_SKIP() << "needs the package python3-numpy";
+  // Correlates pulses with the ideal chirp, delayed, and removes the carrier's phase of the point's range.
+  const ProgramResult read = completed(run_words({kPython, "-c", R"(
+import sys, numpy as np
+a = np.load(sys.argv[1])
+c, mu, width = 299792458.0, 25e6 / 36e-6, 36e-6
+t = a['time_s']
+def correlation(n, r):
+    u = t - 2 * r / c
+    return np.vdot(np.where(abs(u) < width / 2, np.exp(1j * np.pi * mu * u * u), 0), a['target'][n]) / (width * 50e6)
+ranges = np.arange(-60, 60, 0.25)
+best = ranges[np.argmax([abs(correlation(0, r)) for r in ranges])]
+assert abs(best + 30) <= 0.5, best
+for n in (0, 100, 255):
+    r = -30 - 1.5 * a['pulse_time_s'][n]
+    z = correlation(n, r) * np.exp(4j * np.pi * a['carrier_hz'][n] * r / c)
+    assert abs(z - 2) < 0.04, z   # the ideal chirp has a few percent of its energy beyond the band
+assert a['clutter'].shape == a['noise'].shape == a['target'].shape
+print('point found')
+)",
+                                                  file}));
+  EXPECT_EQ(read.out, "point found\n");
+}
+
+TEST(EchoCommand, RefusesSamplesThatDoNotExist) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(run_program(map_of(folder.path() / "map.png", {"--sample", "1000000"})).code, 2);
+  expect_refused(echo_of(folder.path() / "echo.npz", {"--sample", "1000000"}),
+                 "--sample 1000000: the scenario has samples 0 to");
+}
+
+TEST(EchoCommand, RefusesMoreSamplesThanFitIntoMemory) {
+  const TemporaryFolder folder;
+  const std::string file = folder.path() / "echo.npz";
+  expect_refused(echo_of(file, {"--set", "radar.pulses=65536", "--set", "radar.sampling_mhz=1000"}),
+                 "--set radar.pulses: value 65536: with 38280 samples of each pulse at most 3506 "
+                 "pulses make an echo");
+  EXPECT_FALSE(std::filesystem::exists(file));
 }
 
 }  // namespace

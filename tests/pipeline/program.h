@@ -4,14 +4,18 @@
 // Runs the program as a user does.
 
 #include <fcntl.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
+#include <map>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -73,11 +77,70 @@ inline ProgramResult run_words(std::vector<std::string> words) {
   return result;
 }
 
-// `seaglint arguments...`
-inline ProgramResult run_program(const std::vector<std::string>& arguments) {
-  std::vector<std::string> words{kProgram};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  return run_words(std::move(words));
+inline const std::string kPoints = "scenarios/points.yaml";
+
+using Words = std::vector<std::string>;
+
+inline Words with(Words words, const Words& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+// `seaglint arguments... more...`
+inline ProgramResult run_program(const Words& arguments, const Words& more = {}) {
+  return run_words(with(with({kProgram}, arguments), more));
+}
+
+// A run that must have ended with exit code 0.
+inline ProgramResult completed(ProgramResult result) {
+  EXPECT_EQ(result.code, 0) << result.err << result.out;
+  return result;
+}
+
+inline ProgramResult completed(const Words& arguments, const Words& more = {}) {
+  SCOPED_TRACE(testing::PrintToString(arguments));
+  return completed(run_program(arguments, more));
+}
+
+// Lines of the error output that are complaints: neither warnings nor what the program says about its input.
+inline int complaints_in(const std::string& err) {
+  std::istringstream lines(err);
+  int count = 0;
+  for (std::string line; std::getline(lines, line);)
+    count += line.starts_with("seaglint: ") && !line.starts_with("seaglint: warning: ");
+  return count;
+}
+
+// Exit code 2, and one complaint of one line, which contains `sentence`.
+inline void expect_refused(const ProgramResult& result, const std::string& sentence) {
+  EXPECT_EQ(result.code, 2) << result.out;
+  EXPECT_THAT(result.err, testing::HasSubstr(sentence));
+  EXPECT_EQ(complaints_in(result.err), 1) << result.err;
+}
+
+inline void expect_refused(const Words& arguments, const std::string& sentence) {
+  SCOPED_TRACE(testing::PrintToString(arguments));
+  expect_refused(run_program(arguments), sentence);
+}
+
+// Contents of the files of a folder, by name.
+inline std::map<std::string, std::string> bytes_of(const std::filesystem::path& directory) {
+  std::map<std::string, std::string> bytes;
+  for (const auto& entry : std::filesystem::directory_iterator(directory))
+    bytes[entry.path().filename()] = read_file(entry.path());
+  return bytes;
+}
+
+// Names of the files that differ or are missing on one side.
+inline Words differences(const std::map<std::string, std::string>& a, const std::map<std::string, std::string>& b) {
+  Words names;
+  for (const auto& [name, bytes] : a) {
+    if (!b.contains(name) || b.at(name) != bytes) names.push_back(name);
+  }
+  for (const auto& [name, bytes] : b) {
+    if (!a.contains(name)) names.push_back(name);
+  }
+  return names;
 }
 
 }  // namespace seaglint

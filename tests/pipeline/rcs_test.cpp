@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `seaglint rcs`: its table, and a plate against the closed form.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,10 +6,12 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/real_functions.h"
 #include "sim/core/numbers/rotation.h"
 #include "sim/core/process/file.h"
 #include "sim/geometry/files/mesh_io.h"
@@ -20,13 +21,14 @@
 namespace seaglint {
 namespace {
 
+using RcsTarget = RcsCommand;
 using testing::HasSubstr;
 using testing::Not;
 
+// `seaglint rcs`: its table, and a plate against the closed form.
+
 TEST_F(RcsCommand, WritesTheHeaderAndFrequencySlowestThenElevationThenAzimuth) {
-  const ProgramResult result =
-      rcs({"--frequency-ghz", "9:10:0.5", "--azimuth-deg", "-1:1:1", "--elevation-deg", "0:2:2"});
-  ASSERT_EQ(result.code, 0) << result.err;
+  completed(rcs({"--frequency-ghz", "9:10:0.5", "--azimuth-deg", "-1:1:1", "--elevation-deg", "0:2:2"}));
   const CsvTable read = read_table(table());
   EXPECT_EQ(read.header,
             "frequency_hz,azimuth_deg,elevation_deg,hh_re,hh_im,hv_re,hv_im,vh_re,vh_im,vv_re,vv_im,hh_dbsm,vv_dbsm");
@@ -46,7 +48,7 @@ TEST_F(RcsCommand, WritesTheHeaderAndFrequencySlowestThenElevationThenAzimuth) {
 }
 
 TEST_F(RcsCommand, DecibelsAreThoseOfTheAmplitudes) {
-  ASSERT_EQ(rcs({"--frequency-ghz", "10", "--azimuth-deg", "0:3:0.5"}).code, 0);
+  completed(rcs({"--frequency-ghz", "10", "--azimuth-deg", "0:3:0.5"}));
   for (const auto& cells : read_table(table()).rows) {
     // Four digits are printed after the point.
     EXPECT_NEAR(cells[11], 10 * std::log10(4 * kPi * std::norm(std::complex(cells[3], cells[4]))), 1e-4);
@@ -66,22 +68,17 @@ TEST_F(RcsCommand, APlateOfAnotherUnitOrientationAndOriginHasTheSameMatrices) {
   write_mesh(drawn, mesh);
   const std::vector<std::string> placement{"--unit", "mm", "--forward",  "-y",
                                            "--up",   "+x", "--offset-m", "0,0.5,-0.25"};
-  const auto solved = [&](const std::string& target, const std::vector<std::string>& more) {
-    std::vector<std::string> words{
-        "rcs", "--target", target, "--frequency-ghz", "9:10:0.5", "--azimuth-deg", "-20:20:5", "--elevation-deg",
-        "5",   "-o",       table()};
-    words.insert(words.end(), more.begin(), more.end());
-    const ProgramResult result = run_program(words);
-    EXPECT_EQ(result.code, 0) << result.err;
+  const auto solved = [&](const std::string& target, const Words& more) {
+    completed({"rcs", "--target", target, "--frequency-ghz", "9:10:0.5", "--azimuth-deg", "-20:20:5", "--elevation-deg",
+               "5", "-o", table()},
+              more);
     return read_table(table()).rows;
   };
   const auto expected = solved(plate(), {}), turned = solved(drawn, placement);
   EXPECT_THAT(read_file(table()), HasSubstr("drawn.obj unit mm forward -y up +x offset_m 0,0.5,-0.25: "));
   std::vector<std::string> convert{"mesh", "convert", drawn, "-o", converted};
   convert.insert(convert.end(), placement.begin(), placement.end());
-  const ProgramResult written = run_program(convert);
-  ASSERT_EQ(written.code, 0) << written.err;
-  EXPECT_THAT(written.out, HasSubstr("size       "));
+  EXPECT_THAT(completed(convert).out, HasSubstr("size       "));
   for (const auto& rows : {turned, solved(converted, {})}) {
     ASSERT_EQ(rows.size(), expected.size());
     for (std::size_t row = 0; row < rows.size(); ++row) {
@@ -92,14 +89,12 @@ TEST_F(RcsCommand, APlateOfAnotherUnitOrientationAndOriginHasTheSameMatrices) {
 }
 
 TEST_F(RcsCommand, RefusesAxesThatAreNoFrame) {
-  const ProgramResult parallel = rcs({"--frequency-ghz", "10", "--azimuth-deg", "0", "--forward", "+z", "--up", "-z"});
-  EXPECT_EQ(parallel.code, 2);
-  EXPECT_THAT(parallel.err, HasSubstr("forward +z and up -z: must be perpendicular to each other"));
+  expect_refused(rcs({"--frequency-ghz", "10", "--azimuth-deg", "0", "--forward", "+z", "--up", "-z"}),
+                 "forward +z and up -z: must be perpendicular to each other");
   EXPECT_EQ(rcs({"--frequency-ghz", "10", "--azimuth-deg", "0", "--forward", "x"}).code, 2);
   for (const std::string offset : {"1,2", "1,2,nan", "1,2,3,4", "a,b,c"}) {
-    const ProgramResult refused = rcs({"--frequency-ghz", "10", "--azimuth-deg", "0", "--offset-m", offset});
-    EXPECT_EQ(refused.code, 2);
-    EXPECT_THAT(refused.err, HasSubstr("--offset-m: value " + offset + ": must be three numbers X,Y,Z"));
+    expect_refused(rcs({"--frequency-ghz", "10", "--azimuth-deg", "0", "--offset-m", offset}),
+                   "--offset-m: value " + offset + ": must be three numbers X,Y,Z");
   }
   EXPECT_EQ(run_program({"mesh", "convert", plate(), "-o", plate()}).code, 2);
 }
@@ -107,7 +102,7 @@ TEST_F(RcsCommand, RefusesAxesThatAreNoFrame) {
 // Physical optics of a flat plate of area A at normal incidence: S = -j A / lambda in e^{+jwt}, so sigma = 4 pi A^2 /
 // lambda^2.
 TEST_F(RcsCommand, APlateAtNormalIncidenceHasItsClosedForm) {
-  ASSERT_EQ(rcs({"--frequency-ghz", "8:16:4", "--azimuth-deg", "0", "--elevation-deg", "0"}).code, 0);
+  completed(rcs({"--frequency-ghz", "8:16:4", "--azimuth-deg", "0", "--elevation-deg", "0"}));
   const CsvTable read = read_table(table());
   ASSERT_EQ(read.rows.size(), 3u);
   for (const auto& cells : read.rows) {
@@ -123,7 +118,7 @@ TEST_F(RcsCommand, APlateAtNormalIncidenceHasItsClosedForm) {
 TEST_F(RcsCommand, WritesTheSameBytesForOneAndTwoThreads) {
   std::string first;
   for (const char* threads : {"1", "2"}) {
-    ASSERT_EQ(rcs({"--frequency-ghz", "9:10:0.1", "--azimuth-deg", "-30:30:5", "--threads", threads}).code, 0);
+    completed(rcs({"--frequency-ghz", "9:10:0.1", "--azimuth-deg", "-30:30:5", "--threads", threads}));
     const std::string bytes = read_file(table());
     if (first.empty()) first = bytes;
     EXPECT_EQ(bytes, first);
@@ -132,13 +127,11 @@ TEST_F(RcsCommand, WritesTheSameBytesForOneAndTwoThreads) {
 
 TEST_F(RcsCommand, EqualsItsOwnTableAndDrawsIt) {
   const std::vector<std::string> sweep{"--frequency-ghz", "10", "--azimuth-deg", "-30:30:1"};
-  ASSERT_EQ(rcs(sweep).code, 0);
+  completed(rcs(sweep));
   const std::string reference = folder_.path() / "reference.csv";
   std::filesystem::copy_file(table(), reference);
-  std::vector<std::string> words = sweep;
-  words.insert(words.end(), {"--reference", reference, "--reference-polarisation", "vv", "--floor-db", "40"});
-  const ProgramResult result = rcs(words);
-  ASSERT_EQ(result.code, 0) << result.err;
+  const ProgramResult result =
+      completed(rcs(with(sweep, {"--reference", reference, "--reference-polarisation", "vv", "--floor-db", "40"})));
   EXPECT_THAT(result.out, HasSubstr("both clipped at 40 dB"));
   // 61 directions, no difference, full correlation without a phase rotation.
   EXPECT_THAT(
@@ -153,9 +146,8 @@ TEST_F(RcsCommand, EqualsItsOwnTableAndDrawsIt) {
 // The curves of the comparison's figure are the levels of the table, and their differences from the reference.
 TEST_F(RcsCommand, CurvesAreThoseOfTheTable) {
   const std::string curves = folder_.path() / "curves.json";
-  const ProgramResult result = rcs({"--frequency-ghz", "10.24", "--azimuth-deg", "0:2:0.5", "--reference",
-                                    "tests/reference/rcs/austin/ref_rcs.II.B.sx1.f11.V.txt", "--curves", curves});
-  ASSERT_EQ(result.code, 0) << result.err;
+  completed(rcs({"--frequency-ghz", "10.24", "--azimuth-deg", "0:2:0.5", "--reference",
+                 "tests/reference/rcs/austin/ref_rcs.II.B.sx1.f11.V.txt", "--curves", curves}));
   const auto json = nlohmann::json::parse(read_file(curves));
   ASSERT_EQ(json.at("panels").size(), 2u);  // levels, differences
   const CsvTable read = read_table(table());
@@ -173,13 +165,11 @@ TEST_F(RcsCommand, CurvesAreThoseOfTheTable) {
 // diffraction, 1/(k L) = 2 % of the peak at 0.15 m and 10.24 GHz or 0.2 dB, and the difference between the measured and
 // the computed reference there (0.4 dB).
 TEST_F(RcsCommand, MatchesTheMeasuredPlateNearItsNormal) {
-  ASSERT_EQ(run_program({"mesh", "make", "plate", "--length-m", "0.2667", "--width-m", "0.1524", "-o", plate()}).code,
-            0);
+  completed({"mesh", "make", "plate", "--length-m", "0.2667", "--width-m", "0.1524", "-o", plate()});
   const std::string folder = "tests/reference/rcs/austin/";
   const ProgramResult result =
-      rcs({"--frequency-ghz", "10.24", "--azimuth-deg", "0:2:0.5", "--reference",
-           folder + "meas.m1_rcs.II.B.sx1.f11.H.txt", "--reference", folder + "ref_rcs.II.B.sx1.f11.V.txt"});
-  ASSERT_EQ(result.code, 0) << result.err;
+      completed(rcs({"--frequency-ghz", "10.24", "--azimuth-deg", "0:2:0.5", "--reference",
+                     folder + "meas.m1_rcs.II.B.sx1.f11.H.txt", "--reference", folder + "ref_rcs.II.B.sx1.f11.V.txt"}));
   std::istringstream lines(result.out);
   int found = 0;
   for (std::string line; std::getline(lines, line);) {
@@ -196,12 +186,11 @@ TEST_F(RcsCommand, MatchesTheMeasuredPlateNearItsNormal) {
 }
 
 TEST_F(RcsCommand, RefusesAReferenceThatDoesNotFitBeforeAnyWork) {
-  const auto refused = [&](std::vector<std::string> more, const std::string& message) {
-    more.insert(more.begin(), {"--frequency-ghz", "10", "--azimuth-deg", "0:2:0.5", "--reference",
-                               "tests/reference/rcs/austin/ref_rcs.II.B.sx1.f11.H.txt"});
-    const ProgramResult result = rcs(more);
-    EXPECT_EQ(result.code, 2) << result.err;
-    EXPECT_THAT(result.err, HasSubstr(message));
+  const auto refused = [&](Words more, const std::string& message) {
+    expect_refused(rcs(with({"--frequency-ghz", "10", "--azimuth-deg", "0:2:0.5", "--reference",
+                             "tests/reference/rcs/austin/ref_rcs.II.B.sx1.f11.H.txt"},
+                            more)),
+                   message);
     EXPECT_FALSE(std::filesystem::exists(table()));
   };
   refused({}, "no direction in common with the sweep; the file has 10.24 GHz");
@@ -215,14 +204,13 @@ TEST_F(RcsCommand, RefusesAReferenceThatDoesNotFitBeforeAnyWork) {
 
 TEST_F(RcsCommand, ExportsSelectedCentresAndHotSpotsOfOneAspect) {
   const std::string centres = folder_.path() / "centres.csv", spots = folder_.path() / "spots.glb";
-  const auto reflector = [&](std::vector<std::string> more) {
-    more.insert(more.begin(), {"rcs", "--target", "assets/icosahedral_reflector.glb", "-o", table(), "--frequency-ghz",
-                               "16", "--azimuth-deg", "0"});
-    return run_program(more);
+  const auto reflector = [&](Words more) {
+    return run_program({"rcs", "--target", "assets/icosahedral_reflector.glb", "-o", table(), "--frequency-ghz", "16",
+                        "--azimuth-deg", "0"},
+                       more);
   };
-  const ProgramResult result = reflector(
-      {"--export-scattering-centres", centres, "--export-hot-spots", spots, "--export-dynamic-range-db", "40"});
-  ASSERT_EQ(result.code, 0) << result.err;
+  completed(reflector(
+      {"--export-scattering-centres", centres, "--export-hot-spots", spots, "--export-dynamic-range-db", "40"}));
   std::istringstream lines(read_file(centres));
   std::string line;
   while (std::getline(lines, line) && line.starts_with("#")) continue;
@@ -240,28 +228,26 @@ TEST_F(RcsCommand, ExportsSelectedCentresAndHotSpotsOfOneAspect) {
     return std::complex<double>(cells[9], cells[10]);
   };
   const std::complex<double> all = vv();
-  ASSERT_EQ(reflector({"--only", "part=cell_01", "--only", "bounces=3"}).code, 0);
+  completed(reflector({"--only", "part=cell_01", "--only", "bounces=3"}));
   const std::complex<double> one = vv();
-  ASSERT_EQ(reflector({"--without", "part=cell_01"}).code, 0);
+  completed(reflector({"--without", "part=cell_01"}));
   const std::complex<double> rest = vv();
-  ASSERT_EQ(reflector({"--only", "part=cell_01", "--without", "bounces=3"}).code, 0);
+  completed(reflector({"--only", "part=cell_01", "--without", "bounces=3"}));
   EXPECT_LT(std::abs(one + rest + vv() - all), 1e-7 * std::abs(all)) << "nine printed digits";
-  ASSERT_EQ(reflector({"--only", "mechanism=edge"}).code, 0);
+  completed(reflector({"--only", "mechanism=edge"}));
   const std::complex<double> edges = vv();
   EXPECT_GT(std::abs(edges), 1e-4 * std::abs(all));
-  ASSERT_EQ(reflector({"--without", "mechanism=edge"}).code, 0);
+  completed(reflector({"--without", "mechanism=edge"}));
   EXPECT_LT(std::abs(edges + vv() - all), 1e-7 * std::abs(all)) << "nine printed digits";
   std::complex<double> sum = 0;
   for (const char* mechanism : {"single", "multiple", "reflected_edge", "shadow_boundary", "penumbra", "concave"}) {
-    ASSERT_EQ(reflector({"--only", std::string("mechanism=") + mechanism}).code, 0);
+    completed(reflector({"--only", std::string("mechanism=") + mechanism}));
     sum += vv();
   }
   EXPECT_LT(std::abs(sum - edges), 1e-6 * std::abs(edges)) << "nine printed digits";
 
-  const auto refused = [&](std::vector<std::string> more, const std::string& message) {
-    const ProgramResult invalid = reflector(std::move(more));
-    EXPECT_EQ(invalid.code, 2);
-    EXPECT_THAT(invalid.err, HasSubstr(message));
+  const auto refused = [&](Words more, const std::string& message) {
+    expect_refused(reflector(std::move(more)), message);
   };
   refused({"--only", "part=cell_1"}, "did you mean 'cell_01'?");
   refused({"--only", "bounces=0"}, "bounces must be 1, 2, ... 200");
@@ -282,11 +268,9 @@ TEST_F(RcsCommand, ExportsSelectedCentresAndHotSpotsOfOneAspect) {
 }
 
 TEST_F(RcsCommand, SweepsAReceiverAboutAFixedTransmitter) {
-  ASSERT_EQ(run_program({"mesh", "make", "plate", "--length-m", "0.3", "--width-m", "0.2", "-o", plate()}).code, 0);
-  ASSERT_EQ(
-      rcs({"--frequency-ghz", "10", "--azimuth-deg", "-40:40:20", "--transmit-azimuth-deg", "20", "--edges", "off"})
-          .code,
-      0);
+  completed({"mesh", "make", "plate", "--length-m", "0.3", "--width-m", "0.2", "-o", plate()});
+  completed(
+      rcs({"--frequency-ghz", "10", "--azimuth-deg", "-40:40:20", "--transmit-azimuth-deg", "20", "--edges", "off"}));
   const auto rows = read_table(table()).rows;
   ASSERT_EQ(rows.size(), 5u);
   // The whole plate is in phase in the specular direction: 4 pi (A cos(20 deg) / lambda)^2.
@@ -294,30 +278,25 @@ TEST_F(RcsCommand, SweepsAReceiverAboutAFixedTransmitter) {
   EXPECT_NEAR(rows[1].back(), 10 * std::log10(4 * kPi * area * area / (lambda * lambda)), 1e-3);
   for (const std::size_t other : {0u, 2u, 4u}) EXPECT_LT(rows[other].back(), rows[1].back() - 10);
   // The reciprocal path has the same echo.
-  ASSERT_EQ(
-      rcs({"--frequency-ghz", "10", "--azimuth-deg", "20", "--transmit-azimuth-deg", "20", "--edges", "off"}).code, 0);
+  completed(rcs({"--frequency-ghz", "10", "--azimuth-deg", "20", "--transmit-azimuth-deg", "20", "--edges", "off"}));
   const double there = read_table(table()).rows.at(0).back();
-  ASSERT_EQ(rcs({"--frequency-ghz", "10", "--azimuth-deg", "20", "--edges", "off"}).code, 0);
+  completed(rcs({"--frequency-ghz", "10", "--azimuth-deg", "20", "--edges", "off"}));
   EXPECT_NEAR(read_table(table()).rows.at(0).back(), there, 1e-3);
   // The table states the direction of its transmitter, and is not compared with tables of other transmitters.
   const std::string own = folder_.path() / "own.csv";
-  const auto against = [&](std::vector<std::string> more) {
-    more.insert(more.begin(), {"rcs", "--target", plate(), "-o", table(), "--frequency-ghz", "10", "--azimuth-deg",
-                               "-40:40:20", "--reference", own, "--reference-polarisation", "vv"});
-    return run_program(more);
+  const auto against = [&](Words more) {
+    return run_program({"rcs", "--target", plate(), "-o", table(), "--frequency-ghz", "10", "--azimuth-deg",
+                        "-40:40:20", "--reference", own, "--reference-polarisation", "vv"},
+                       more);
   };
   std::filesystem::remove(table());
-  ASSERT_EQ(run_program({"rcs", "--target", plate(), "-o", own, "--frequency-ghz", "10", "--azimuth-deg", "-40:40:20",
-                         "--transmit-azimuth-deg", "20"})
-                .code,
-            0);
-  for (const auto& other : {std::vector<std::string>{}, {"--transmit-azimuth-deg", "21"}}) {
-    const ProgramResult compared = against(other);
-    EXPECT_EQ(compared.code, 2);
-    EXPECT_THAT(compared.err, HasSubstr("own.csv: its transmitter is at azimuth 20 deg, elevation 0 deg, the sweep"));
+  completed({"rcs", "--target", plate(), "-o", own, "--frequency-ghz", "10", "--azimuth-deg", "-40:40:20",
+             "--transmit-azimuth-deg", "20"});
+  for (const auto& other : {Words{}, {"--transmit-azimuth-deg", "21"}}) {
+    expect_refused(against(other), "own.csv: its transmitter is at azimuth 20 deg, elevation 0 deg, the sweep");
     EXPECT_FALSE(std::filesystem::exists(table()));
   }
-  EXPECT_EQ(against({"--transmit-azimuth-deg", "20"}).code, 0);
+  completed(against({"--transmit-azimuth-deg", "20"}));
   const auto warned = [&](const char* azimuth) {
     return rcs({"--frequency-ghz", "10", "--azimuth-deg", azimuth, "--transmit-azimuth-deg", "20"}).err;
   };
@@ -326,18 +305,16 @@ TEST_F(RcsCommand, SweepsAReceiverAboutAFixedTransmitter) {
 }
 
 TEST_F(RcsCommand, HasAWavefrontCurvatureAtShortRange) {
-  ASSERT_EQ(run_program({"mesh", "make", "plate", "--length-m", "2", "--width-m", "0.2", "-o", plate()}).code, 0);
+  completed({"mesh", "make", "plate", "--length-m", "2", "--width-m", "0.2", "-o", plate()});
   const auto level = [&](const std::string& range_m) {
-    EXPECT_EQ(
-        rcs({"--frequency-ghz", "10", "--azimuth-deg", "0", "--edges", "off", "--wavefront-range-m", range_m}).code, 0);
+    completed(rcs({"--frequency-ghz", "10", "--azimuth-deg", "0", "--edges", "off", "--wavefront-range-m", range_m}));
     return read_table(table()).rows.at(0).back();
   };
   // 2 L^2 / lambda = 267 m: far beyond it the echo does not change, at 30 m the phase of the ends differs by 14 rad.
   EXPECT_NEAR(level("100000"), level("0"), 0.01);
   EXPECT_LT(level("30"), level("0") - 6);
-  const ProgramResult inside = rcs({"--frequency-ghz", "10", "--azimuth-deg", "0", "--wavefront-range-m", "0.5"});
-  EXPECT_EQ(inside.code, 2);
-  EXPECT_THAT(inside.err, HasSubstr("wavefront range 0.5 m: must be at least ten times the target radius"));
+  expect_refused(rcs({"--frequency-ghz", "10", "--azimuth-deg", "0", "--wavefront-range-m", "0.5"}),
+                 "wavefront range 0.5 m: must be at least ten times the target radius");
 }
 
 // A leaning strip has no rotational symmetry: at the zenith its matrix rotates with the azimuth as it does just below.
@@ -345,9 +322,7 @@ TEST_F(RcsCommand, KeepsItsBasisThroughTheZenith) {
   const Mat3 leaning = axis_rotation(0.15, Vec3::UnitX()) * axis_rotation(kPi / 2 - 0.02, Vec3::UnitY());
   write_mesh(plate(), transformed(make_plate(0.04, 0.3), leaning, Vec3::Zero()));
   for (const char* azimuth : {"0", "60", "-110"}) {
-    const ProgramResult result =
-        rcs({"--frequency-ghz", "10", "--azimuth-deg", azimuth, "--elevation-deg", "89.999:90:0.001"});
-    ASSERT_EQ(result.code, 0) << result.err;
+    completed(rcs({"--frequency-ghz", "10", "--azimuth-deg", azimuth, "--elevation-deg", "89.999:90:0.001"}));
     const auto rows = read_table(table()).rows;
     ASSERT_EQ(rows.size(), 2u);
     // 1e-3 deg change the phase at the strip's ends by 2 k 0.15 m 1.7e-5 rad.
@@ -360,7 +335,7 @@ TEST_F(RcsCommand, KeepsItsBasisThroughTheZenith) {
 }
 
 TEST_F(RcsCommand, RefusesInvalidEdgesAndRanges) {
-  const auto refused = [&](std::vector<std::string> arguments, const std::string& message) {
+  const auto refused = [&](Words arguments, const std::string& message) {
     const ProgramResult result = rcs(std::move(arguments));
     EXPECT_EQ(result.code, 2) << result.err;
     EXPECT_THAT(result.err, testing::StartsWith("seaglint: "));
@@ -381,6 +356,179 @@ TEST_F(RcsCommand, RefusesInvalidEdgesAndRanges) {
            "--sea-reflection", "--origin-height-m", "5"},
           "are monostatic");
   refused({"--frequency-ghz", "10", "--azimuth-deg", "0", "--wavefront-range-m", "-1"}, "--wavefront-range-m");
+}
+
+// `seaglint rcs`: warnings about its target, the target's materials, and the sea below it.
+
+// A reflector inside out with a mesh with a hole next to it: the first is repaired, the interior of the second is
+// visible; both are reported in one line each.
+TEST_F(RcsTarget, WarnsOfDefectsOfAMeshAndContinues) {
+  TriangleMesh mesh = make_icosahedral_reflector();
+  for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+  TriangleMesh holed = transformed(make_sphere(0.3, 2), Mat3::Identity(), Vec3(0, 3, 0));
+  holed.triangles[0] = holed.triangles[1];
+  mesh.append(holed);
+  write_mesh(plate(), mesh);
+  const ProgramResult result = completed(rcs({"--frequency-ghz", "0.1:10:9.9", "--azimuth-deg", "0"}));
+  EXPECT_THAT(result.err,
+              testing::StartsWith("seaglint: warning: 1 triangle repeats another: removed\n"
+                                  "seaglint: warning: 1 closed surface is inside out (60 triangles): turned outwards\n"
+                                  "seaglint: warning: 3 open edges; 1 of 2 surfaces are open"));
+  EXPECT_THAT(result.err, HasSubstr("wavelengths at 0.1 GHz; physical optics needs 3 and more"));
+}
+
+TEST_F(RcsTarget, RefusesMeshesWithoutAnythingThatScatters) {
+  const std::string file = folder_.path() / "bad.obj";
+  const auto refused = [&](const std::string& text, const std::string& message) {
+    write_file(file, text);
+    expect_refused({"rcs", "--target", file, "-o", table(), "--frequency-ghz", "10", "--azimuth-deg", "0"}, message);
+    EXPECT_FALSE(std::filesystem::exists(table()));
+  };
+  refused("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "no triangle has an area: nothing scatters");
+  refused("v 0 0 0\nv 1 0 0\nv 0 nan 1\nf 1 2 3\n", "bad.obj");
+  refused("v 0 0 0\nv 1 0 0\nv 0 1 1\n", "contains no triangles");
+  refused("v 9000 0 0\nv 9000 1 0\nv 9000 0 1\nf 1 2 3\n", "from the origin");
+}
+
+TEST_F(RcsTarget, IncludesTheThicknessOfSheets) {
+  completed({"mesh", "make", "plate", "--length-m", "0.3", "--width-m", "0.2", "-o", plate()});
+  const auto level = [&](const char* thickness_mm, const char* edges, const char* warning) {
+    EXPECT_THAT(completed(rcs({"--frequency-ghz", "10", "--azimuth-deg", "50", "--sheet-thickness-mm", thickness_mm,
+                               "--edges", edges}))
+                    .err,
+                HasSubstr(warning));
+    return read_table(table()).rows.at(0).back();
+  };
+  const double thin = level("0", "on", ""), thick = level("1.6", "on", "");
+  EXPECT_GT(std::abs(thick - thin), 0.3);
+  EXPECT_THAT(read_file(table()), HasSubstr("sheet_thickness_mm 1.6"));
+  EXPECT_DOUBLE_EQ(level("1.6", "off", "sheet thickness of 1.6 mm has no effect: edges are off"),
+                   level("0", "off", ""));
+  level("4", "on", "sheets of 4 mm are 0.13 wavelengths thick at 10 GHz");
+  EXPECT_EQ(rcs({"--frequency-ghz", "10", "--azimuth-deg", "50", "--sheet-thickness-mm", "-1"}).code, 2);
+}
+
+TEST_F(RcsTarget, ACoatedPlateDropsByItsMaterial) {
+  // Aluminium's surface resistance is 1e-4 of free space's: no measurable loss. The coating's |Gamma| is that of its
+  // quarter-wave layer, about -11 dB at 16 GHz.
+  const std::string library = SEAGLINT_SOURCE_DIR "/assets/materials/";
+  const auto square = [&](const std::string& material) {
+    completed(rcs({"--frequency-ghz", "16", "--azimuth-deg", "0", "--material", material}));
+    return read_table(table()).rows.at(0).at(12);
+  };
+  const double metal = square("pec");
+  EXPECT_NEAR(square(library + "aluminium.yaml"), metal, 0.01);
+  EXPECT_NEAR(square(library + "ram_loaded_epoxy.yaml"), metal - 11.1, 0.5);
+  EXPECT_NEAR(square("*=" + library + "ram_loaded_epoxy.yaml"), metal - 11.1, 0.5);
+}
+
+TEST_F(RcsTarget, RefusesUnknownMaterials) {
+  const std::string library = SEAGLINT_SOURCE_DIR "/assets/materials/";
+  const auto refused = [&](const std::string& ghz, const std::string& material) {
+    const ProgramResult done = rcs({"--frequency-ghz", ghz, "--azimuth-deg", "0", "--material", material});
+    EXPECT_EQ(done.code, 2);
+    return done.err;
+  };
+  EXPECT_THAT(refused("16", "unobtainium"), HasSubstr("--material unobtainium: value 'unobtainium': no such material"));
+  EXPECT_THAT(refused("16", "mast=pec"), HasSubstr("part 'mast': the mesh has no such part"));
+  EXPECT_THAT(refused("36", library + "grp_sheet.yaml"), HasSubstr("its source covers 1 to 20 GHz"));
+}
+
+TEST_F(RcsTarget, APlateOnAConductingSeaIsADihedral) {
+  // kWidthM high, its centre half of that above the water: image theory gives 2 A cos(el) / lambda, plus or minus the
+  // direct lobe of the doubled plate, which is a sine over k kWidthM sin(el) = 50 at 30 deg, for two paths.
+  completed(rcs({"--frequency-ghz", "16", "--azimuth-deg", "0", "--elevation-deg", "30", "--sea-reflection",
+                 "--sea-surface", "conductor", "--origin-height-m", "0.15"}));
+  const auto row = read_table(table()).rows.at(0);
+  const double lambda = kSpeedOfLight / 16e9, dihedral = 2 * kLengthM * kWidthM * std::cos(radians(30)) / lambda;
+  const double level = 10 * std::log10(4 * kPi * dihedral * dihedral);
+  EXPECT_NEAR(row.at(11), level, 20 * std::log10(1 + 1.0 / 50));
+  EXPECT_NEAR(row.at(12), level, 20 * std::log10(1 + 1.0 / 50));
+}
+
+// kWidthM high about its middle: a table of zeros would suggest that it does not scatter.
+TEST_F(RcsTarget, RefusesASubmergedTarget) {
+  const ProgramResult done = rcs({"--frequency-ghz", "16", "--azimuth-deg", "0", "--elevation-deg", "30",
+                                  "--sea-reflection", "--origin-height-m", "-5"});
+  EXPECT_EQ(done.code, 2);
+  EXPECT_THAT(
+      done.err,
+      HasSubstr("--origin-height-m: value -5: must be greater than -0.15, else the whole target is under water\n"));
+  completed(rcs({"--frequency-ghz", "16", "--azimuth-deg", "0", "--elevation-deg", "30", "--sea-reflection",
+                 "--origin-height-m", "-0.14"}));
+}
+
+TEST_F(RcsTarget, RefusesASeaReflectionWithoutAnImage) {
+  expect_refused(rcs({"--frequency-ghz", "16", "--azimuth-deg", "0", "--elevation-deg", "0", "--sea-reflection"}),
+                 "--elevation-deg: value 0: must be greater than 0 with --sea-reflection");
+  EXPECT_EQ(rcs({"--frequency-ghz", "16", "--azimuth-deg", "0", "--origin-height-m", "3"}).code, 2);
+  EXPECT_THAT(rcs({"--frequency-ghz", "94", "--azimuth-deg", "0", "--elevation-deg", "2", "--sea-reflection"}).err,
+              HasSubstr("--frequency-ghz: value 94: must be at most 90"));
+}
+
+// `seaglint rcs --method` on a plate, whose physical optics has a closed form.
+
+class RcsMethod : public RcsCommand {
+ protected:
+  ProgramResult at_normal_incidence(Words more) const {
+    return rcs(with({"--frequency-ghz", "10", "--azimuth-deg", "0", "--edges", "off"}, more));
+  }
+  void expect_refusal(const Words& more, const std::string& message) const {
+    const ProgramResult result = at_normal_incidence(more);
+    EXPECT_EQ(result.code, 2) << result.err;
+    EXPECT_THAT(result.err, testing::StartsWith("seaglint: "));
+    EXPECT_THAT(result.err, HasSubstr(message));
+    EXPECT_FALSE(std::filesystem::exists(table()));
+  }
+};
+
+// Normal incidence on a plate of area A: 4 pi (A / lambda)^2.
+TEST_F(RcsMethod, APlateHasItsClosedFormByEachOfThem) {
+  const double expected = dbsm(kLengthM * kWidthM * 10e9 / kSpeedOfLight);
+  for (const Words& method :
+       {Words{}, {"--method", "beams"}, {"--method", "rays"}, {"--method", "rays", "--ray-spacing-m", "0.01"}}) {
+    completed(at_normal_incidence(method));
+    const CsvTable swept = read_table(table());
+    ASSERT_EQ(swept.rows.size(), 1u);
+    EXPECT_NEAR(swept.rows[0][12], expected, 1e-4);
+  }
+  EXPECT_THAT(read_file(table()), HasSubstr(", method rays, ray_spacing_m 0.01\n"));
+}
+
+TEST_F(RcsMethod, HeadsTheScatteringCentresToo) {
+  const std::string centres = folder_.path() / "centres.csv";
+  completed(at_normal_incidence({"--export-scattering-centres", centres}));
+  EXPECT_THAT(read_file(centres), HasSubstr(", edges off, contributions: all\n"));
+  completed(
+      at_normal_incidence({"--export-scattering-centres", centres, "--method", "rays", "--ray-spacing-m", "0.01"}));
+  EXPECT_THAT(read_file(centres), HasSubstr(", edges off, method rays, ray_spacing_m 0.01, contributions: all\n"));
+}
+
+TEST_F(RcsMethod, OfAnotherNameIsRefusedWithThoseThatExist) {
+  expect_refusal({"--method", "sbr"}, "--method: sbr not in {beams,rays}");
+}
+
+TEST_F(RcsMethod, OfBeamsHasNoDistanceBetweenRays) {
+  const std::string message = "--ray-spacing-m: value 0.01: valid only with --method rays; beams have --min-patch-m";
+  expect_refusal({"--ray-spacing-m", "0.01"}, message);
+  expect_refusal({"--method", "beams", "--ray-spacing-m", "0.01"}, message);
+  expect_refusal({"--method", "rays", "--ray-spacing-m", "-1"}, "--ray-spacing-m: value -1: must be within");
+  expect_refused({"mesh", "sensitivity", "--target", plate(), "--frequency-ghz", "10", "--azimuth-deg", "0",
+                  "--ray-spacing-m", "0.01"},
+                 message);
+}
+
+// Cuts, numbers and positions of the triangles do not change the echo of a plate at normal incidence.
+TEST_F(RcsMethod, OfRaysServesTheSensitivityToTheMesh) {
+  const ProgramResult result =
+      completed({"mesh", "sensitivity", "--target", plate(), "--frequency-ghz", "10", "--azimuth-deg", "0", "--edges",
+                 "off", "--method", "rays", "--ray-spacing-m", "0.01"});
+  EXPECT_THAT(result.out, HasSubstr("0.0000      0.0000      0.0000      0.0000      0.0000"));
+}
+
+TEST_F(RcsMethod, OfRaysIsRefusedForACavity) {
+  expect_refusal({"--method", "rays", "--cavity", "plate"},
+                 "--cavity does not support --method rays: only beams end at the walls of cavities");
 }
 
 }  // namespace

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// For every wrong input each command reports one line, exits with the documented code and leaves no file.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -11,11 +10,11 @@
 namespace seaglint {
 namespace {
 
-namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::StartsWith;
+namespace fs = std::filesystem;
 
-using Words = std::vector<std::string>;
+// For every wrong input each command reports one line, exits with the documented code and leaves no file.
 
 // Contents of every file below a folder; empty for a folder.
 std::map<std::string, std::string> files_below(const fs::path& folder) {
@@ -47,6 +46,12 @@ std::vector<Words> scenario_commands(const std::string& scenario, const fs::path
           {"map", scenario, "-o", output / "map.png"},
           {"generate", scenario, "-o", output / "data"},
           {"run", scenario, "-o", output / "run"}};
+}
+
+// Those of them that need the echo of its targets.
+std::vector<Words> solving_commands(const std::string& scenario, const fs::path& output) {
+  return {
+      {"check", scenario}, {"map", scenario, "-o", output / "map.png"}, {"generate", scenario, "-o", output / "data"}};
 }
 
 // A folder with a scenario of two meshes, one of which is a shipped asset cut in half.
@@ -100,11 +105,10 @@ TEST_F(InputErrors, OfAMeshThatIsMissingOrCutShort) {
 
 // The 144 m ship extends 72 m from its origin; the second order of the wavefront needs ten times that range.
 TEST_F(InputErrors, OfAWavefrontRangeTooShort) {
-  for (const char* command : {"check", "generate"}) {
-    Words words{command, "scenarios/quick.yaml", "--set", "targets.ship.solver.wavefront_range_m=500"};
-    if (words.front() != "check") words.insert(words.end(), {"-o", folder() / "data"});
-    expect_failure(folder(), words, 2, "targets.ship.solver: wavefront range 500 m");
-  }
+  for (const Words& words :
+       {Words{"check", "scenarios/quick.yaml"}, {"generate", "scenarios/quick.yaml", "-o", folder() / "data"}})
+    expect_failure(folder(), with(words, {"--set", "targets.ship.solver.wavefront_range_m=500"}), 2,
+                   "targets.ship.solver: wavefront range 500 m");
 }
 
 // Four reflectors 40 m apart extend to 60.5 m, wherever the origin of each; the extent of a companion includes its
@@ -119,21 +123,17 @@ TEST_F(InputErrors, OfAWavefrontRangeTooShortForALayoutOrACompanion) {
       "  array: {label: 0, mesh: assets/icosahedral_reflector.glb, layout: {line: {count: 4, spacing_m: 40}}}\n");
   const std::string file = folder() / "near.yaml";
   for (const Words& more : {Words{}, Words{"--set", "targets.array.solver.wavefront_range_m=600"}}) {
-    for (Words words : {Words{"check", file}, Words{"map", file, "-o", folder() / "map.png"},
-                        Words{"generate", file, "-o", folder() / "data"}}) {
-      words.insert(words.end(), more.begin(), more.end());
+    for (const Words& words : solving_commands(file, folder())) {
       expect_failure(
-          folder(), words, 2,
+          folder(), with(words, more), 2,
           more.empty()
               ? "near.yaml:3:72: targets.ship.companions.0: wavefront range 400 m: must be at least ten "
                 "times the target radius of 60.5 m"
               : "targets.array.solver: wavefront range 600 m: must be at least ten times the target radius of 60.5 m");
     }
   }
-  const ProgramResult far = run_program({"check", file, "--set", "targets.ship.solver.wavefront_range_m=610", "--set",
-                                         "targets.decoy.solver.wavefront_range_m=610", "--set",
-                                         "targets.array.solver.wavefront_range_m=610"});
-  EXPECT_EQ(far.code, 0) << far.err;
+  completed({"check", file, "--set", "targets.ship.solver.wavefront_range_m=610", "--set",
+             "targets.decoy.solver.wavefront_range_m=610", "--set", "targets.array.solver.wavefront_range_m=610"});
 }
 
 // For a scenario of which no sample can be generated, `generate` leaves no file, so that a corrected scenario can
@@ -147,13 +147,12 @@ TEST_F(InputErrors, OfASeriesThatDoesNotCoverTheIntervals) {
              "seaglint: 1\ntargets:\n  ship: {label: 1, mesh: whole.glb, motion: {model: series, file: series.csv}}\n"
              "dataset: {maps_per_case: 4, realisations_per_case: 2}\n");
   for (const char* start : {"35", "-5", "1e6"}) {
-    for (Words words : {Words{"check", file}, Words{"map", file, "-o", folder() / "map.png"},
-                        Words{"generate", file, "-o", folder() / "data"}}) {
-      words.insert(words.end(), {"--set", std::string("targets.ship.motion.series_start_s=") + start});
-      expect_failure(folder(), words, 2, "targets.ship.motion.series_start_s: value ");
+    for (const Words& words : solving_commands(file, folder())) {
+      expect_failure(folder(), with(words, {"--set", std::string("targets.ship.motion.series_start_s=") + start}), 2,
+                     "targets.ship.motion.series_start_s: value ");
     }
   }
-  EXPECT_EQ(run_program({"check", file}).code, 0);
+  completed({"check", file});
 }
 
 TEST_F(InputErrors, OfATargetUnderWater) {
@@ -164,11 +163,9 @@ TEST_F(InputErrors, OfATargetUnderWater) {
       "  array: {label: 0, mesh: assets/icosahedral_reflector.glb, motion: {model: float, origin_above_waterline_m: "
       "-10}}\n");
   for (const char* reflects : {"true", "false"}) {
-    for (Words words : {Words{"check", file}, Words{"map", file, "-o", folder() / "map.png"},
-                        Words{"generate", file, "-o", folder() / "data"}}) {
-      words.insert(words.end(), {"--set", std::string("sea_reflection.enabled=") + reflects});
+    for (const Words& words : solving_commands(file, folder())) {
       expect_failure(
-          folder(), words, 2,
+          folder(), with(words, {"--set", std::string("sea_reflection.enabled=") + reflects}), 2,
           "water.yaml:4:110: targets.array.motion.origin_above_waterline_m: value -10: must be greater than ");
     }
   }
@@ -213,9 +210,7 @@ TEST_F(InputErrors, OfAnOptionWithItsBoundsAndHelp) {
     for (const Words& words :
          {Words{"map", "scenarios/points.yaml", "-o", folder() / "map.png"},
           Words{"echo", "scenarios/points.yaml", "-o", folder() / "e.npz"}, Words{"regenerate", folder()}}) {
-      Words all = words;
-      all.insert(all.end(), {"--sample", value});
-      expect_failure(folder(), all, 2,
+      expect_failure(folder(), with(words, {"--sample", value}), 2,
                      std::string("--sample: value ") + value + ": must be a whole number, 0 or more (see seaglint " +
                          words[0] + " --help)\n");
     }
@@ -229,14 +224,11 @@ TEST_F(InputErrors, OfAnOptionWithItsBoundsAndHelp) {
 // Names of parts and values of files that a terminal would obey are shown, not sent.
 TEST_F(InputErrors, AndFindingsSendNoByteOfAFileToTheTerminal) {
   write_file(folder() / "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\ng x\x1b[31m\nf 1 2 3\n");
-  const ProgramResult info = run_program({"mesh", "info", folder() / "a.obj"});
-  EXPECT_EQ(info.code, 0);
+  const ProgramResult info = completed({"mesh", "info", folder() / "a.obj"});
   EXPECT_THAT(info.out, HasSubstr("x\\x1b[31m"));
   EXPECT_EQ(info.out.find('\x1b'), std::string::npos);
   write_file(folder() / "b.obj", "v \x1b[2J\xc2\x9b 0 0\n");
-  const ProgramResult refused = run_program({"mesh", "info", folder() / "b.obj"});
-  EXPECT_EQ(refused.code, 2);
-  EXPECT_THAT(refused.err, HasSubstr("b.obj:1: \"\\x1b[2J\\xc2\\x9b\" is not a coordinate"));
+  expect_refused({"mesh", "info", folder() / "b.obj"}, "b.obj:1: \"\\x1b[2J\\xc2\\x9b\" is not a coordinate");
 }
 
 TEST_F(InputErrors, OfAFullStandardOutput) {
@@ -264,10 +256,6 @@ TEST_F(InputErrors, OfWritingOverAnInput) {
   write_file(rao, "none");
   fs::create_symlink(mesh, link);
   const Words rcs{"rcs", "--target", mesh, "--frequency-ghz", "10", "--azimuth-deg", "0"};
-  const auto with = [](Words words, const Words& more) {
-    words.insert(words.end(), more.begin(), more.end());
-    return words;
-  };
   for (const Words& words :
        {with(rcs, {"-o", mesh}), with(rcs, {"-o", link}), with(rcs, {"-o", rao, "--reference", rao}),
         with(rcs, {"-o", folder() / "rcs.csv", "--export-scattering-centres", folder() / "." / "whole.glb"}),
@@ -309,9 +297,8 @@ TEST_F(InputErrors, OfAnEndingOfAnotherFormat) {
 TEST_F(InputErrors, OfALimitOnFileSizes) {
   const auto limited = [&](const Words& words) {
     SCOPED_TRACE(words.front());
-    Words all{"/bin/bash", "-c", "ulimit -f 20; exec \"$@\"", "limited", kProgram};
-    all.insert(all.end(), words.begin(), words.end());
-    const ProgramResult result = run_words(all);
+    const ProgramResult result =
+        run_words(with({"/bin/bash", "-c", "ulimit -f 20; exec \"$@\"", "limited", kProgram}, words));
     EXPECT_EQ(result.code, 1);
     EXPECT_THAT(result.err, testing::AllOf(HasSubstr("cannot write"), HasSubstr("File too large")));
     EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
@@ -344,6 +331,124 @@ TEST_F(InputErrors, OfAPlaceThatCannotBeWritten) {
                    {"rcs", "--target", mesh, "--frequency-ghz", "10", "--azimuth-deg", "0", "-o", place / "x.csv"}, 1,
                    place);
   }
+}
+
+// Command-line arguments: numbers, misspelt words, options that belong to other commands.
+
+class Options : public testing::Test {
+ protected:
+  void expect_refused(const Words& words, const Words& more, const std::string& message) const {
+    SCOPED_TRACE(testing::PrintToString(words));
+    seaglint::expect_refused(run_program(words, more), message);
+    EXPECT_TRUE(fs::is_empty(folder_.path()));
+  }
+  Words rcs() const {
+    return {"rcs", "--target", "assets/icosahedral_reflector.glb", "--frequency-ghz", "10", "--azimuth-deg",
+            "0",   "-o",       folder_.path() / "rcs.csv"};
+  }
+  Words plate() const { return {"mesh", "make", "plate", "-o", folder_.path() / "plate.obj"}; }
+
+  TemporaryFolder folder_;
+};
+
+// 010 is ten, neither octal nor an error.
+TEST_F(Options, NumbersAreDecimal) {
+  completed(rcs(), {"--max-bounces", "010", "--wavefront-range-m", "0100"});
+  EXPECT_THAT(read_file(folder_.path() / "rcs.csv"),
+              testing::AllOf(HasSubstr("max_bounces 10,"), HasSubstr("wavefront_range_m 100 ")));
+  completed({"mesh", "make", "cylinder", "--segments", "+012", "-o", folder_.path() / "c.stl"});
+  EXPECT_EQ(fs::file_size(folder_.path() / "c.stl"), 84u + 50u * 4 * 12);  // two of each side, one of each end
+}
+
+TEST_F(Options, OfNumbersAcceptNothingElse) {
+  for (const std::string value : {"0x10", "2.0", "1e3", "abc", ""}) {
+    const std::string quoted = value.empty() ? "''" : value;
+    expect_refused(rcs(), {"--max-bounces", value},
+                   "--max-bounces: value " + quoted + ": must be a whole number (see seaglint rcs --help)\n");
+  }
+  expect_refused(rcs(), {"--threads", "0x1"}, "--threads: value 0x1: must be a whole number (");
+  expect_refused({"mesh", "make", "sphere", "-o", folder_.path() / "s.stl"}, {"--subdivisions", ""},
+                 "--subdivisions: value '': must be a whole number (");
+  expect_refused({"map", "scenarios/points.yaml", "-o", folder_.path() / "m.png"}, {"--sample", "0x1"},
+                 "--sample: value 0x1: must be a whole number, 0 or more (");
+  for (const std::string value : {"0x10", "abc", "", "inf", "nan"}) {
+    const std::string quoted = value.empty() ? "''" : value;
+    expect_refused(plate(), {"--length-m", value},
+                   "--length-m: value " + quoted + ": must be a number (see seaglint mesh make plate --help)\n");
+  }
+  expect_refused(rcs(), {"--wavefront-range-m", ""}, "--wavefront-range-m: value '': must be within 0 and");
+  expect_refused(rcs(), {"--transmit-azimuth-deg", "0x10"}, "--transmit-azimuth-deg: value 0x10: must be within");
+  expect_refused(rcs(), {"--elevation-deg", "0x10"}, "--elevation-deg: value '0x10': must be");
+  expect_refused({"mesh", "make", "dihedral", "-o", folder_.path() / "d.obj"}, {"--opening-deg", "180"},
+                 "dihedral opening: 180 deg must be greater than 0 and less than 180 deg\n");
+  expect_refused(plate(), {"--length-m", "1e308"}, "plate length: 1e+308 m is outside 1e-20..1e+07 m\n");
+}
+
+// Reported before missing files or other missing input.
+TEST_F(Options, AndCommandsThatAreMisspeltAreNamed) {
+  expect_refused({"rcs", "--targt", "x"}, {},
+                 "seaglint: unknown option '--targt': did you mean '--target'? (see seaglint rcs --help)\n");
+  expect_refused({"rcs", "--targt=x", "--max-bounces", "abc"}, {},
+                 "unknown option '--targt': did you mean '--target'?");
+  expect_refused({"check", "scenarios/points.yaml", "--sets", "x=1"}, {},
+                 "unknown option '--sets': did you mean '--set'? (see seaglint check --help)\n");
+  expect_refused({"check", "--nothing-like-it"}, {},
+                 "unknown option '--nothing-like-it' (see seaglint check --help)\n");
+  expect_refused({"mesh", "make", "foo"}, {}, "unknown command 'foo': must be one of ship, ");
+  expect_refused({"mesh", "make", "plte", "--length-m", "2"}, {},
+                 "unknown command 'plte': did you mean 'plate'? (see seaglint mesh make --help)\n");
+  expect_refused({"mesh", "mkae"}, {}, "unknown command 'mkae': did you mean 'make'? (see seaglint mesh --help)\n");
+  expect_refused({"mesh", "make"}, {}, "A subcommand is required (see seaglint mesh make --help)\n");
+  expect_refused({"check", "scenarios/points.yaml", "other.yaml"}, {}, "other.yaml");
+}
+
+TEST_F(Options, ThatNeedOthersNameThem) {
+  const Words sea{"sea", "scenarios/points.yaml", "-o", folder_.path() / "sea.csv"};
+  expect_refused(sea, {"--realisations", "2"},
+                 "--realisations requires --spectrum or --figure (see seaglint sea --help)\n");
+  expect_refused(rcs(), {"--transmit-elevation-deg", "2"},
+                 "--transmit-elevation-deg requires --transmit-azimuth-deg (see seaglint rcs --help)\n");
+}
+
+// Names in a user's files are commands to nothing: not to the terminal, a spreadsheet, a Markdown page or gnuplot.
+
+// A plate of one part, seen square from ahead.
+std::string plate_of(const std::string& part) { return "v 0 0 0\nv 0 1 0\nv 0 0 1\ng " + part + "\nf 1 2 3\n"; }
+
+bool has_control_characters(const std::string& text) {
+  return std::any_of(text.begin(), text.end(),
+                     [](char c) { return c != '\n' && static_cast<unsigned char>(c) < 0x20; });
+}
+
+TEST(HostileNames, OfPartsAreCellsOfCsv) {
+  const TemporaryFolder folder;
+  const fs::path mesh = folder.path() / "plate.obj", centres = folder.path() / "centres.csv";
+  write_file(mesh, plate_of("=cmd|calc,\"x"));
+  completed({"rcs", "--target", mesh, "--frequency-ghz", "1", "--azimuth-deg", "0", "--elevation-deg", "0",
+             "--export-scattering-centres", centres, "-o", folder.path() / "rcs.csv"});
+  EXPECT_THAT(read_file(centres), HasSubstr(",\"'=cmd|calc,\"\"x\",1,"));
+}
+
+TEST(HostileNames, NeverReachTheTerminalAsBytes) {
+  const TemporaryFolder folder;
+  const fs::path mesh = folder.path() / "plate.obj", scenario = folder.path() / "s.yaml";
+  write_file(mesh, plate_of("\x1b]0;title\x07\xff"));
+  const ProgramResult info = completed({"mesh", "info", mesh});
+  EXPECT_THAT(info.out, HasSubstr("\\x1b]0;title\\x07"));
+  EXPECT_FALSE(has_control_characters(info.out));
+  write_file(scenario, "seaglint: 1\nname: \"a\\e[31m\"\n");
+  const ProgramResult refused = run_program({"check", scenario});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("\\x1b[31m"));
+  EXPECT_FALSE(has_control_characters(refused.err));
+}
+
+TEST(HostileNames, AreEscapedInDataCards) {
+  const TemporaryFolder folder;
+  const fs::path data = folder.path() / "data";
+  completed({"generate", "scenarios/points.yaml", "--set", "dataset.maps_per_case=2", "--set",
+             "dataset.realisations_per_case=1", "--set", "name=a` <script>alert(1)</script> |", "-o", data});
+  EXPECT_THAT(read_file(data / "README.md"), testing::StartsWith("# Data set `` a` <script>alert(1)</script> | ``\n"));
 }
 
 }  // namespace

@@ -61,9 +61,8 @@ TEST_F(RunOutput, HasMetricsOfThreeGroupsByWaveHeightUnderBothProtocols) {
 
 TEST_F(RunOutput, RepeatsItsNumbersBitForBit) {
   const TemporaryFolder folder;
-  const ProgramResult result = run_program(
+  completed(
       {"run", "scenarios/points.yaml", "-o", folder.path() / "run", "--threads", "1", "--set", "learning.epochs=3"});
-  ASSERT_EQ(result.code, 0) << result.err;
   nlohmann::json a = metrics_of(directory_), b = metrics_of(folder.path() / "run");
   a.erase("run");  // run times and threads
   b.erase("run");
@@ -73,49 +72,39 @@ TEST_F(RunOutput, RepeatsItsNumbersBitForBit) {
 }
 
 TEST_F(RunOutput, IsRefusedAsATargetWithoutResumeAndContinuedWithIt) {
-  const ProgramResult again =
-      run_program({"run", "scenarios/points.yaml", "-o", directory_, "--set", "learning.epochs=3"});
-  EXPECT_EQ(again.code, 2);
-  EXPECT_THAT(again.err, HasSubstr("--resume"));
+  expect_refused({"run", "scenarios/points.yaml", "-o", directory_, "--set", "learning.epochs=3"}, "--resume");
   const std::string before = read_file(directory_ / "model" / "fused.json");
-  const ProgramResult resumed =
-      run_program({"run", "scenarios/points.yaml", "-o", directory_, "--resume", "--set", "learning.epochs=3"});
-  EXPECT_EQ(resumed.code, 0) << resumed.err;
-  EXPECT_THAT(resumed.out, HasSubstr("40 of 40 maps were there already"));
+  EXPECT_THAT(
+      completed({"run", "scenarios/points.yaml", "-o", directory_, "--resume", "--set", "learning.epochs=3"}).out,
+      HasSubstr("40 of 40 maps were there already"));
   EXPECT_EQ(read_file(directory_ / "model" / "fused.json"), before);
 }
 
 TEST_F(RunOutput, IsResumedAfterAKillDuringTraining) {
   for (const char* name : {"network.bin", "splits.csv", "embeddings.csv", "metrics.json"})
     fs::remove(directory_ / "model" / name);
-  const ProgramResult resumed =
-      run_program({"run", "scenarios/points.yaml", "-o", directory_, "--resume", "--set", "learning.epochs=3"});
-  EXPECT_EQ(resumed.code, 0) << resumed.err;
+  completed({"run", "scenarios/points.yaml", "-o", directory_, "--resume", "--set", "learning.epochs=3"});
   EXPECT_TRUE(fs::exists(directory_ / "model" / "network.bin"));
 }
 
 TEST_F(RunOutput, IsADataSetForTheCommandsOfOne) {
   const TemporaryFolder folder;
-  for (const std::vector<std::string>& words : {std::vector<std::string>{"verify", directory_},
-                                                {"merge", directory_, "-o", folder.path() / "all.h5"},
-                                                {"export", directory_, "-o", folder.path() / "all.npz"},
-                                                {"regenerate", directory_, "--sample", "3"}}) {
-    const ProgramResult result = run_program(words);
-    EXPECT_EQ(result.code, 0) << words[0] << ": " << result.err;
+  for (const Words& words : {Words{"verify", directory_},
+                             {"merge", directory_, "-o", folder.path() / "all.h5"},
+                             {"export", directory_, "-o", folder.path() / "all.npz"},
+                             {"regenerate", directory_, "--sample", "3"}}) {
+    completed(words);
   }
 }
 
 TEST_F(RunOutput, CanBeTrainedOnAndReportedAgain) {
   const TemporaryFolder folder;
-  const ProgramResult trained =
-      run_program({"train", directory_, "-o", folder.path() / "model", "--set", "learning.epochs=2"});
-  EXPECT_EQ(trained.code, 0) << trained.err;
+  completed({"train", directory_, "-o", folder.path() / "model", "--set", "learning.epochs=2"});
   EXPECT_TRUE(fs::exists(folder.path() / "model" / "network.bin"));
   const ProgramResult wrong =
       run_program({"train", directory_, "-o", folder.path() / "model", "--set", "radar.pulses=64"});
   EXPECT_EQ(wrong.code, 2);
-  const ProgramResult reported = run_program({"report", directory_});
-  EXPECT_EQ(reported.code, 0) << reported.err;
+  completed({"report", directory_});
   for (const std::string& data : {directory_.string() + "/data", directory_.string() + "/data/"}) {
     const ProgramResult of_data = run_program({"report", data});
     EXPECT_EQ(of_data.code, 2);
@@ -128,18 +117,14 @@ TEST_F(RunOutput, IsNotReportedWithTheModelOfAnotherTrainingOrHalfOfOne) {
   const TemporaryFolder folder;
   fs::copy(directory_, folder.path() / "run", fs::copy_options::recursive);
   const fs::path model = folder.path() / "run" / "model";
-  ASSERT_EQ(run_program({"train", folder.path() / "run", "-o", model, "--set", "learning.epochs=2"}).code, 0);
-  const ProgramResult other = run_program({"report", folder.path() / "run"});
-  EXPECT_EQ(other.code, 2);
-  EXPECT_THAT(other.err, HasSubstr("is of another training than " + (model / "metrics.json").string()));
+  completed({"train", folder.path() / "run", "-o", model, "--set", "learning.epochs=2"});
+  expect_refused({"report", folder.path() / "run"}, "is of another training than " + (model / "metrics.json").string());
   write_file(model / "metrics.json", "{\"seed\": ");
   const ProgramResult damaged = run_program({"report", folder.path() / "run"});
   EXPECT_EQ(damaged.code, 2);
   EXPECT_THAT(damaged.err, testing::StartsWith("seaglint: " + (model / "metrics.json").string() + ": no valid JSON"));
   fs::remove(model / "metrics.json");
-  const ProgramResult half = run_program({"report", folder.path() / "run"});
-  EXPECT_EQ(half.code, 2);
-  EXPECT_THAT(half.err, HasSubstr((model / "metrics.json").string() + ": missing"));
+  expect_refused({"report", folder.path() / "run"}, (model / "metrics.json").string() + ": missing");
 }
 
 TEST_F(RunOutput, IsNotReportedFromScoresThatAreDamaged) {
@@ -181,11 +166,11 @@ TEST_F(RunOutput, IsReadWithItsOwnScenarioOnly) {
                                       (run / "data" / "scenario.yaml").string()));
   EXPECT_THAT(reported.err, HasSubstr("scr_db: 20` there, `"));
   write_file(run / "data" / "scenario.yaml", edited);
-  for (const std::vector<std::string>& words : {std::vector<std::string>{"report", run},
-                                                {"train", run, "-o", folder.path() / "model"},
-                                                {"export", run, "-o", folder.path() / "all.npz"},
-                                                {"regenerate", run, "--sample", "3"},
-                                                {"merge", run, "-o", folder.path() / "all.h5"}}) {
+  for (const Words& words : {Words{"report", run},
+                             {"train", run, "-o", folder.path() / "model"},
+                             {"export", run, "-o", folder.path() / "all.npz"},
+                             {"regenerate", run, "--sample", "3"},
+                             {"merge", run, "-o", folder.path() / "all.h5"}}) {
     const ProgramResult result = run_program(words);
     EXPECT_EQ(result.code, 2) << words[0];
     EXPECT_THAT(result.err, HasSubstr((run / "data" / "scenario.yaml").string() +
@@ -248,12 +233,10 @@ TEST(Report, IsWrittenWithoutMeshesThatAreNotFound) {
       "seaglint: 1\ntargets:\n  one: {label: 1, mesh: assets/icosahedral_reflector.glb, motion: {model: float}}\n"
       "  two: {label: 0, mesh: assets/icosahedral_reflector.glb, layout: {line: {count: 2, spacing_m: 20}}}\n"
       "radar: {pulses: 32}\ndataset: {maps_per_case: 10, realisations_per_case: 5}\nlearning: {epochs: 1}\n");
-  const ProgramResult first_run = run_program({"run", scenario, "-o", run});
-  ASSERT_EQ(first_run.code, 0) << first_run.err;
+  completed({"run", scenario, "-o", run});
   EXPECT_THAT(read_file(run / "report.html"), HasSubstr("Picture of one"));
-  const ProgramResult elsewhere =
-      run_words({"/bin/bash", "-c", "cd / && SEAGLINT_DATA=/ exec \"$@\"", "elsewhere", kProgram, "report", run});
-  ASSERT_EQ(elsewhere.code, 0) << elsewhere.err;
+  const ProgramResult elsewhere = completed(
+      run_words({"/bin/bash", "-c", "cd / && SEAGLINT_DATA=/ exec \"$@\"", "elsewhere", kProgram, "report", run}));
   EXPECT_THAT(elsewhere.err, HasSubstr("seaglint: warning: "));
   EXPECT_THAT(elsewhere.err, HasSubstr("targets.one.mesh: value 'assets/icosahedral_reflector.glb': no such file"));
   const std::string page = read_file(run / "report.html");
@@ -264,14 +247,11 @@ TEST(Report, IsWrittenWithoutMeshesThatAreNotFound) {
 
 TEST(Run, ReportsErrorsOfLearningBeforeAnyWork) {
   const TemporaryFolder folder;
-  const ProgramResult few = run_program({"run", "scenarios/points.yaml", "-o", folder.path() / "run", "--set",
-                                         "dataset.maps_per_case=2", "--set", "dataset.realisations_per_case=2"});
-  EXPECT_EQ(few.code, 2);
-  EXPECT_THAT(few.err, HasSubstr("realisations_per_case"));
-  const ProgramResult one_class =
-      run_program({"run", "scenarios/points.yaml", "-o", folder.path() / "run", "--set", "targets.line.label=0"});
-  EXPECT_EQ(one_class.code, 2);
-  EXPECT_THAT(one_class.err, HasSubstr("label"));
+  expect_refused({"run", "scenarios/points.yaml", "-o", folder.path() / "run", "--set", "dataset.maps_per_case=2",
+                  "--set", "dataset.realisations_per_case=2"},
+                 "realisations_per_case");
+  expect_refused({"run", "scenarios/points.yaml", "-o", folder.path() / "run", "--set", "targets.line.label=0"},
+                 "label");
   EXPECT_FALSE(fs::exists(folder.path() / "run"));
 }
 
@@ -286,9 +266,7 @@ TEST(Run, ReportsAMissingGnuplotBeforeAnyWork) {
 
 TEST(Report, RefusesADirectoryThatIsNoRun) {
   const TemporaryFolder folder;
-  const ProgramResult result = run_program({"report", folder.path()});
-  EXPECT_EQ(result.code, 2);
-  EXPECT_THAT(result.err, HasSubstr("scenario.yaml"));
+  expect_refused({"report", folder.path()}, "scenario.yaml");
   EXPECT_EQ(run_program({"train", folder.path(), "-o", folder.path() / "model"}).code, 2);
 }
 

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `sea` and `motion` write the results of their stages in the documented columns.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <sstream>
 
 #include "sim/scenario/sample_plan.h"
@@ -16,9 +14,9 @@
 namespace seaglint {
 namespace {
 
-using ::testing::HasSubstr;
+using testing::HasSubstr;
 
-const std::string kPoints = "scenarios/points.yaml";
+// `sea` and `motion` write the results of their stages in the documented columns.
 
 // The lines of a CSV file below its comments; the first is the header.
 std::vector<std::string> data_lines(const std::filesystem::path& file) {
@@ -52,9 +50,8 @@ std::string write_boxes(const std::filesystem::path& folder) {
 TEST(Sea, WritesTheSurfaceOfTheFirstSeaState) {
   const TemporaryFolder folder;
   const std::string file = folder.path() / "sea.csv";
-  const ProgramResult result = run_program({"sea", kPoints, "--at", "-5,3", "--duration-s", "20", "--step-s", "0.5",
-                                            "-o", file, "--set", "sea.propagation_deg=30"});
-  ASSERT_EQ(result.code, 0) << result.err;
+  completed({"sea", kPoints, "--at", "-5,3", "--duration-s", "20", "--step-s", "0.5", "-o", file, "--set",
+             "sea.propagation_deg=30"});
   const std::vector<std::string> lines = data_lines(file);
   ASSERT_EQ(lines.size(), 42u);
   EXPECT_EQ(lines[0], "time_s,elevation_m,elevation_linear_m,slope_x,slope_y");
@@ -78,10 +75,8 @@ TEST(Sea, WritesTheSurfaceOfTheFirstSeaState) {
 TEST(Sea, WritesTheKinematicsWithTheirOption) {
   const TemporaryFolder folder;
   const std::string file = folder.path() / "sea.csv";
-  ASSERT_EQ(run_program({"sea", kPoints, "--kinematics", "--duration-s", "4", "--step-s", "0.5", "-o", file, "--set",
-                         "sea.spreading.kind=cos2s", "--set", "sea.depth_m=15"})
-                .code,
-            0);
+  completed({"sea", kPoints, "--kinematics", "--duration-s", "4", "--step-s", "0.5", "-o", file, "--set",
+             "sea.spreading.kind=cos2s", "--set", "sea.depth_m=15"});
   const std::vector<std::string> lines = data_lines(file);
   EXPECT_THAT(lines[0], HasSubstr("slope_y,velocity_x_mps,velocity_y_mps,velocity_z_mps,acceleration_x_mps2"));
   const Scenario scenario =
@@ -107,8 +102,7 @@ TEST(Sea, WritesASpectrumThatAScenarioAccepts) {
     return run_program({"sea", kPoints, "--duration-s", "200", "--realisations", "40", "--spectrum", spectrum,
                         "--threads", threads, "-o", folder.path() / "sea.csv"});
   };
-  const ProgramResult result = run(one, "1");
-  ASSERT_EQ(result.code, 0) << result.err;
+  const ProgramResult result = completed(run(one, "1"));
   EXPECT_THAT(result.out, HasSubstr("40 realisations: 4 sigma "));
   EXPECT_THAT(result.out, HasSubstr("Forristall"));
   EXPECT_EQ(run(two, "2").out, result.out);
@@ -123,19 +117,16 @@ TEST(Sea, WritesASpectrumThatAScenarioAccepts) {
   // Forty windowed records of 25 waves, about four of them with independent energy: 8 %; three times that.
   EXPECT_NEAR(realised / target, 1, 0.24);
 
-  const ProgramResult again = run_program({"sea", kPoints, "--duration-s", "1", "-o", folder.path() / "again.csv",
-                                           "--set", "sea.spectrum=table", "--set", "sea.table=" + one.string(), "--set",
-                                           "sea.significant_wave_height_m=from_table"});
-  EXPECT_EQ(again.code, 0) << again.err;
+  const ProgramResult again =
+      completed({"sea", kPoints, "--duration-s", "1", "-o", folder.path() / "again.csv", "--set", "sea.spectrum=table",
+                 "--set", "sea.table=" + one.string(), "--set", "sea.significant_wave_height_m=from_table"});
   EXPECT_THAT(again.out, HasSubstr("4 sqrt(m0) 0.99"));  // the table ends at 1.2 times the cut-off
 }
 
 TEST(Sea, DrawsItsFigureOrLeavesNoFile) {
   const TemporaryFolder folder;
   const std::filesystem::path csv = folder.path() / "sea.csv", figure = folder.path() / "sea.png";
-  ASSERT_EQ(
-      run_program({"sea", kPoints, "--duration-s", "100", "--realisations", "2", "--figure", figure, "-o", csv}).code,
-      0);
+  completed({"sea", kPoints, "--duration-s", "100", "--realisations", "2", "--figure", figure, "-o", csv});
   EXPECT_GT(std::filesystem::file_size(figure), 20000u);
   std::filesystem::remove(csv);
   const ProgramResult wrong =
@@ -152,19 +143,8 @@ TEST(Sea, RefusesInvalidRanges) {
         std::pair{"--duration-s", "nan"}, std::pair{"--step-s", "nan"}}) {
     EXPECT_EQ(run_program({"sea", kPoints, "-o", "unused.csv", wrong.first, wrong.second}).code, 2) << wrong.first;
   }
-  const ProgramResult rows =
-      run_program({"sea", kPoints, "-o", "unused.csv", "--duration-s", "1e6", "--step-s", "1e-4"});
-  EXPECT_EQ(rows.code, 2);
-  EXPECT_THAT(rows.err, HasSubstr("rows"));
-  const ProgramResult cutoff = run_program({"sea", kPoints, "-o", "unused.csv", "--set", "sea.cutoff_rad_s=0.1"});
-  EXPECT_EQ(cutoff.code, 2);
-  EXPECT_THAT(cutoff.err, HasSubstr("cutoff_rad_s"));
-}
-
-TEST(Sea, FailsWhereItCannotWrite) {
-  const ProgramResult result = run_program({"sea", kPoints, "-o", "/nonexistent/sea.csv"});
-  EXPECT_EQ(result.code, 1);
-  EXPECT_THAT(result.err, HasSubstr("/nonexistent/sea.csv"));
+  expect_refused({"sea", kPoints, "-o", "unused.csv", "--duration-s", "1e6", "--step-s", "1e-4"}, "rows");
+  expect_refused({"sea", kPoints, "-o", "unused.csv", "--set", "sea.cutoff_rad_s=0.1"}, "cutoff_rad_s");
 }
 
 // Before the work, and so before the scenario or mesh, which are missing too.
@@ -173,11 +153,7 @@ TEST(Commands, CheckTheirOutputFilesFirst) {
   const std::string table = folder.path() / "table.csv", nowhere = "/nonexistent/file.png",
                     no_archive = "/nonexistent/file.npz";
   const std::vector<std::string> rcs{"rcs", "--target", "no.glb", "--frequency-ghz", "16", "--azimuth-deg", "0"};
-  const auto with = [](std::vector<std::string> words, std::initializer_list<std::string> more) {
-    words.insert(words.end(), more);
-    return words;
-  };
-  for (const auto& words : {std::vector<std::string>{"sea", "no.yaml", "-o", nowhere},
+  for (const auto& words : {Words{"sea", "no.yaml", "-o", nowhere},
                             {"sea", "no.yaml", "-o", table, "--figure", nowhere},
                             {"motion", "no.yaml", "-o", nowhere},
                             {"motion", "no.yaml", "-o", table, "--rao", nowhere},
@@ -190,12 +166,10 @@ TEST(Commands, CheckTheirOutputFilesFirst) {
     EXPECT_THAT(result.err, HasSubstr((words.front() == "echo" ? no_archive : nowhere) +
                                       ": cannot write: No such file or directory"));
   }
-  for (const auto& words : {std::vector<std::string>{"sea", "no.yaml", "-o", table, "--figure", "figure.bmp"},
+  for (const auto& words : {Words{"sea", "no.yaml", "-o", table, "--figure", "figure.bmp"},
                             {"motion", "no.yaml", "-o", table, "--snapshots", "figure.bmp"},
                             {"map", "no.yaml", "-o", "figure.bmp"}}) {
-    const ProgramResult result = run_program(words);
-    EXPECT_EQ(result.code, 2) << words.front();
-    EXPECT_THAT(result.err, HasSubstr("figure.bmp: a figure's name ends in .png or .svg"));
+    expect_refused(words, "figure.bmp: a figure's name ends in .png or .svg");
   }
 }
 
@@ -209,13 +183,12 @@ TEST(Motion, DrawsRaosInTheScenariosUnitsAndDepth) {
       for (int mode = 1; mode <= 6; ++mode) rows += fmt::format("{0} 120 {1} {2} 0 {2} 0\n", period, mode, scale);
     }
     write_file(reference, rows);
-    std::vector<std::string> words{"motion", "scenarios/quick.yaml", "--duration-s", "1"};
-    words.insert(words.end(), {"-o", folder.path() / "motion.csv", "--rao", figure, "--rao-reference", reference});
     // The numbers are those of no body.
-    words.insert(words.end(), {"--set", "targets.ship.motion.rao_follows_long_waves=false"});
+    Words words = with({"motion", "scenarios/quick.yaml", "--duration-s", "1", "--set",
+                        "targets.ship.motion.rao_follows_long_waves=false"},
+                       {"-o", folder.path() / "motion.csv", "--rao", figure, "--rao-reference", reference});
     for (const std::string& setting : settings) words.insert(words.end(), {"--set", setting});
-    const ProgramResult result = run_program(words);
-    EXPECT_EQ(result.code, 0) << result.err;
+    completed(words);
     return read_file(figure);
   };
   const std::string of_metres = picture("0.02", {});
@@ -227,8 +200,7 @@ TEST(Motion, WritesEveryBodyAtEveryTime) {
   const TemporaryFolder folder;
   const std::string scenario = write_boxes(folder.path());
   const std::string file = folder.path() / "motion.csv";
-  const ProgramResult result = run_program({"motion", scenario, "--duration-s", "2", "--step-s", "0.1", "-o", file});
-  ASSERT_EQ(result.code, 0) << result.err;
+  completed({"motion", scenario, "--duration-s", "2", "--step-s", "0.1", "-o", file});
   const std::vector<std::string> lines = data_lines(file);
   ASSERT_EQ(lines.size(), 1 + 21 * 3u);
   EXPECT_EQ(lines[0], "time_s,body,roll_deg,pitch_deg,yaw_deg,surge_m,sway_m,heave_m");
@@ -242,16 +214,12 @@ TEST(Motion, DoesNotDependOnThreads) {
   const TemporaryFolder folder;
   const std::string scenario = write_boxes(folder.path());
   const std::filesystem::path one = folder.path() / "one.csv", two = folder.path() / "two.csv";
-  ASSERT_EQ(run_program({"motion", scenario, "--duration-s", "2", "--threads", "1", "-o", one}).code, 0);
-  ASSERT_EQ(run_program({"motion", scenario, "--duration-s", "2", "--threads", "2", "-o", two}).code, 0);
+  completed({"motion", scenario, "--duration-s", "2", "--threads", "1", "-o", one});
+  completed({"motion", scenario, "--duration-s", "2", "--threads", "2", "-o", two});
   EXPECT_EQ(read_file(one), read_file(two));
 }
 
-TEST(Motion, NeedsATargetWithAMesh) {
-  const ProgramResult result = run_program({"motion", kPoints, "-o", "unused.csv"});
-  EXPECT_EQ(result.code, 2);
-  EXPECT_THAT(result.err, HasSubstr("targets"));
-}
+TEST(Motion, NeedsATargetWithAMesh) { expect_refused({"motion", kPoints, "-o", "unused.csv"}, "targets"); }
 
 }  // namespace
 }  // namespace seaglint

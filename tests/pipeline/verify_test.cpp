@@ -1,23 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `seaglint verify` on data sets that the program generated.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include "classify/dataset/format/manifest.h"
 #include "tests/pipeline/program.h"
+#include "tests/sanitized.h"
 
 namespace seaglint {
 namespace {
 
-namespace fs = std::filesystem;
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
+namespace fs = std::filesystem;
+
+// `seaglint verify` on data sets that the program generated.
 
 class DataSetVerification : public testing::Test {
  protected:
   void SetUp() override {
     directory_ = folder_.path() / "data";
-    const ProgramResult generated =
-        run_program({"generate", "scenarios/points.yaml", "-o", directory_, "--set", "dataset.maps_per_shard=5"});
-    ASSERT_EQ(generated.code, 0) << generated.err;
+    completed({"generate", "scenarios/points.yaml", "-o", directory_, "--set", "dataset.maps_per_shard=5"});
   }
 
   TemporaryFolder folder_;
@@ -25,20 +32,16 @@ class DataSetVerification : public testing::Test {
 };
 
 TEST_F(DataSetVerification, AcceptsAValidDataSetAndItsRegeneratedSamples) {
-  const ProgramResult result = run_program({"verify", directory_, "--regenerate", "4"});
-  EXPECT_EQ(result.code, 0) << result.err;
+  const ProgramResult result = completed({"verify", directory_, "--regenerate", "4"});
   EXPECT_THAT(result.out, HasSubstr("4 regenerated samples match the stored ones"));
   EXPECT_THAT(result.out, HasSubstr("no fault found"));
 }
 
 TEST_F(DataSetVerification, CrossChecksNoIdealPoints) {
-  const ProgramResult result = run_program({"verify", directory_, "--regenerate", "0", "--cross-check", "3"});
-  EXPECT_EQ(result.code, 0) << result.err;
-  EXPECT_THAT(result.out, HasSubstr("3 samples of ideal points left out, which have no solver"));
-  const ProgramResult bounded =
-      run_program({"verify", directory_, "--regenerate", "0", "--cross-check", "3", "--cross-check-db", "-20"});
-  EXPECT_EQ(bounded.code, 2);
-  EXPECT_THAT(bounded.err, HasSubstr("--cross-check-db: none of 3 samples has a solver"));
+  EXPECT_THAT(completed({"verify", directory_, "--regenerate", "0", "--cross-check", "3"}).out,
+              HasSubstr("3 samples of ideal points left out, which have no solver"));
+  expect_refused({"verify", directory_, "--regenerate", "0", "--cross-check", "3", "--cross-check-db", "-20"},
+                 "--cross-check-db: none of 3 samples has a solver");
   EXPECT_THAT(run_program({"verify", directory_, "--cross-check-db", "-20"}).err,
               HasSubstr("--cross-check-db requires --cross-check"));
 }
@@ -51,15 +54,13 @@ TEST(CrossCheckedDataSet, ReportsDifferencesAndFailsOnlyAboveTheBound) {
              "seaglint: 1\nradar: {pulses: 16}\nview: {azimuth_deg: [10, 40], elevation_deg: 2}\ntargets:\n"
              "  reflector: {label: 0, mesh: assets/icosahedral_reflector.glb, motion: {model: float}}\n"
              "dataset: {maps_per_case: 1, realisations_per_case: 1}\n");
-  ASSERT_EQ(run_program({"generate", folder.path() / "reflector.yaml", "-o", data}).code, 0);
-  const auto verify = [&](std::vector<std::string> more) {
-    more.insert(more.begin(), {"verify", data, "--regenerate", "0", "--cross-check", "9"});
-    return run_program(more);
+  completed({"generate", folder.path() / "reflector.yaml", "-o", data});
+  const auto verify = [&](Words more) {
+    return run_program({"verify", data, "--regenerate", "0", "--cross-check", "9"}, more);
   };
-  const ProgramResult reported = verify({});
-  EXPECT_EQ(reported.code, 0) << reported.err;
+  const ProgramResult reported = completed(verify({}));
   EXPECT_THAT(reported.out, HasSubstr("  reflector  beams   rays "));
-  EXPECT_EQ(verify({"--cross-check-db", "20"}).code, 0);
+  completed(verify({"--cross-check-db", "20"}));
   const ProgramResult failed = verify({"--cross-check-db", "-300"});
   EXPECT_EQ(failed.code, 1);
   EXPECT_THAT(failed.err, HasSubstr("the median relative difference of the response, "));
@@ -70,17 +71,13 @@ TEST_F(DataSetVerification, NeitherMergesOverItselfNorAcceptsItAsARun) {
   const std::string shard = read_file(directory_ / "shard_00000.h5"),
                     scenario = read_file(directory_ / "scenario.yaml");
   for (const char* name : {"shard_00000.h5", "scenario.yaml", "manifest.json", "merged.txt"}) {
-    const ProgramResult merged = run_program({"merge", directory_, "-o", directory_ / name});
-    EXPECT_EQ(merged.code, 2) << name;
-    EXPECT_THAT(merged.err, HasSubstr(name));
+    expect_refused({"merge", directory_, "-o", directory_ / name}, name);
   }
-  const ProgramResult run =
-      run_program({"run", "scenarios/points.yaml", "--set", "seed=99", "-o", directory_, "--resume"});
-  EXPECT_EQ(run.code, 2);
-  EXPECT_THAT(run.err, HasSubstr("contains something else than a run"));
+  expect_refused({"run", "scenarios/points.yaml", "--set", "seed=99", "-o", directory_, "--resume"},
+                 "contains something else than a run");
   EXPECT_EQ(read_file(directory_ / "shard_00000.h5"), shard);
   EXPECT_EQ(read_file(directory_ / "scenario.yaml"), scenario);
-  EXPECT_EQ(run_program({"verify", directory_, "--regenerate", "0"}).code, 0);
+  completed({"verify", directory_, "--regenerate", "0"});
 }
 
 TEST_F(DataSetVerification, RefusesATruncatedShard) {
@@ -89,9 +86,7 @@ TEST_F(DataSetVerification, RefusesATruncatedShard) {
     if (entry.path().extension() == ".h5") shard = entry.path();
   }
   fs::resize_file(shard, fs::file_size(shard) / 2);
-  const ProgramResult result = run_program({"verify", directory_});
-  EXPECT_EQ(result.code, 2);
-  EXPECT_THAT(result.err, HasSubstr("faults, the first: " + shard.string()));
+  expect_refused({"verify", directory_}, "faults, the first: " + shard.string());
 }
 
 TEST_F(DataSetVerification, RefusesAForeignFile) {
@@ -101,14 +96,275 @@ TEST_F(DataSetVerification, RefusesAForeignFile) {
   EXPECT_THAT(result.out, HasSubstr("fault: foo: is no file of a data set\n"));
   fs::remove(directory_ / "foo");
   write_file(directory_ / ".nfs0001", "");  // temporary file of a network file server
-  EXPECT_EQ(run_program({"verify", directory_, "--regenerate", "0"}).code, 0);
+  completed({"verify", directory_, "--regenerate", "0"});
 }
 
 TEST_F(DataSetVerification, RefusesAMissingManifest) {
   fs::remove(directory_ / "manifest.json");
-  const ProgramResult result = run_program({"verify", directory_});
+  expect_refused({"verify", directory_}, "manifest.json");
+}
+
+// Uses of a data set: merging, verification, regeneration of a sample, export, reading with NumPy and h5py.
+
+bool has_python() { return fs::exists(kPython) && run_words({kPython, "-c", "import h5py, numpy"}).code == 0; }
+
+#define SKIP_WITHOUT_PYTHON() \
+  if (!has_python()) GTEST_SKIP() << "needs the packages python3-h5py and python3-numpy"
+
+// One data set with complex maps for all tests of this file; tests that change it use a copy.
+class DataSetUse : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new TemporaryFolder;
+    data_ = folder_->path() / "data";
+    completed({"generate", "scenarios/points.yaml", "-o", data_, "--set", "dataset.maps_per_shard=15", "--set",
+               "dataset.complex_maps=true"});
+    EXPECT_THAT(completed({"merge", data_}).out, HasSubstr("dataset.h5: 40 samples of 3 shards"));
+  }
+  static void TearDownTestSuite() { delete folder_; }
+
+  static fs::path copy() {
+    fs::path place = folder_->path() / testing::UnitTest::GetInstance()->current_test_info()->name();
+    fs::copy(data_, place);
+    return place;
+  }
+  // Runs Python code with `data` and `out` as paths; it must print "equal".
+  static void expect_equal_in_python(const std::string& code, const fs::path& out) {
+    const ProgramResult result = completed(run_words({kPython, "-c",
+                                                      "import sys, json, glob, numpy as np, h5py\n"
+                                                      "data, out = sys.argv[1:]\n" +
+                                                          code + "\nprint('equal')",
+                                                      data_, out}));
+    EXPECT_EQ(result.out, "equal\n");
+  }
+
+  static inline TemporaryFolder* folder_ = nullptr;
+  static inline fs::path data_;
+};
+
+TEST_F(DataSetUse, VerifiesWithItsMergedFile) {
+  EXPECT_THAT(completed({"verify", data_}).out, HasSubstr("no fault found"));
+}
+
+TEST_F(DataSetUse, IsNotMergedWithAShardMissing) {
+  const fs::path data = copy();
+  fs::remove(data / "shard_00001.h5");
+  expect_refused({"merge", data, "-o", data / "new.h5"}, "shard_00001.h5: missing");
+  EXPECT_FALSE(fs::exists(data / "new.h5"));
+}
+
+TEST_F(DataSetUse, RegeneratesASampleBitForBit) {
+  const fs::path out = folder_->path() / "sample.npz";
+  EXPECT_THAT(completed({"regenerate", data_, "--sample", "17", "-o", out}).out,
+              HasSubstr("the regenerated sample matches the stored one, bit for bit"));
+  SKIP_WITHOUT_PYTHON();
+  expect_equal_in_python(
+      "a, h = np.load(out), h5py.File(data + '/dataset.h5')\n"
+      "assert a['map_complex'].dtype == np.complex64\n"
+      "assert (a['map'] == h['maps'][17]).all()\n"
+      "assert (a['map_complex'] == h['maps_complex'][17].view(np.complex64)[..., 0]).all()\n"
+      "assert (a['hop_code'] == h['hop_code'][17]).all()\n"
+      "assert (a['centres'] == h['centres'][17][:len(a['centres'])]).all() and len(a['centres']) == "
+      "a['samples/centres']\n"
+      "for name in h['axes']: assert (a['axes/' + name] == h['axes'][name][:]).all()\n"
+      "for name in h['samples']: assert a['samples/' + name] == h['samples'][name][17], name",
+      out);
+}
+
+TEST_F(DataSetUse, ReportsDifferencesOfARegeneratedSample) {
+  const fs::path data = copy();
+  std::string yaml = read_file(data / "scenario.yaml");
+  yaml.replace(yaml.find("scr_db: 20"), 10, "scr_db: 15");
+  write_file(data / "scenario.yaml", yaml);
+  // As if the maps had been generated with the changed scenario.
+  std::string manifest = read_file(data / "manifest.json");
+  const std::string original = sha256_file(data_ / "scenario.yaml");
+  ASSERT_NE(manifest.find(original), std::string::npos);
+  manifest.replace(manifest.find(original), original.size(), sha256(yaml));
+  write_file(data / "manifest.json", manifest);
+  const ProgramResult result = run_program({"regenerate", data, "--sample", "3"});
   EXPECT_EQ(result.code, 2);
-  EXPECT_THAT(result.err, HasSubstr("manifest.json"));
+  EXPECT_THAT(result.err, HasSubstr("sample 3 regenerated: its map differs by up to"));
+  EXPECT_THAT(result.err, HasSubstr("scr_per_pulse_db"));
+  expect_refused({"regenerate", data, "--sample", "40"}, "--sample 40: the data set has samples 0 to 39");
+}
+
+TEST_F(DataSetUse, IsTheSameInNumpy) {
+  const fs::path one = folder_->path() / "all.npz", many = folder_->path() / "npz";
+  completed({"export", data_, "-o", one});
+  EXPECT_THAT(completed({"export", data_, "-o", many}).out, HasSubstr("40 samples in 3 files"));
+  SKIP_WITHOUT_PYTHON();
+  const std::string compare =
+      "def equal(a, h):\n"
+      "  names = []\n"
+      "  h.visititems(lambda name, item: names.append(name) if isinstance(item, h5py.Dataset) else None)\n"
+      "  assert sorted(names + ['description.json']) == sorted(a.files), (names, a.files)\n"
+      "  declared = json.loads(a['description.json'])['arrays']\n"
+      "  for name in names:\n"
+      "    there, here = h[name][:], a[name]\n"
+      "    if name == 'maps_complex': there = there.view(np.complex64)[..., 0]\n"
+      "    assert here.dtype == there.dtype and here.shape == there.shape, name\n"
+      "    assert (here == there).all(), name\n"
+      "    assert declared[name]['units'] == h[name].attrs['units'].decode(), name\n";
+  expect_equal_in_python(compare + "equal(np.load(out), h5py.File(data + '/dataset.h5'))", one);
+  expect_equal_in_python(compare +
+                             "for shard in sorted(glob.glob(data + '/shard_*.h5')):\n"
+                             "  equal(np.load(shard.replace(data, out).replace('.h5', '.npz')), h5py.File(shard))",
+                         many);
+}
+
+TEST_F(DataSetUse, IsExportedInTheSameBytesAtAnyTime) {
+  const fs::path out = folder_->path() / "twice.npz";
+  completed({"export", data_, "-o", out});
+  const std::string first = read_file(out);
+  timespec pause{2, 100000000};  // longer than the two-second resolution of a zip's time stamps
+  nanosleep(&pause, nullptr);
+  completed({"export", data_, "-o", out});
+  EXPECT_EQ(read_file(out), first);
+}
+
+// A directory set.mat with .npz files would look like a file that MATLAB reads.
+TEST_F(DataSetUse, IsNotExportedUnderTheNameOfAnotherFormat) {
+  for (const char* name : {"set.mat", "set.h5", "set.csv", "set.npy", "set.MAT", "set.tar", "set.zip"}) {
+    const fs::path out = folder_->path() / name;
+    const ProgramResult result = run_program({"export", data_, "-o", out});
+    EXPECT_EQ(result.code, 2) << name;
+    EXPECT_THAT(result.err, AllOf(HasSubstr(std::string(name) + ": "),
+                                  HasSubstr("is no format of this command: it writes one file FILE.npz")));
+    EXPECT_FALSE(fs::exists(out)) << name;
+  }
+  completed({"export", data_, "-o", folder_->path() / "set.v2"});
+}
+
+// Two data sets in one directory would be read as one.
+TEST_F(DataSetUse, IsNotExportedAmongFilesOfAnother) {
+  const fs::path other = folder_->path() / "other", out = folder_->path() / "shards";
+  completed({"generate", "scenarios/points.yaml", "-o", other, "--set", "dataset.maps_per_case=10"});
+  completed({"export", other, "-o", out});
+  const auto refused = [](const fs::path& data, const fs::path& place, const std::string& message) {
+    expect_refused({"export", data, "-o", place}, message);
+  };
+  const std::string before = read_file(out / "shard_00000.npz");
+  refused(data_, out,
+          "shards: the directory contains shard_00000.npz, which is not of this data set's export; choose a new "
+          "directory\n");
+  EXPECT_EQ(read_file(out / "shard_00000.npz"), before);
+  // An interrupted export of the same data set is continued.
+  fs::remove(out / "shard_00000.npz");
+  write_file(out / "shard_00000.npz.0123456789abcdef.tmp", "half");
+  completed({"export", other, "-o", out});
+  EXPECT_EQ(read_file(out / "shard_00000.npz"), before);
+  write_file(out / "notes.txt", "mine");
+  refused(other, out, "shards: the directory contains notes.txt");
+  refused(other, out / "notes.txt", "notes.txt: is a file, not a directory");
+  refused(other, other, "other: is the data set itself; export it into another directory\n");
+  EXPECT_FALSE(fs::exists(other / "shard_00000.npz"));
+}
+
+TEST_F(DataSetUse, IsNotExportedWithAShardDamagedNorOntoAFullDisk) {
+  const fs::path data = copy();
+  fs::resize_file(data / "shard_00002.h5", fs::file_size(data / "shard_00002.h5") / 2);
+  expect_refused({"export", data, "-o", data / "x.npz"}, "shard_00002.h5: truncated or changed");
+  const ProgramResult limited = run_words({"/bin/bash", "-c", "trap '' XFSZ; ulimit -f 200; exec \"$@\"", "limited",
+                                           kProgram, "export", data_, "-o", data / "x.npz"});
+  EXPECT_EQ(limited.code, 1);
+  EXPECT_THAT(limited.err, HasSubstr("x.npz: cannot write: "));
+  for (const auto& entry : fs::directory_iterator(data)) {
+    EXPECT_THAT(entry.path().filename().string(), testing::Not(testing::StartsWith("x.npz")));
+  }
+}
+
+// No user can write in /proc, not even root.
+TEST_F(DataSetUse, ReportsWhereItCannotBeWritten) {
+  for (const Words& words : std::vector<Words>{{"merge", data_, "-o", "/proc/x.h5"},
+                                               {"export", data_, "-o", "/proc/x.npz"},
+                                               {"export", data_, "-o", "/proc/x"},
+                                               {"regenerate", data_, "--sample", "3", "-o", "/proc/x.npz"}}) {
+    const ProgramResult result = run_program(words);
+    EXPECT_EQ(result.code, 1) << words[0];
+    EXPECT_THAT(result.err, HasSubstr("seaglint: /proc/x")) << words[0];
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  }
+}
+
+// HDF5 would pair the labels of one data set with the maps of another, beside the file or in the working directory.
+TEST_F(DataSetUse, NamesAMergedFileOfAnotherDataSet) {
+  const fs::path other = folder_->path() / "another_set";
+  completed({"generate", "scenarios/points.yaml", "--set", "seed=7", "--set", "dataset.maps_per_case=2", "--set",
+             "dataset.realisations_per_case=1", "-o", other});
+  fs::copy(data_ / "dataset.h5", other / "dataset.h5");
+  const std::string sentence = (other / "dataset.h5").string() + ": is of another manifest";
+  for (const Words& words : {Words{"export", other, "-o", folder_->path() / "another_set.npz"},
+                             {"regenerate", other, "--sample", "0"},
+                             {"verify", other, "--regenerate", "0"}}) {
+    const ProgramResult result = run_program(words);
+    EXPECT_EQ(result.code, words[0] == "verify" ? 2 : 0) << words[0];
+    EXPECT_THAT(result.err, HasSubstr("is of another manifest")) << words[0];
+  }
+  SKIP_WITHOUT_PYTHON();
+  const std::string example = SEAGLINT_SOURCE_DIR "/tools/python/read_dataset.py";
+  EXPECT_THAT(run_words({kPython, example, other / "dataset.h5"}).err, HasSubstr(sentence));
+  const fs::path alone = folder_->path() / "alone";
+  fs::create_directories(alone);
+  fs::copy(data_ / "dataset.h5", alone / "dataset.h5");
+  EXPECT_THAT(run_words({"/usr/bin/env", "--chdir=" + other.string(), kPython, example, alone / "dataset.h5"}).err,
+              HasSubstr("manifest.json: missing"));
+}
+
+TEST_F(DataSetUse, IsReadByThePythonExample) {
+  SKIP_WITHOUT_PYTHON();
+  const std::string example = SEAGLINT_SOURCE_DIR "/tools/python/read_dataset.py";
+  const ProgramResult merged = completed(run_words({kPython, example, data_ / "dataset.h5"}));
+  EXPECT_THAT(merged.out, HasSubstr("20 of 40 maps have label 1"));
+  EXPECT_THAT(merged.out, HasSubstr("\ntrain    16       4"));
+  const ProgramResult shards = run_words({kPython, example, data_});
+  EXPECT_EQ(shards.out, merged.out) << shards.err;
+  const fs::path data = copy();
+  fs::remove(data / "shard_00001.h5");
+  for (const fs::path& place : {data, data / "dataset.h5"}) {
+    const ProgramResult refused = run_words({kPython, example, place});
+    EXPECT_NE(refused.code, 0);
+    EXPECT_THAT(refused.err, HasSubstr("shard_00001.h5: missing (1 of 3 shards)"));
+  }
+}
+
+// Data sets made to deceive: no other file is read, memory is bounded, and the shard is named.
+
+class HostileDataSet : public testing::Test {
+ protected:
+  // The program with at most 1.5 GB of address space, three times what it takes to start (without sanitizers).
+  static ProgramResult bounded(const Words& arguments) {
+    const std::string limit = kSanitized ? "" : "ulimit -v 1500000; ";
+    return run_words(with({"/bin/bash", "-c", limit + "exec \"$@\"", "bounded", kProgram}, arguments));
+  }
+
+  TemporaryFolder folder_;
+  const fs::path base_ = folder_.path() / "base", secret_ = folder_.path() / "secret";
+};
+
+TEST_F(HostileDataSet, IsRefusedWithTheShardsName) {
+  if (run_words({kPython, "-c", "import h5py, numpy"}).code != 0) GTEST_SKIP() << "no h5py";
+  completed({"generate", "scenarios/points.yaml", "--set", "dataset.maps_per_case=4", "--set",
+             "dataset.realisations_per_case=2", "--set", "dataset.maps_per_shard=4", "-o", base_});
+  for (int i = 0; i < 100000; ++i) std::ofstream(secret_, std::ios::app) << "SECRET OF ANOTHER FILE ";
+  const fs::path made = folder_.path() / "made";
+  const std::string hostile_shards = SEAGLINT_SOURCE_DIR "/tests/pipeline/hostile_shards.py";
+  const ProgramResult script = completed(run_words({kPython, hostile_shards, base_, made, secret_}));
+  std::istringstream kinds(script.out);
+  int count = 0;
+  for (std::string kind; std::getline(kinds, kind); ++count) {
+    const fs::path exported = folder_.path() / (kind + ".npz");
+    for (const Words& words : {Words{"verify", made / kind, "--regenerate", "0"},
+                               {"merge", made / kind},
+                               {"export", made / kind, "-o", exported}}) {
+      const ProgramResult result = bounded(words);
+      EXPECT_EQ(result.code, 2) << kind << ", " << words[0] << ": " << result.err;
+      EXPECT_THAT(result.err, HasSubstr("shard_00000.h5: ")) << kind << ", " << words[0];
+      EXPECT_THAT(result.err, Not(HasSubstr("SECRET"))) << kind;
+    }
+    EXPECT_FALSE(fs::exists(exported)) << kind;
+  }
+  EXPECT_EQ(count, 13);
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The Python module seaglint._core: its parts, NumPy arrays, interruptible work, and the target of a request; the
-// package beside it gives these functions their names, checks and documentation (tools/bindings/seaglint).
+// The Python module seaglint._core: its parts, NumPy arrays, interruptible work; the package beside it gives these
+// functions their names, checks and documentation (tools/bindings/seaglint).
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -11,25 +11,15 @@
 #include <future>
 #include <memory>
 #include <optional>
-#include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "sim/core/process/parallel.h"
-#include "sim/geometry/mesh/triangle_mesh.h"
-#include "tools/rcs/rcs_request.h"
 
 namespace seaglint {
 
-void bind_scenario(pybind11::module_& module);  // Scenario
-void bind_mesh(pybind11::module_& module);      // Mesh
-void bind_rcs(pybind11::module_& module);       // rcs
-void bind_sample(pybind11::module_& module);    // Pipeline
-void bind_series(pybind11::module_& module);    // sea, motion
-void bind_compare(pybind11::module_& module);   // Exports, compare
-void bind_train(pybind11::module_& module);     // train
-void bind_evaluate(pybind11::module_& module);  // evaluate
+void bind_rcs(pybind11::module_& module);    // RcsRequest, rcs; Exports, compare
+void bind_scene(pybind11::module_& module);  // Pipeline; sea, motion
 
 // Vectors as NumPy arrays without a copy.
 
@@ -81,12 +71,5 @@ Result interruptible(const std::function<Result(const StopFlag&)>& work) {
   }
   return result.get();
 }
-
-// The target of a request as Python gives it.
-
-using MeshOrFile = std::variant<std::shared_ptr<TriangleMesh>, std::string>;
-
-// Throws InputError where the file is not found (find_input()).
-void set_target(RcsRequest& request, const MeshOrFile& target);
 
 }  // namespace seaglint

@@ -4,8 +4,13 @@
 #include <pybind11/stl.h>
 
 #include <memory>
+#include <variant>
 
+#include "sim/core/process/error.h"
+#include "sim/core/text/names.h"
 #include "tools/bindings/bindings.h"
+#include "tools/compare/comparison_text.h"
+#include "tools/options/rcs_arguments.h"
 #include "tools/rcs/rcs_request.h"
 #include "tools/rcs/rcs_uncertainty.h"
 #include "tools/rcs/rcs_views.h"
@@ -14,6 +19,18 @@ namespace py = pybind11;
 
 namespace seaglint {
 namespace {
+
+using MeshOrFile = std::variant<std::shared_ptr<TriangleMesh>, std::string>;
+
+// Throws InputError where the file is not found (find_input()).
+void set_target(RcsRequest& request, const MeshOrFile& target) {
+  if (const auto* file = std::get_if<std::string>(&target)) {
+    request.target = find_input(*file);
+  } else {
+    request.mesh = std::get<0>(target);
+    request.target = "the mesh";
+  }
+}
 
 // [frequency][elevation][azimuth][received h, v][transmitted h, v] in metres.
 py::array_t<Complex> matrices_of(const RcsSweep& sweep) {
@@ -44,6 +61,51 @@ py::tuple rcs(RcsRequest request, const MeshOrFile& target, int threads) {
     return solved;
   });
   return py::make_tuple(matrices_of(sweep), warnings);
+}
+
+ComparisonSettings settings_of(const ReferenceArguments& exports, bool as_is, std::optional<double> radius_m) {
+  return {exports.floor_db, as_is, radius_m};
+}
+
+// Exports with another table; the text of compare.json.
+std::string compare_tables(const ReferenceArguments& exports, const std::string& against, bool as_is,
+                           std::optional<double> interpolation_radius_m, int threads) {
+  const ComparisonSettings settings = settings_of(exports, as_is, interpolation_radius_m);
+  const auto comparisons = interruptible<std::vector<ExportComparison>>([&](const StopFlag& stop) {
+    const std::vector<FieldTable> tables = exports.read().tables;
+    ReferenceArguments other;
+    other.files = {against};
+    const FieldTable table = joined_tables(other.read().tables, against);
+    std::vector<ExportComparison> compared;
+    for (const FieldTable& one : tables) {
+      if (stop) throw Interrupted();
+      compared.push_back(compare_with_table(one, table, settings, threads));
+    }
+    check_reciprocity(compared);
+    return compared;
+  });
+  return comparison_json(comparisons, settings);
+}
+
+// Exports with a mesh solved at their angles and frequencies; the text of compare.json and the mesh's warnings.
+py::tuple compare_target(const ReferenceArguments& exports, RcsRequest request, const MeshOrFile& target, bool as_is,
+                         int threads) {
+  set_target(request, target);
+  const ComparisonSettings settings = settings_of(exports, as_is, std::nullopt);
+  std::vector<std::string> warnings;
+  const auto comparisons = interruptible<std::vector<ExportComparison>>([&](const StopFlag& stop) {
+    const std::vector<FieldTable> tables = exports.read().tables;
+    const RcsRequest solved = at_frequencies_of(tables, std::move(request));
+    const RcsTarget prepared = prepare_rcs_target(solved);
+    warnings = prepared.prepared.warnings;
+    TargetSolutions solutions{threads, stop, [](const std::string&) {}};
+    std::vector<ExportComparison> compared;
+    for (const FieldTable& table : tables)
+      compared.push_back(compare_with_target(table, solved, prepared, settings, solutions));
+    check_reciprocity(compared);
+    return compared;
+  });
+  return py::make_tuple(comparison_json(comparisons, settings), warnings);
 }
 
 }  // namespace
@@ -93,6 +155,18 @@ void bind_rcs(py::module_& module) {
                                   {.crease = crease, .edges = edges, .max_bounces = max_bounces});
              });
   module.def("rcs", &rcs);
+  py::class_<ReferenceArguments>(module, "Exports")  // each property: none, one for all files, or one for each
+      .def(py::init<>())
+      .def_readwrite("files", &ReferenceArguments::files)
+      .def_readwrite("polarisation", &ReferenceArguments::polarisation)
+      .def_readwrite("phi", &ReferenceArguments::phi)
+      .def_readwrite("frequency_ghz", &ReferenceArguments::frequency_ghz)
+      .def_readwrite("elevation_deg", &ReferenceArguments::elevation_deg)
+      .def_readwrite("incidence", &ReferenceArguments::incidence)
+      .def_readwrite("origin_m", &ReferenceArguments::origin_m)
+      .def_readwrite("floor_db", &ReferenceArguments::floor_db);
+  module.def("compare_tables", &compare_tables);
+  module.def("compare_target", &compare_target);
 }
 
 }  // namespace seaglint

@@ -12,7 +12,7 @@
 #include "sim/core/process/printable.h"
 #include "tools/cli/command_line.h"
 #include "tools/compare/comparison_text.h"
-#include "tools/compare/curve_features.h"
+#include "tools/compare/differences.h"
 #include "tools/figure/figure.h"
 #include "tools/options/rcs_arguments.h"
 #include "tools/page/html.h"
@@ -31,13 +31,6 @@ struct CompareArguments {
 };
 
 void say(const std::string& line) { print_error(on_one_line(line) + "\n"); }
-
-std::vector<FieldTable> read_and_report(const ReferenceArguments& files) {
-  ReferenceTables references = files.read();
-  for (const std::string& folder : references.folders) say(folder);
-  for (const FieldTable& table : references.tables) say(reading_of(table));
-  return std::move(references.tables);
-}
 
 // The geometry that all exports name. Throws InputError where they name none or different ones.
 std::vector<GeometryFile> geometry_of(const std::vector<FieldTable>& tables) {
@@ -119,7 +112,7 @@ std::string known_too(const ExportComparison& comparison, std::size_t quantity) 
   for (const KnownStatistics& s : comparison.known->statistics) {
     if (s.quantity == quantity)
       return fmt::format("; from the known value ({}) the export differs by {:.2f} dB rms, {} by {:.2f} dB",
-                         comparison.known->name, s.reference_rms_db, comparison.compared, s.compared_rms_db);
+                         comparison.known->name, s.reference.rms_db, comparison.compared, s.compared.rms_db);
   }
   return "";
 }
@@ -134,13 +127,14 @@ std::vector<std::string> failures(const std::vector<ExportComparison>& compariso
     }
     for (const ElementStatistics& s : comparison.elements) {
       const char* element = kQuantityNames[s.quantity()];
-      if (arguments.tolerance_db && s.mean_abs_db > *arguments.tolerance_db)
+      if (arguments.tolerance_db && s.difference.mean_db > *arguments.tolerance_db)
         sentences.push_back(fmt::format("{} {}: mean difference {:.3f} dB is over --tolerance-db {:g}{}",
-                                        comparison.name, element, s.mean_abs_db, *arguments.tolerance_db,
+                                        comparison.name, element, s.difference.mean_db, *arguments.tolerance_db,
                                         known_too(comparison, s.quantity())));
-      if (arguments.min_correlation && s.correlation.value_or(0) < *arguments.min_correlation)
+      if (arguments.min_correlation && std::abs(s.difference.correlation.value_or(0)) < *arguments.min_correlation)
         sentences.push_back(fmt::format("{} {}: correlation {:.4f} is under --min-correlation {:g}", comparison.name,
-                                        element, s.correlation.value_or(0), *arguments.min_correlation));
+                                        element, std::abs(s.difference.correlation.value_or(0)),
+                                        *arguments.min_correlation));
     }
   }
   return sentences;
@@ -173,13 +167,6 @@ void require_results(const CompareArguments& arguments) {
   require_figure(directory / "compare.png");
 }
 
-bool has_bistatic_cut(const std::vector<FieldTable>& tables) {
-  return std::any_of(tables.begin(), tables.end(), [](const FieldTable& table) {
-    return std::any_of(table.cuts.begin(), table.cuts.end(),
-                       [](const RcsCut& cut) { return cut.transmitter && !cut.transmitter->is_monostatic; });
-  });
-}
-
 // Those of the first export as DIR/solved..., of the others as DIR/solved_2... and so on.
 std::vector<std::filesystem::path> write_solved(const std::vector<ExportComparison>& comparisons,
                                                 const CompareArguments& arguments) {
@@ -204,7 +191,6 @@ void run_compare(const CompareArguments& arguments, const CommandContext& contex
   const std::vector<FieldTable> tables = read_and_report(arguments.exports);
   if (!arguments.rcs.export_as.empty() && !arguments.against.empty())
     throw InputError("--export-as is for --target: it writes the solved values");
-  require_export_formats(arguments.rcs.export_as, has_bistatic_cut(tables));
   const Counterpart counterpart = counterpart_of(arguments, tables);
   require_results(arguments);
 
@@ -222,7 +208,7 @@ void run_compare(const CompareArguments& arguments, const CommandContext& contex
   write_file(directory / "compare.csv", comparison_csv(comparisons, context.threads));
   const ComparisonFigures figures = draw(comparisons, settings, directory);
   write_file(directory / "compare.html", comparison_page(comparisons, settings, figures));
-  write_file(directory / "compare.json", comparison_json(comparisons, settings).dump(2) + "\n");
+  write_file(directory / "compare.json", comparison_json(comparisons, settings));
   const std::vector<std::filesystem::path> solved = write_solved(comparisons, arguments);
   print_out("{}", comparison_table(comparisons, settings));
   for (const std::filesystem::path& file : solved) print_out("Solved values: {}\n", file.string());
@@ -235,6 +221,13 @@ void run_compare(const CompareArguments& arguments, const CommandContext& contex
 }
 
 }  // namespace
+
+std::vector<FieldTable> read_and_report(const ReferenceArguments& files) {
+  ReferenceTables references = files.read();
+  for (const std::string& folder : references.folders) say(folder);
+  for (const FieldTable& table : references.tables) say(reading_of(table));
+  return std::move(references.tables);
+}
 
 void add_compare(CommandOptions& program, CommandContext& context) {
   CommandOptions command = program.add_command(

@@ -12,16 +12,13 @@
 #include <string_view>
 #include <system_error>
 
-#include "classify/dataset/cards/cards.h"
-#include "classify/dataset/cards/croissant.h"
 #include "classify/dataset/directory/audit.h"
 #include "classify/dataset/directory/dataset_reader.h"
 #include "classify/dataset/directory/dataset_writer.h"
 #include "classify/dataset/directory/export.h"
-#include "classify/dataset/directory/webdataset.h"
 #include "classify/dataset/format/hdf5_file.h"
-#include "classify/dataset/format/layout.h"
 #include "classify/dataset/format/npz.h"
+#include "classify/dataset/format/shard.h"
 #include "seaglint_version.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
@@ -312,28 +309,9 @@ std::vector<NpzArray> arrays_of(const Sample& sample, const StoredAxes& axes) {
   arrays.push_back(npz_array("hop_code", "<u2", {sample.hop_code.size()}, bytes_of_values(std::span(sample.hop_code))));
   arrays.push_back(
       npz_array("centres", "<f4", {sample.centre_list.size(), 3}, bytes_of_values(std::span(sample.centre_list))));
-  for (const SampleColumn& column : sample_columns()) {
-    std::visit(
-        [&](auto member) {
-          const auto& value = sample.record.*member;
-          using T = std::decay_t<decltype(value)>;
-          const std::string name = std::string("samples/") + column.name;
-          if constexpr (std::is_same_v<T, std::string>) {
-            arrays.push_back(npz_array(name, "|S64", {}, packed_names(std::span(&value, 1))));
-          } else {
-            arrays.push_back(
-                npz_array(name, std::is_same_v<T, double> ? "<f8" : "<i8", {}, bytes_of_values(std::span(&value, 1))));
-          }
-        },
-        column.member);
-  }
-  visit_drawn(sample.record, [&](const std::string& key, const auto& value) {
-    if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::string>) {
-      arrays.push_back(npz_array("drawn/" + key, "|S64", {}, packed_names(std::span(&value, 1))));
-    } else {
-      arrays.push_back(npz_array("drawn/" + key, "<f8", {}, bytes_of_values(std::span(&value, 1))));
-    }
-  });
+  const StoredColumns table = stored_columns(std::span(&sample.record, 1), default_classes());
+  for (const auto* columns : {&table.samples, &table.drawn})
+    for (const StoredColumn& column : *columns) arrays.push_back(npz_column(column, {}));
   return arrays;
 }
 
@@ -402,19 +380,14 @@ namespace {
 namespace fs = std::filesystem;
 
 // Endings of files that other programs write or read.
-constexpr std::array<std::string_view, 23> kOtherFormats{
+constexpr std::array<std::string_view, 24> kOtherFormats{
     ".mat",  ".h5",    ".hdf5",     ".hdf",     ".csv",   ".tsv",     ".txt", ".npy",
     ".json", ".jsonl", ".xlsx",     ".parquet", ".arrow", ".feather", ".pkl", ".pickle",
-    ".pt",   ".pth",   ".tfrecord", ".zarr",    ".nc",    ".zip",     ".gz"};
-
-constexpr double kMegabyte = 1e6;  // bytes
-constexpr double kDefaultTar_mb = 500;
+    ".pt",   ".pth",   ".tfrecord", ".zarr",    ".nc",    ".zip",     ".gz",  ".tar"};
 
 struct ExportArguments {
   std::string directory;
   std::string output;
-  std::string format = "npz";
-  std::optional<double> max_tar_mb;
 };
 
 void export_npz(const DatasetReader& reader, const fs::path& output, const StopFlag& stop) {
@@ -437,110 +410,38 @@ void export_npz(const DatasetReader& reader, const fs::path& output, const StopF
 }
 
 // A name that ends as a file of another format would become a directory of that name.
-void require_format(const ExportArguments& arguments) {
-  std::string ending = fs::path(arguments.output).extension().string();
+void require_npz_output(const std::string& output) {
+  std::string ending = fs::path(output).extension().string();
   for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  const bool is_other = std::ranges::find(kOtherFormats, ending) != kOtherFormats.end();
-  const bool is_archive = ending == ".tar" || (ending == ".npz" && arguments.format == "webdataset");
-  if (arguments.format == "webdataset" && is_archive)
-    throw InputError(fmt::format("{}: --as webdataset writes a directory", arguments.output));
   std::error_code error;
-  if ((!is_other && !is_archive) || fs::is_regular_file(arguments.output, error)) return;  // that is no directory
+  if (std::ranges::find(kOtherFormats, ending) == kOtherFormats.end() || fs::is_regular_file(output, error)) return;
   throw InputError(
-      fmt::format("{}: {} is no format of --as: npz writes one file FILE.npz or a directory of them, "
-                  "webdataset a directory of .tar archives",
-                  arguments.output, ending));
-}
-
-void export_dataset(const ExportArguments& arguments, const StopFlag& stop) {
-  const bool webdataset = arguments.format == "webdataset";
-  if (!webdataset && arguments.max_tar_mb) throw InputError("--max-tar-mb: only with --as webdataset");
-  const fs::path output = arguments.output;
-  require_format(arguments);
-  const DatasetReader reader(find_data_set(arguments.directory));
-  warn(data_set_warnings(reader));
-  if (!webdataset) return export_npz(reader, output, stop);
-  const auto max_bytes = static_cast<std::uint64_t>(arguments.max_tar_mb.value_or(kDefaultTar_mb) * kMegabyte);
-  const std::size_t archives = export_webdataset(reader, output, max_bytes, &stop);
-  print_out("{}: {} samples in {} archives\n", output.string(), reader.size(), archives);
+      fmt::format("{}: {} is no format of this command: it writes one file FILE.npz or a directory of them; "
+                  "seaglint.Dataset(DIR).to_webdataset() in Python writes .tar archives",
+                  output, ending));
 }
 
 }  // namespace
 
 void add_export(CommandOptions& program, CommandContext& context) {
-  CommandOptions command = program.add_command("export", "A data set as NumPy's .npz or in the WebDataset layout");
+  CommandOptions command = program.add_command("export", "A data set as NumPy's .npz");
   auto arguments = std::make_shared<ExportArguments>();
   command.add_option("directory", arguments->directory, "Directory of the data set").required();
   command
       .add_option("-o,--output", arguments->output,
                   "FILE.npz: everything in one file, for up to some 10,000 maps; else a directory for one file a shard")
       .required();
-  command
-      .add_option("--as", arguments->format,
-                  "npz: NumPy's archives; webdataset: tar archives with map, row and label of each sample in turn")
-      .one_of({"npz", "webdataset"})
-      .show_default();
-  command
-      .add_option("--max-tar-mb", arguments->max_tar_mb,
-                  fmt::format("Largest tar archive, MB (10^6 bytes), {:g} unless given", kDefaultTar_mb))
-      .number_within(0.01, 1e6);
   command.footer(
       "Example:\n  seaglint export build/points/data -o build/points.npz\n  seaglint export build/paper -o "
-      "build/paper_npz\n  seaglint export build/paper -o build/paper_tar --as webdataset --max-tar-mb 1000");
-  command.callback(
-      [arguments, &context] { context.work = [arguments, &context] { export_dataset(*arguments, context.stop); }; });
-}
-
-namespace {
-
-struct CardArguments {
-  std::string directory;
-  Publication publication;
-};
-
-void make_cards(const CardArguments& arguments, const StopFlag& stop) {
-  const DatasetReader reader(find_data_set(arguments.directory));
-  warn(data_set_warnings(reader));
-  write_cards(reader, arguments.publication, &stop);
-  const auto file = [&](const char* name) { return (reader.directory() / name).string(); };
-  print_out("{}: data card of {} samples\n{}: Croissant 1.0\n{}: columns of all samples\n", file(kDataCardFile),
-            reader.size(), file(kCroissantFile), file(kColumnsFile));
-  const std::vector<std::string> missing = missing_properties(arguments.publication);
-  if (!missing.empty())
-    warn(
-        std::vector{fmt::format("{}: Croissant requires {} too; --licence, --url, --creator or --organisation, --date "
-                                "give them",
-                                kCroissantFile, fmt::join(missing, ", "))});
-}
-
-}  // namespace
-
-void add_card(CommandOptions& program, CommandContext& context) {
-  CommandOptions command = program.add_command(
-      "card", "Files with which a data set is handed to others: README.md (Hugging Face), croissant.json, columns.csv");
-  auto arguments = std::make_shared<CardArguments>();
-  Publication& publication = arguments->publication;
-  command.add_option("directory", arguments->directory, "Directory of the data set, or of a run").required();
-  command.add_option("--name", publication.name, "Title; the scenario's name unless given").check(name_problem);
-  command
-      .add_option("--licence,--license", publication.licence,
-                  "Licence of the data: identifier of the SPDX list (CC-BY-4.0), LicenseRef-NAME, or a URL")
-      .check(licence_problem);
-  command.add_option("--creator", publication.creators, "Person who made the data set; repeatable")
-      .repeatable("NAME")
-      .check(name_problem);
-  command.add_option("--organisation", publication.organisations, "Organisation that made it; repeatable")
-      .repeatable("NAME")
-      .check(name_problem);
-  command.add_option("--url", publication.url, "Page of the data set").check(url_problem);
-  command.add_option("--date", publication.date, "Date of publication, YYYY-MM-DD").check(date_problem);
-  command.add_option("--data-version", publication.version, "Version of the data set, MAJOR.MINOR.PATCH")
-      .check(version_problem);
-  command.footer(
-      "What is not given is left out. Existing cards are replaced unless they were changed by hand.\n\nExample:\n"
-      "  seaglint card build/points/data --licence CC-BY-4.0 --organisation \"Radar Laboratory\" --date 2026-05-01");
-  command.callback(
-      [arguments, &context] { context.work = [arguments, &context] { make_cards(*arguments, context.stop); }; });
+      "build/paper_npz");
+  command.callback([arguments, &context] {
+    context.work = [arguments, &context] {
+      require_npz_output(arguments->output);
+      const DatasetReader reader(find_data_set(arguments->directory));
+      warn(data_set_warnings(reader));
+      export_npz(reader, arguments->output, context.stop);
+    };
+  });
 }
 
 }  // namespace seaglint

@@ -16,23 +16,41 @@
 #include "sim/core/process/printable.h"
 #include "sim/core/text/json.h"
 #include "sim/scenario/sample_plan.h"
-#include "sim/scenario/writer.h"
+#include "sim/scenario/scenario.h"
 #include "tools/cli/command_line.h"
 #include "tools/figure/figure.h"
-#include "tools/pipeline/interval_products.h"
 #include "tools/pipeline/pipeline.h"
 #include "tools/pipeline/warnings.h"
 
 namespace seaglint {
 
-// The echo of one sample as I/Q samples over time.
-
 namespace {
 
-struct EchoArguments : ScenarioArguments {
+struct SampleArguments : ScenarioArguments {
   std::size_t sample = 0;
   std::string output;
 };
+
+void add_sample_arguments(CommandOptions& command, SampleArguments& arguments, const std::string& output) {
+  add_scenario_arguments(command, arguments);
+  command.add_option("--sample", arguments.sample, "Number of the sample in the scenario's plan").show_default();
+  command.add_option("-o,--output", arguments.output, output).required();
+}
+
+// Pipeline of the scenario, which has the sample.
+Pipeline pipeline_of(const SampleArguments& arguments) {
+  const Scenario scenario = arguments.read();
+  const SamplePlan plan(scenario);
+  if (arguments.sample >= plan.size())
+    throw InputError(fmt::format("--sample {}: the scenario has samples 0 to {}", arguments.sample, plan.size() - 1));
+  return Pipeline(scenario, plan);
+}
+
+}  // namespace
+
+// The echo of one sample as I/Q samples over time.
+
+namespace {
 
 NpzArray doubles(const char* name, const std::vector<double>& values) {
   return npz_array(name, "<f8", {values.size()}, bytes_of_values(std::span<const double>(values)));
@@ -61,19 +79,11 @@ nlohmann::ordered_json columns_json(const SampleRecord& record) {
   return json;
 }
 
-void write_echo(const EchoArguments& arguments) {
+void write_echo(const SampleArguments& arguments) {
   require_npz(arguments.output);
-  const Scenario scenario = arguments.read();
-  const SamplePlan plan(scenario);
-  if (arguments.sample >= plan.size())
-    throw InputError(fmt::format("--sample {}: the scenario has samples 0 to {}", arguments.sample, plan.size() - 1));
-  const Pipeline pipeline(scenario, plan);
-  report_motion_files(pipeline);
-  report_spectrum_table(scenario);
-  warn(mesh_warnings(pipeline));
-  warn(motion_warnings(pipeline));
-  warn(sea_warnings(scenario, plan.sea_states()));
-  warn(band_warnings(pipeline));
+  const Pipeline pipeline = pipeline_of(arguments);
+  report_scenario(pipeline, {.bands = true});
+  const Scenario& scenario = pipeline.scenario();
   const SampledInterval interval = sampled_interval(pipeline, arguments.sample);
   const std::vector<std::int64_t> code(interval.train.code.begin(), interval.train.code.end());
 
@@ -111,10 +121,8 @@ void write_echo(const EchoArguments& arguments) {
 void add_echo(CommandOptions& program, CommandContext& context) {
   CommandOptions command =
       program.add_command("echo", "Write the echo of one sample as I/Q samples over time (NumPy .npz)");
-  auto arguments = std::make_shared<EchoArguments>();
-  add_scenario_arguments(command, *arguments);
-  command.add_option("--sample", arguments->sample, "Number of the sample in the scenario's plan").show_default();
-  command.add_option("-o,--output", arguments->output, "File, .npz").required();
+  auto arguments = std::make_shared<SampleArguments>();
+  add_sample_arguments(command, *arguments, "File, .npz");
   add_threads_option(command, context);
   command.footer("Example:\n  seaglint echo scenarios/points.yaml --sample 0 -o echo.npz");
   command.callback([arguments, &context] {
@@ -143,9 +151,7 @@ void print_result(const ReceivedInterval& received, const std::vector<Scattering
   if (received.map.unused_carriers > 0) print_out("carriers without a pulse: {}\n", received.map.unused_carriers);
 }
 
-struct MapArguments : ScenarioArguments {
-  std::size_t sample = 0;
-  std::string output;
+struct MapArguments : SampleArguments {
   std::string product = "rv";
 };
 
@@ -165,24 +171,19 @@ Heatmap profile_figure(const RangeProfiles& profiles, const std::string& title) 
 
 void show_map(const MapArguments& arguments) {
   require_figure(arguments.output);
-  const Scenario scenario = arguments.read();
-  const SamplePlan plan(scenario);
+  const Pipeline pipeline = pipeline_of(arguments);
+  const Scenario& scenario = pipeline.scenario();
+  const SamplePlan& plan = pipeline.plan();
   const std::size_t sample = arguments.sample;
-  if (sample >= plan.size())
-    throw InputError(fmt::format("--sample {}: the scenario has samples 0 to {}", sample, plan.size() - 1));
-  const Pipeline pipeline(scenario, plan);
-  report_motion_files(pipeline);
-  report_spectrum_table(scenario);
-  warn(mesh_warnings(pipeline));
-  warn(motion_warnings(pipeline));
-  warn(sea_warnings(scenario, plan.sea_states()));
+  const bool is_map = arguments.product == "rv";
+  report_scenario(pipeline, {.bands = is_map, .coverage = is_map});
   const SampleAddress address = plan.address(sample);
   const TargetSpec& target = scenario.targets[static_cast<std::size_t>(address.target)];
   const View view = plan.view(address);
   const std::string title =
       fmt::format("{}: sample {}, {}, Hs {:g} m, azimuth {:g} deg, elevation {:g} deg", scenario.name, sample,
                   target.name, plan.sea_state(address).significant_wave_height_m, view.azimuth_deg, view.elevation_deg);
-  if (arguments.product == "isar" || arguments.product == "hrrp") {
+  if (!is_map) {
     const FullBandInterval band = full_band_interval(pipeline, sample);
     if (arguments.product == "isar") {
       write_figure(rv_figure(band.image, {}, title + ", whole band every pulse"), arguments.output);
@@ -191,8 +192,6 @@ void show_map(const MapArguments& arguments) {
     }
     return;
   }
-  warn(band_warnings(pipeline));
-  warn(map_coverage_warnings(pipeline));  // throws if the map has too many cells
   const GeneratedSample made = pipeline.generate_sample(sample);
   write_figure(rv_figure(made.received.map, made.centres, title), arguments.output);
   print_result(made.received, made.centres, made.features);
@@ -204,9 +203,7 @@ void add_map(CommandOptions& program, CommandContext& context) {
   CommandOptions command =
       program.add_command("map", "Draw one range-velocity map, list its scattering centres and features");
   auto arguments = std::make_shared<MapArguments>();
-  add_scenario_arguments(command, *arguments);
-  command.add_option("--sample", arguments->sample, "Number of the sample in the scenario's plan").show_default();
-  command.add_option("-o,--output", arguments->output, "Picture, .png or .svg").required();
+  add_sample_arguments(command, *arguments, "Picture, .png or .svg");
   command
       .add_option(
           "--product", arguments->product,

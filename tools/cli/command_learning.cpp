@@ -4,7 +4,7 @@
 #include <memory>
 #include <optional>
 
-#include "classify/model/study_text.h"
+#include "classify/model/study.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/printable.h"
 #include "tools/cli/command_line.h"
@@ -82,10 +82,15 @@ void add_train(CommandOptions& program, CommandContext& context) {
       "  seaglint train build/a build/b -o build/model --hold-out data_set=1");
   command.callback([arguments, &context] {
     context.work = [arguments, &context] {
-      std::vector<std::filesystem::path> data_sets;
-      for (const std::string& data : arguments->data) data_sets.push_back(find_data_set(data));
-      const TrainedModel model = train_model(data_sets, arguments->model, learning_overrides(arguments->set),
-                                             division_options(*arguments), context.threads, &context.stop);
+      TrainRequest request{.data_sets = {},
+                           .model_directory = arguments->model,
+                           .overrides = learning_overrides(arguments->set),
+                           .division = division_options(*arguments),
+                           .threads = context.threads,
+                           .stop = &context.stop};
+      for (const std::string& data : arguments->data) request.data_sets.push_back(find_data_set(data));
+      const TrainedModel model = train_model(request);
+      warn(model.warnings);
       print_out("{}\n{}: network, trees and {}\n", accuracy_table(model.study), arguments->model, kMetricsFile);
     };
   });

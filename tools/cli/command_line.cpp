@@ -14,7 +14,7 @@
 #include <system_error>
 
 #include "classify/dataset/directory/dataset_writer.h"
-#include "classify/model/model_card.h"
+#include "classify/model/study.h"
 #include "seaglint_version.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
@@ -47,6 +47,7 @@ void handle_signals(CommandContext& context) {
 void add_commands(CommandOptions& program, CommandContext& context) {
   add_check(program, context);
   add_keys(program, context);
+  add_init(program, context);
   add_paths(program, context);
   add_mesh(program, context);
   add_sea(program, context);
@@ -61,7 +62,6 @@ void add_commands(CommandOptions& program, CommandContext& context) {
   add_regenerate(program, context);
   add_features(program, context);
   add_export(program, context);
-  add_card(program, context);
   add_train(program, context);
   add_evaluate(program, context);
   add_classify(program, context);

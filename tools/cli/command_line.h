@@ -15,6 +15,9 @@
 
 namespace seaglint {
 
+struct FieldTable;
+struct ReferenceArguments;
+
 // Parses a command line and runs its command. Returns the exit code: 0 (done), 1 (the work failed) or 2 (the input is
 // wrong); 1 and 2 with the reason as one line on stderr.
 int run_command_line(int argc, char** argv);
@@ -31,6 +34,7 @@ struct CommandContext {
 // subject.
 void add_check(CommandOptions& program, CommandContext& context);
 void add_keys(CommandOptions& program, CommandContext& context);
+void add_init(CommandOptions& program, CommandContext& context);
 void add_paths(CommandOptions& program, CommandContext& context);
 void add_mesh(CommandOptions& program, CommandContext& context);
 void add_sea(CommandOptions& program, CommandContext& context);
@@ -45,7 +49,6 @@ void add_verify(CommandOptions& program, CommandContext& context);
 void add_regenerate(CommandOptions& program, CommandContext& context);
 void add_features(CommandOptions& program, CommandContext& context);
 void add_export(CommandOptions& program, CommandContext& context);
-void add_card(CommandOptions& program, CommandContext& context);
 void add_train(CommandOptions& program, CommandContext& context);
 void add_evaluate(CommandOptions& program, CommandContext& context);
 void add_classify(CommandOptions& program, CommandContext& context);
@@ -72,6 +75,9 @@ struct ScenarioArguments {
   Scenario read() const;  // throws InputError
 };
 void add_scenario_arguments(CommandOptions& command, ScenarioArguments& arguments);
+
+// The tables of `rcs --reference` and of `compare`; on standard error a line on how each was read. Throws InputError.
+std::vector<FieldTable> read_and_report(const ReferenceArguments& files);
 
 // Checks of input and output files before a command's work.
 

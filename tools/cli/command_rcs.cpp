@@ -15,7 +15,7 @@
 #include "sim/geometry/files/mesh_io.h"
 #include "tools/cli/command_line.h"
 #include "tools/compare/cross_check.h"
-#include "tools/compare/paired_cut.h"
+#include "tools/compare/differences.h"
 #include "tools/figure/figure.h"
 #include "tools/options/rcs_arguments.h"
 #include "tools/page/html.h"
@@ -23,7 +23,6 @@
 #include "tools/rcs/rcs_table.h"
 #include "tools/rcs/rcs_uncertainty.h"
 #include "tools/rcs/rcs_views.h"
-#include "tools/rcs/view_export.h"
 
 namespace seaglint {
 
@@ -114,13 +113,6 @@ std::vector<PairedCut> pair_with_all(const RcsSweep& sweep, const std::vector<Fi
   return cuts;
 }
 
-std::vector<FieldTable> read_references(const ReferenceArguments& arguments) {
-  ReferenceTables references = arguments.read();
-  for (const std::string& folder : references.folders) print_error(on_one_line(folder) + "\n");
-  for (const FieldTable& reference : references.tables) print_error(on_one_line(reading_of(reference)) + "\n");
-  return std::move(references.tables);
-}
-
 // The sweep; without --converge a series of no steps.
 ConvergedSweep compute(const RcsArguments& arguments, const RcsRequest& request, const RcsTarget& target,
                        const CommandContext& context) {
@@ -141,11 +133,10 @@ ConvergedSweep compute(const RcsArguments& arguments, const RcsRequest& request,
 void run_rcs(const RcsArguments& arguments, const CommandContext& context) {
   require_files(arguments);
   RcsRequest request = arguments.make_request();
-  require_export_formats(arguments.export_as, request.transmitter.has_value());
   std::vector<std::string> warnings = request_warnings(request);
   warn(warnings);
   const RcsSweep asked = requested_sweep(request);
-  std::vector<PairedCut> cuts = pair_with_all(asked, read_references(arguments.reference));
+  std::vector<PairedCut> cuts = pair_with_all(asked, read_and_report(arguments.reference));
   PreparedTarget prepared = prepare_mesh(request);
   warnings.insert(warnings.end(), prepared.warnings.begin(), prepared.warnings.end());
   warn(prepared.warnings);

@@ -5,10 +5,10 @@
 #include <memory>
 
 #include "classify/dataset/directory/dataset_writer.h"
-#include "classify/model/study_text.h"
+#include "classify/model/study.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/printable.h"
-#include "sim/scenario/writer.h"
+#include "sim/scenario/scenario.h"
 #include "tools/cli/command_line.h"
 #include "tools/report/report.h"
 #include "tools/run/benchmark.h"
@@ -108,10 +108,10 @@ Scenario read_own_scenario(const std::filesystem::path& run) {
                                      : "no data/scenario.yaml"));
   }
   Scenario scenario = read_scenario(file);
-  const std::string here = effective_yaml(scenario), there = effective_yaml(read_scenario(of_data));
-  if (here != there) {
+  const Scenario stored = read_scenario(of_data);
+  if (scenario != stored) {
     throw InputError(fmt::format("{}: is not the scenario of {} ({}); bring the run's own back", file.string(),
-                                 of_data.string(), first_difference(there, here)));
+                                 of_data.string(), first_difference(effective_yaml(stored), effective_yaml(scenario))));
   }
   return scenario;
 }

@@ -4,17 +4,15 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "radar/waveform/pulse_train.h"
 #include "sim/core/process/error.h"
+#include "sim/core/process/file.h"
 #include "sim/core/process/printable.h"
 #include "sim/core/text/names.h"
-#include "sim/scenario/key_list.h"
-#include "sim/scenario/key_meanings.h"
-#include "sim/scenario/writer.h"
+#include "sim/scenario/keys.h"
 #include "tools/cli/command_line.h"
 #include "tools/pipeline/pipeline.h"
 #include "tools/pipeline/scenario_check.h"
@@ -64,20 +62,14 @@ void add_check(CommandOptions& program, CommandContext& context) {
       const Scenario scenario = arguments->read();
       const Pipeline pipeline(scenario);  // reads every file that the scenario names
       check_division(scenario, pipeline.plan());
-      const PulseTrain train = make_pulse_train(scenario.radar, pipeline.window_m(), scenario.seed, 0);
       print_out("{}", effective_yaml(scenario));
       std::fflush(stdout);
       print_error(summary(scenario, pipeline.plan()) + shared_classes(scenario, pipeline.plan()) +
-                  figures_of_merit_text(train, scenario.radar));
+                  figures_of_merit_text(pipeline.nominal_train(), scenario.radar));
       const TrialLimit limit{kTrialSeconds, &context.stop};
       const WorkEstimate work = estimate_work(pipeline, limit);
       print_error(scenario_summary(pipeline, work, thread_count(0)));
-      report_motion_files(pipeline);
-      report_spectrum_table(scenario);
-      warn(mesh_warnings(pipeline));
-      warn(motion_warnings(pipeline));
-      warn(sea_warnings(scenario, pipeline.plan().sea_states()));
-      warn(map_coverage_warnings(pipeline));
+      report_scenario(pipeline, {.coverage = true});
       warn(constant_key_warnings(pipeline, limit));
       if (!work.failure.empty()) warn(std::vector{work.failure});
     };
@@ -89,23 +81,15 @@ namespace {
 struct KeysArguments {
   std::string of;
   bool json = false;
+  bool schema = false;
 };
 
-std::string keys_json() {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const KeyEntry& entry : scenario_keys()) {
-    list.push_back({{"key", entry.key},
-                    {"default", entry.standard},
-                    {"allowed", entry.allowed},
-                    {"meaning", std::string(meaning_of(entry.key))}});
-  }
-  return list.dump(1) + "\n";
-}
-
 void run_keys(const KeysArguments& arguments) {
-  if (arguments.json && !arguments.of.empty())
-    throw InputError("--json lists all keys: it is used without a key or section");
-  print_out("{}", arguments.json ? keys_json() : list_keys(arguments.of));
+  if ((arguments.json || arguments.schema) && !arguments.of.empty())
+    throw InputError(
+        fmt::format("{} lists all keys: it is used without a key or section", arguments.json ? "--json" : "--schema"));
+  if (arguments.json && arguments.schema) throw InputError("--json and --schema exclude each other");
+  print_out("{}", arguments.json ? keys_json() : arguments.schema ? scenario_schema() : list_keys(arguments.of));
 }
 
 }  // namespace
@@ -114,15 +98,67 @@ void add_keys(CommandOptions& program, CommandContext& context) {
   CommandOptions command =
       program.add_command("keys", "List every key of a scenario file with its default and what it allows");
   auto arguments = std::make_shared<KeysArguments>();
-  command.add_option("KEY", arguments->of, "Only this key or section, with what it means");
+  command.add_option("KEY", arguments->of,
+                     "Only this key or section, or the keys with this word in name or meaning: what they mean, and "
+                     "which may be drawn");
   command.add_flag("--json", arguments->json, "All keys with their meanings as JSON");
-  command.footer("Example:\n  seaglint keys sea.gamma");
+  command.add_flag("--schema", arguments->schema, "JSON Schema of a scenario file, for editors");
+  command.footer(
+      "The line `# yaml-language-server: $schema=FILE` in a scenario names an editor the schema.\n"
+      "Example:\n  seaglint keys sea.gamma\n  seaglint keys jitter");
   command.callback([arguments, &context] { context.work = [arguments] { run_keys(*arguments); }; });
 }
 
 namespace {
 
 namespace fs = std::filesystem;
+
+// What `init` writes, with the name of the scenario.
+constexpr const char* kFirstScenario = R"yaml(seaglint: 1
+name: "{}"
+seed: 42
+radar: {{carrier_ghz: 16, hop_count: 8, hop_step_mhz: 25, bandwidth_mhz: 25, pulse_width_us: 36, pri_us: 250, pulses: 256}}
+view: {{azimuth_deg: [30, 120], elevation_deg: 2}}
+sea: {{significant_wave_height_m: [0.1, 1], peak_period_s: uniform(7 9), propagation_deg: 120}}
+targets:
+  ship: {{label: 1, mesh: assets/combatant_144m.glb, motion: {{model: ship}}}}
+  reflectors: {{label: 0, mesh: assets/icosahedral_reflector.glb, layout: {{line: {{count: 4, spacing_m: 40}}}}, motion: {{model: float}}}}
+clutter: {{scr_db: 20}}
+dataset: {{maps_per_case: 10, realisations_per_case: 10}}
+)yaml";
+
+void write_first_scenario(const std::string& name) {
+  const fs::path file = name.ends_with(".yaml") ? name : name + ".yaml";
+  if (fs::exists(file)) throw InputError(fmt::format("{}: is there already; choose another name", file.string()));
+  const fs::path schema = data_folder() / "scenarios/schema.json";
+  std::string head;
+  if (!data_folder().empty() && fs::exists(schema))
+    head = fmt::format("# yaml-language-server: $schema={}\n", fs::absolute(schema).string());
+  head +=
+      "# Keys that are not here have their defaults; `seaglint keys` lists all, `seaglint keys WORD` says what they "
+      "mean.\n";
+  const Scenario scenario =
+      parse_scenario(fmt::format(fmt::runtime(kFirstScenario), file.stem().string()), file.string());
+  write_file(file, commented_yaml(scenario, head));
+  print_out(
+      "{0}: written. The scenario with every default, its size and warnings; one map; data set, training and report:\n"
+      "  seaglint check {0}\n"
+      "  seaglint map {0} --sample 0 -o map.png\n"
+      "  seaglint run {0} -o {1}\n",
+      file.string(), (file.parent_path() / file.stem()).string());
+}
+
+}  // namespace
+
+void add_init(CommandOptions& program, CommandContext& context) {
+  CommandOptions command = program.add_command("init", "Write a small scenario that works at once, with comments");
+  auto name = std::make_shared<std::string>();
+  command.add_option("NAME", *name, "The scenario is NAME.yaml, a new file").required();
+  command.footer("Example:\n  seaglint init study");
+  command.callback([name, &context] { context.work = [name] { write_first_scenario(*name); }; });
+}
+
+namespace {
 
 // "quick.yaml, points.yaml"; by name.
 std::string files_in(const fs::path& folder) {

@@ -20,7 +20,7 @@
 #include "tools/figure/motion_figures.h"
 #include "tools/figure/sea_figures.h"
 #include "tools/options/command_options.h"
-#include "tools/pipeline/moving_bodies.h"
+#include "tools/pipeline/scene.h"
 #include "tools/pipeline/warnings.h"
 
 namespace seaglint {
@@ -125,8 +125,7 @@ void write_sea(const SeaArguments& arguments, const CommandContext& context) {
   require_outputs(outputs, {arguments.scenario.file});
   const Scenario scenario = arguments.scenario.read();
   require_outputs(outputs, files_of(scenario));
-  report_spectrum_table(scenario);
-  warn(sea_warnings(scenario, sea_states(scenario.sea)));
+  report_sea(scenario, sea_states(scenario.sea));
   const auto [state, field] = choose_sea(scenario, {});
   const SeaSummary summary = summarise(state, field);
   const std::string lines = description(scenario, state, field, summary);
@@ -135,8 +134,13 @@ void write_sea(const SeaArguments& arguments, const CommandContext& context) {
   std::string statistics;
   if (!arguments.spectrum.empty() || !arguments.figure.empty()) {
     if (total_wave_height(state) == 0) throw InputError("sea.significant_wave_height_m: flat water has no spectrum");
-    const SeaEnsemble ensemble = make_ensemble(state, 0, scenario.seed, arguments.realisations, arguments.duration_s,
-                                               arguments.step_s, thread_count(context.threads), context.stop);
+    const SeaEnsemble ensemble = make_ensemble({.state = state,
+                                                .seed = scenario.seed,
+                                                .realisations = arguments.realisations,
+                                                .duration_s = arguments.duration_s,
+                                                .step_s = arguments.step_s,
+                                                .threads = thread_count(context.threads),
+                                                .stop = &context.stop});
     statistics = ensemble_text(ensemble, summary);
     if (!arguments.figure.empty()) {
       const std::string title =
@@ -190,41 +194,36 @@ struct MotionArguments {
   double step_s = 0.1;
 };
 
-void write_pictures(const MotionArguments& arguments, const Scenario& scenario, const MovingBodies& scene) {
-  const std::string title = fmt::format("{}: Hs {:.3g} m, Tp {:.3g} s towards {:.4g} deg", scenario.name,
-                                        scene.sea.state.significant_wave_height_m, scene.sea.state.peak_period_s,
-                                        degrees(scene.sea.state.propagation_rad));
-  if (!arguments.figure.empty()) write_motion_figure(scene.bodies, arguments.duration_s, title, arguments.figure);
+// The bodies of a scenario in its first sea realisation.
+struct MovingBodies {
+  std::vector<Target> targets;
+  Scene scene;
+  std::vector<NamedTrajectory> named;
+};
+
+void write_pictures(const MotionArguments& arguments, const Scenario& scenario, const MovingBodies& moving) {
+  const SeaState& state = moving.scene.state;
+  const std::string title =
+      fmt::format("{}: Hs {:.3g} m, Tp {:.3g} s towards {:.4g} deg", scenario.name, state.significant_wave_height_m,
+                  state.peak_period_s, degrees(state.propagation_rad));
+  if (!arguments.figure.empty()) write_motion_figure(moving.named, arguments.duration_s, title, arguments.figure);
   if (!arguments.frames.empty()) {
-    const double period = std::min(scene.sea.state.peak_period_s, arguments.duration_s);
-    write_motion_frames(scene.bodies, scene.sea.field, period, title, arguments.frames);
+    const double period = std::min(state.peak_period_s, arguments.duration_s);
+    write_motion_frames(moving.named, moving.scene.sea, period, title, arguments.frames);
   }
   if (arguments.rao.empty()) return;
-  for (const Body& body : scene.targets) {
+  for (const Target& target : moving.targets) {
+    if (target.rest_positions.empty()) continue;
+    const Body& body = *target.models.front()->motion;
     if (const auto* ship = std::get_if<ShipParticulars>(&body.model)) {
-      write_rao_figure(*ship, scene.sea.state.propagation_rad, scene.sea.state.depth_m,
-                       {arguments.rao_reference, body.spec},
+      write_rao_figure(*ship, state.propagation_rad, state.depth_m, {arguments.rao_reference, body.spec},
                        fmt::format("{}: waves towards {:.4g} deg, speed {:.3g} m/s", scenario.name,
-                                   degrees(scene.sea.state.propagation_rad), ship->speed),
+                                   degrees(state.propagation_rad), ship->speed),
                        arguments.rao);
       return;
     }
   }
   throw InputError("--rao: no target of the scenario has motion.model: ship");
-}
-
-// The degrees of freedom of every target's first body.
-std::vector<TargetMotion> motions_of(const Scenario& scenario, const std::vector<NamedTrajectory>& bodies,
-                                     double duration_s) {
-  std::vector<TargetMotion> motions;
-  for (const TargetSpec& target : scenario.targets) {
-    const auto first = std::ranges::find_if(bodies, [&](const NamedTrajectory& body) {
-      return body.body == target.name || body.body == target.name + "_1";
-    });
-    if (!target.mesh.empty() && first != bodies.end())
-      motions.push_back({&target, motion_rms(first->trajectory, duration_s)});
-  }
-  return motions;
 }
 
 void write_motion(const MotionArguments& arguments, const CommandContext& context) {
@@ -234,13 +233,20 @@ void write_motion(const MotionArguments& arguments, const CommandContext& contex
   require_outputs(outputs, {arguments.scenario.file, arguments.rao_reference});
   const Scenario scenario = arguments.scenario.read();
   require_outputs(outputs, files_of(scenario));
-  report_spectrum_table(scenario);
-  warn(sea_warnings(scenario, sea_states(scenario.sea)));
+  report_sea(scenario, sea_states(scenario.sea));
   const std::size_t count = uniform_time_count(arguments.duration_s, arguments.step_s);
-  const MovingBodies scene =
-      simulate_bodies(scenario, {}, arguments.duration_s, context.threads, context.stop, report_motion);
-  const std::vector<NamedTrajectory>& bodies = scene.bodies;
-  const SeaState& state = scene.sea.state;
+  MovingBodies moving;
+  moving.targets = load_targets(
+      {.scenario = scenario, .plan = SamplePlan(scenario), .use = TargetUse::kMotion, .stop = &context.stop});
+  report_motion(moving.targets);
+  moving.scene = make_scene({.scenario = scenario,
+                             .targets = moving.targets,
+                             .at_least_s = arguments.duration_s,
+                             .threads = context.threads,
+                             .stop = &context.stop});
+  moving.named = named_bodies(moving.targets, moving.scene);
+  const std::vector<NamedTrajectory>& bodies = moving.named;
+  const SeaState& state = moving.scene.state;
   std::string text;
   auto out = std::back_inserter(text);
   fmt::format_to(out, "# seaglint {} motion, scenario {}, seed {}, sea state 0, realisation 0\n", kVersion,
@@ -248,7 +254,8 @@ void write_motion(const MotionArguments& arguments, const CommandContext& contex
   fmt::format_to(out, "# significant_wave_height_m {}, peak_period_s {}, gamma {}, propagation_deg {:.10g}, order {}\n",
                  state.significant_wave_height_m, state.peak_period_s, state.gamma, degrees(state.propagation_rad),
                  state.order);
-  for (const std::string& sentence : uncovered_waves(scene)) fmt::format_to(out, "# {}\n", on_one_line(sentence));
+  for (const std::string& sentence : uncovered_waves(moving.targets, moving.scene.sea))
+    fmt::format_to(out, "# {}\n", on_one_line(sentence));
   text += "time_s,body,roll_deg,pitch_deg,yaw_deg,surge_m,sway_m,heave_m\n";
   for (std::size_t n = 0; n < count; ++n) {
     if (context.stop) throw Interrupted();
@@ -260,12 +267,17 @@ void write_motion(const MotionArguments& arguments, const CommandContext& contex
                      motion.translation.x(), motion.translation.y(), motion.translation.z());
     }
   }
-  write_pictures(arguments, scenario, scene);
+  write_pictures(arguments, scenario, moving);
   if (!arguments.spectrum.empty()) write_file(arguments.spectrum, spectrum_csv(bodies, arguments.duration_s));
   write_file(arguments.output, text);
   print_out("{}", motion_statistics(bodies, arguments.duration_s));
-  if (arguments.duration_s >= kStatisticsStep_s)
-    report_rest(scenario, motions_of(scenario, bodies, arguments.duration_s));
+  if (arguments.duration_s < kStatisticsStep_s) return;
+  std::vector<TargetMotion> motions;
+  for (std::size_t t = 0; t < moving.targets.size(); ++t) {
+    if (moving.scene.bodies[t].empty()) continue;
+    motions.push_back({&scenario.targets[t], motion_rms(moving.scene.bodies[t].front(), arguments.duration_s)});
+  }
+  report_rest(scenario, motions);
 }
 
 }  // namespace

@@ -12,7 +12,12 @@ target_include_directories(SeaglintTorch SYSTEM INTERFACE ${TORCH_INCLUDE_DIRS})
 
 # Flags of the project's own code. Phase is formed in double: no fast-math, no contraction, so that bits agree across builds.
 add_library(seaglint_flags INTERFACE)
-target_compile_options(seaglint_flags INTERFACE -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
+target_compile_options(seaglint_flags INTERFACE -ffp-contract=off -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion)
+if(SEAGLINT_WHOLE_FOLDERS)  # a local hides no constant of its own source, and a source's types are its own
+  target_compile_options(seaglint_flags INTERFACE -Wno-subobject-linkage)
+else()
+  target_compile_options(seaglint_flags INTERFACE -Wshadow)
+endif()
 # Complex products and quotients do not check for infinities, which would double their cost; finite products keep
 # their bits, quotients theirs to rounding. clang has the option only from 18 on, and clang-tidy reads the flags as clang.
 include(CheckCXXCompilerFlag)

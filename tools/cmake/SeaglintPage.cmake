@@ -1,10 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Files of HTML pages, compiled into the library of the tools (tools/page/html.h).
 find_file(SEAGLINT_PLOTLY plotly.js PATHS /usr/share/python3-plotly NO_DEFAULT_PATH REQUIRED)
-set(style ${CMAKE_SOURCE_DIR}/tools/page/style.css)
-set(script ${CMAKE_SOURCE_DIR}/tools/page/page.js)
-set(report ${CMAKE_SOURCE_DIR}/tools/report/report.js)
-set(hot_spots ${CMAKE_SOURCE_DIR}/tools/report/hot_spots.js)
+set(page_files
+  page_template=${CMAKE_SOURCE_DIR}/tools/page/page.html
+  page_style=${CMAKE_SOURCE_DIR}/tools/page/style.css
+  page_script=${CMAKE_SOURCE_DIR}/tools/page/page.js
+  report_template=${CMAKE_SOURCE_DIR}/tools/report/report.html
+  benchmark_template=${CMAKE_SOURCE_DIR}/tools/report/benchmark.html
+  report_script=${CMAKE_SOURCE_DIR}/tools/report/report.js
+  hot_spots_script=${CMAKE_SOURCE_DIR}/tools/report/hot_spots.js
+  comparison_template=${CMAKE_SOURCE_DIR}/tools/compare/comparison.html)
+list(TRANSFORM page_files REPLACE "^[a-z_]+=" "" OUTPUT_VARIABLE page_inputs)
 find_program(SEAGLINT_ESBUILD esbuild REQUIRED)
 set(plotly ${CMAKE_BINARY_DIR}/generated/plotly.min.js)
 add_custom_command(OUTPUT ${plotly}
@@ -13,8 +19,8 @@ add_custom_command(OUTPUT ${plotly}
 set(embedded ${CMAKE_BINARY_DIR}/generated/page_files.cpp)
 add_custom_command(OUTPUT ${embedded}
   COMMAND /usr/bin/python3 ${CMAKE_SOURCE_DIR}/tools/cmake/embed_files.py ${embedded}
-          page_style=${style} page_script=${script} report_script=${report} hot_spots_script=${hot_spots} plotly_gzip=gzip:${plotly}
-  DEPENDS ${style} ${script} ${report} ${hot_spots} ${plotly} ${CMAKE_SOURCE_DIR}/tools/cmake/embed_files.py
+          ${page_files} plotly_gzip=gzip:${plotly}
+  DEPENDS ${page_inputs} ${plotly} ${CMAKE_SOURCE_DIR}/tools/cmake/embed_files.py
   COMMENT "Embedding files of HTML pages" VERBATIM)
 target_sources(seaglint_tools PRIVATE ${embedded})
 set_source_files_properties(${embedded} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)

@@ -16,14 +16,12 @@
 #include <utility>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/core/numbers/dbsm.h"
-#include "sim/core/numbers/quantile.h"
+#include "sim/core/numbers/real_functions.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/parallel.h"
 #include "tools/compare/cross_check.h"
 #include "tools/compare/paired_cut.h"
 #include "tools/compare/suggestions.h"
-#include "tools/compare/view_grids.h"
 #include "tools/rcs/rcs_request.h"
 #include "tools/rcs/rcs_table.h"
 #include "tools/rcs/rcs_target.h"
@@ -56,16 +54,13 @@ std::string main_contribution(const RcsRequest& request, const RcsTarget& target
 }
 
 // Cuts of one transmitter are solved together.
-using TransmitterKey = std::tuple<bool, double, double>;
-
-TransmitterKey key_of(const DeclaredTransmitter& transmitter) {
-  if (transmitter.is_monostatic) return {true, 0, 0};
-  return {false, transmitter.theta_deg, transmitter.phi_deg};
-}
-
-std::map<TransmitterKey, std::vector<const RcsCut*>> by_transmitter(const FieldTable& table) {
-  std::map<TransmitterKey, std::vector<const RcsCut*>> groups;
-  for (const RcsCut& cut : table.cuts) groups[key_of(stated_transmitter(cut))].push_back(&cut);
+std::vector<std::vector<const RcsCut*>> by_transmitter(const FieldTable& table) {
+  std::vector<std::vector<const RcsCut*>> groups;
+  for (const RcsCut& cut : table.cuts) {
+    const auto group = std::ranges::find_if(
+        groups, [&](const auto& one) { return *one.front()->transmitter == stated_transmitter(cut); });
+    (group == groups.end() ? groups.emplace_back() : *group).push_back(&cut);
+  }
   return groups;
 }
 
@@ -84,7 +79,7 @@ RcsSweep part_of(const RcsSweep& sweep, const ViewGrid& cut) {
   if (sweep.flat) part.flat = RcsSweep::Model{sweep.flat->name, sweep.flat->edge_diffraction, {}};
   for (std::size_t view = 0; view < sweep.views(); ++view) {
     const auto has = [](const std::vector<double>& values, double value) {
-      return std::find(values.begin(), values.end(), value) != values.end();
+      return std::ranges::find(values, value) != values.end();
     };
     if (!has(cut.azimuth_deg, sweep.azimuth_of(view)) || !has(cut.elevation_deg, sweep.elevation_of(view))) continue;
     for (std::size_t m = 0; m < sweep.models.size(); ++m)
@@ -170,21 +165,13 @@ constexpr double kRounding_db = 120;
 // A cross-polar echo below this is within the purity of an antenna or a mesh.
 constexpr double kPurity_db = 40;
 
-// The highest level of the export in a quantity, or in all.
-double highest_of(const std::vector<PairedCut>& cuts, std::optional<std::size_t> quantity = std::nullopt) {
-  double highest = -1e300;
-  for (const PairedCut& cut : cuts) {
-    if (!quantity || cut.quantity() == *quantity) highest = std::max(highest, std::ranges::max(cut.level_dbsm));
-  }
-  return highest;
-}
-
-// The highest compared level in a quantity, or in all.
-double highest_compared(const std::vector<PairedCut>& cuts, std::optional<std::size_t> quantity = std::nullopt) {
+// The highest level of the export, or of the compared values, in a quantity, or in all.
+double highest_of(const std::vector<PairedCut>& cuts, std::optional<std::size_t> quantity = std::nullopt,
+                  bool compared = false) {
   double highest = -1e300;
   for (const PairedCut& cut : cuts) {
     if (!quantity || cut.quantity() == *quantity)
-      highest = std::max(highest, std::ranges::max(cut.models[0].level_dbsm));
+      highest = std::max(highest, std::ranges::max(compared ? cut.models[0].level_dbsm : cut.level_dbsm));
   }
   return highest;
 }
@@ -198,14 +185,14 @@ std::string below_text(double level_dbsm, double strongest_dbsm) {
 // Removes the cuts of quantities that are zero or rounding on one side, as the cross-polar ones of a symmetric body:
 // their difference is that of the floor. The strongest compared level is also that of elements which the export lacks.
 void omit_rounding(ExportComparison& comparison) {
-  double strongest_compared = highest_compared(comparison.cuts);
+  double strongest_compared = highest_of(comparison.cuts, std::nullopt, true);
   for (const RcsCut& cut : comparison.solved) {
     for (const FieldValue& value : cut.values) strongest_compared = std::max(strongest_compared, value.level_dbsm);
   }
   const double strongest = highest_of(comparison.cuts);
   for (std::size_t quantity = 0; quantity < kQuantities; ++quantity) {
     const double reference = highest_of(comparison.cuts, quantity),
-                 compared = highest_compared(comparison.cuts, quantity);
+                 compared = highest_of(comparison.cuts, quantity, true);
     const auto is_silent = [](double level, double of_strongest) {
       return level <= kMinLevel_dbsm + 1 || level < of_strongest - kRounding_db;
     };
@@ -245,12 +232,7 @@ ElementStatistics statistics_of(const std::vector<PairedCut>& cuts, std::size_t 
       if (has_phases(cut)) sum.add_phases(cut.models[0].amplitude_m[i], cut.amplitude_m[i]);
     }
   }
-  const Difference difference = sum.difference();
-  statistics.pairs = difference.points;
-  statistics.bias_db = difference.bias_db;
-  statistics.mean_abs_db = difference.mean_db;
-  statistics.rms_db = difference.rms_db;
-  if (difference.correlation) statistics.correlation = std::abs(*difference.correlation);
+  statistics.difference = sum.difference();
   const auto rank = static_cast<std::ptrdiff_t>(std::ceil(0.95 * static_cast<double>(sizes.size()))) - 1;
   std::nth_element(sizes.begin(), sizes.begin() + rank, sizes.end());
   statistics.p95_db = sizes[static_cast<std::size_t>(rank)];
@@ -265,8 +247,7 @@ ExportComparison finished(ExportComparison comparison, const ComparisonSettings&
   omit_rounding(comparison);
   if (!settings.as_is) comparison.alignment = align(comparison.cuts, threads);
   for (std::size_t quantity = 0; quantity < kQuantities; ++quantity) {
-    if (std::any_of(comparison.cuts.begin(), comparison.cuts.end(),
-                    [&](const PairedCut& cut) { return cut.quantity() == quantity; }))
+    if (std::ranges::count(comparison.cuts, quantity, &PairedCut::quantity) > 0)
       comparison.elements.push_back(statistics_of(comparison.cuts, quantity, settings.floor_db));
   }
   comparison.warnings = comparison.one_sided;
@@ -319,12 +300,8 @@ std::vector<RcsSweep> counterpart(const RcsCut& cut, const RcsCut& other, const 
 // The sweep of a request at a grid: one of those solved already, or solved and added to them.
 const RcsSweep& solution_of(RcsRequest request, const ViewGrid& grid, const RcsTarget& target, const std::string& name,
                             TargetSolutions& solutions) {
-  const auto same = [](const std::optional<FixedTransmitter>& a, const std::optional<FixedTransmitter>& b) {
-    return a.has_value() == b.has_value() &&
-           (!a || (a->azimuth_deg == b->azimuth_deg && a->elevation_deg == b->elevation_deg));
-  };
   for (const TargetSolutions::Solved& solved : solutions.solved) {
-    if (same(solved.transmitter, request.transmitter) && solved.grid == grid) return solved.sweep;
+    if (solved.transmitter == request.transmitter && solved.grid == grid) return solved.sweep;
   }
   request.frequency_hz = grid.frequency_hz;
   request.azimuth_deg = grid.azimuth_deg;
@@ -353,7 +330,7 @@ struct SolvedPairs {
 
 SolvedPairs solved_pairs(const TargetSolution& solution) {
   SolvedPairs result;
-  for (const auto& [key, cuts] : by_transmitter(solution.table)) {
+  for (const std::vector<const RcsCut*>& cuts : by_transmitter(solution.table)) {
     RcsRequest solved = solution.request;
     solved.transmitter = fixed_transmitter(*cuts.front());
     for (const ViewGrid& grid : grids_of(cuts)) {
@@ -438,7 +415,7 @@ RcsRequest at_frequencies_of(const std::vector<FieldTable>& tables, RcsRequest r
 
 ExportComparison compare_with_target(const FieldTable& table, const RcsRequest& request, const RcsTarget& target,
                                      const ComparisonSettings& settings, TargetSolutions& solutions) {
-  ExportComparison comparison{table.name, table.reader, "seaglint", table.notes, {}, {}, {}, {}, {}, {}, {}, {}};
+  ExportComparison comparison{table.name, table.reader, "seaglint", table.notes};
   comparison.solver = request;
   const TargetSolution solution{table, request, target, solutions};
   SolvedPairs pairs = solved_pairs(solution);
@@ -458,7 +435,7 @@ ExportComparison compare_with_target(const FieldTable& table, const RcsRequest& 
 
 ExportComparison compare_with_table(const FieldTable& table, const FieldTable& other,
                                     const ComparisonSettings& settings, int threads) {
-  ExportComparison comparison{table.name, table.reader, other.name, table.notes, {}, {}, {}, {}, {}, {}, {}, {}};
+  ExportComparison comparison{table.name, table.reader, other.name, table.notes};
   for (const RcsCut& cut : table.cuts) {
     const std::vector<RcsCut> sums = cut.total ? sums_for(cut, other) : std::vector<RcsCut>();
     std::vector<const RcsCut*> candidates;

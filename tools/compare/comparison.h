@@ -13,12 +13,11 @@
 #include "sim/core/process/parallel.h"
 #include "sim/field_tables/field_table.h"
 #include "tools/compare/alignment.h"
-#include "tools/compare/curve_features.h"
+#include "tools/compare/differences.h"
 #include "tools/compare/interpolation.h"
 #include "tools/compare/known_values.h"
 #include "tools/compare/paired_cut.h"
 #include "tools/compare/suggestions.h"
-#include "tools/compare/view_grids.h"
 #include "tools/rcs/rcs_request.h"
 #include "tools/rcs/rcs_target.h"
 
@@ -29,10 +28,8 @@ namespace seaglint {
 struct ElementStatistics {
   Polarisation element = Polarisation::kHh;
   bool total = false;  // of the sum over both received polarisations (RcsCut)
-  std::size_t pairs = 0;
-  double bias_db = 0, mean_abs_db = 0, rms_db = 0;
-  double p95_db = 0;                  // 95 % of the absolute differences are at most this
-  std::optional<double> correlation;  // |<conj(reference) compared>| / (|reference| |compared|), of complex values
+  Difference difference;
+  double p95_db = 0;  // 95 % of the absolute differences are at most this
   struct Worst {
     double difference_db = 0;
     PairedCut::Place place;
@@ -46,16 +43,17 @@ struct ElementStatistics {
 };
 
 struct ExportComparison {
-  std::string name, reader, compared;  // compared: "seaglint" or the name of the other file
-  std::vector<std::string> notes;      // how the export was read
-  std::vector<PairedCut> cuts;         // each with one model; references in the phase of the compared values if aligned
-  std::optional<Alignment> alignment;  // absent as asked, or without phases
-  std::vector<ElementStatistics> elements;
-  std::vector<std::string> warnings;
-  std::optional<InterpolationQuality> interpolation;  // of the compared values
-  std::vector<RcsCut> solved;                         // of a target: all elements, at the places of the export
-  std::vector<std::string> omitted;    // a sentence for each element that is not compared: zero or rounding in one
-  std::vector<std::string> one_sided;  // the same of those that are an echo in the other: differences without a number
+  std::string name, reader, compared;   // compared: "seaglint" or the name of the other file
+  std::vector<std::string> notes = {};  // how the export was read
+  std::vector<PairedCut> cuts = {};  // each with one model; references in the phase of the compared values if aligned
+  std::optional<Alignment> alignment = {};  // absent as asked, or without phases
+  std::vector<ElementStatistics> elements = {};
+  std::vector<std::string> warnings = {};
+  std::optional<InterpolationQuality> interpolation = {};  // of the compared values
+  std::vector<RcsCut> solved = {};                         // of a target: all elements, at the places of the export
+  std::vector<std::string> omitted = {};  // a sentence for each element that is not compared: zero or rounding in one
+  std::vector<std::string> one_sided =
+      {};  // the same of those that are an echo in the other: differences without a number
   std::optional<RcsRequest> solver = {};  // settings of a solved target
   std::optional<KnownValues> known = {};  // of a solved target that is recognised
   std::vector<Trial> trials = {};         // of a solved target whose agreement is poor

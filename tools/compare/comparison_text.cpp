@@ -3,14 +3,13 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "seaglint_version.h"
 #include "sim/core/numbers/constants.h"
-#include "sim/core/process/error.h"
 #include "sim/core/process/parallel.h"
 #include "sim/core/process/printable.h"
 #include "tools/page/html.h"
@@ -19,6 +18,8 @@
 namespace seaglint {
 
 namespace {
+
+using nlohmann::ordered_json;
 
 std::string text_of(const Alignment& a, bool of_all) {
   std::string text = fmt::format("constant phase {:.1f} deg, ", degrees(a.phase_rad));
@@ -34,46 +35,30 @@ std::string text_of(const Alignment& a, bool of_all) {
   return of_all ? text + "; of all elements" : text;
 }
 
-nlohmann::ordered_json extrema_json(const ExtremumPairs& pairs, CutAxis axis) {
+ordered_json extrema_json(const ExtremumPairs& pairs, CutAxis axis) {
   if (axis == CutAxis::kSeveral) return nullptr;
-  nlohmann::ordered_json json{{"count", pairs.count}, {"paired", pairs.paired}};
+  ordered_json json{{"count", pairs.count}, {"paired", pairs.paired}};
   json["unit"] = axis_unit(axis);
   json["mean_shift"] = pairs.mean_shift;
   json["mean_db"] = pairs.mean_db;
   return json;
 }
 
-nlohmann::ordered_json vector_json(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+ordered_json vector_json(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
-nlohmann::ordered_json fitted_json(const ExportComparison& comparison, Polarisation element) {
+ordered_json fitted_json(const ExportComparison& comparison, Polarisation element) {
   if (!comparison.alignment) return nullptr;
   const Alignment& a = *comparison.alignment;
-  nlohmann::ordered_json json;
+  ordered_json json;
   json["phase_deg"] = degrees(a.phase_rad);
   json["origin_m"] = vector_json(a.origin_m);
   json["origin_error_m"] = vector_json(a.origin_error_m);
-  json["undetermined"] = nlohmann::ordered_json::array();
+  json["undetermined"] = ordered_json::array();
   for (const Vec3& v : a.undetermined) json["undetermined"].push_back(vector_json(v));
   json["conjugated"] = a.conjugated;
   json["sign"] = a.sign[static_cast<std::size_t>(element)];
   json["offset_db"] = a.level_db;
   return json;
-}
-
-// ",1.23456789", nine significant digits.
-void append_digits(std::string& text, double value) {
-  char digits[32];
-  const auto [end, error] = std::to_chars(digits, std::end(digits), value, std::chars_format::general, 9);
-  SEAGLINT_CHECK(error == std::errc(), "at most 16 characters");
-  (text += ',').append(digits, end);
-}
-
-// ",-12.3456".
-void append_decibels(std::string& text, double value) {
-  char digits[512];
-  const auto [end, error] = std::to_chars(digits, std::end(digits), value, std::chars_format::fixed, 4);
-  SEAGLINT_CHECK(error == std::errc(), "at most 315 characters");
-  (text += ',').append(digits, end);
 }
 
 // known: a last column with the exact or closed-form levels, empty where there is none.
@@ -83,21 +68,23 @@ std::string rows_of(const ExportComparison& comparison, const PairedCut& cut, bo
   const PairedCut::Model& model = cut.models[0];
   const bool phases = !cut.amplitude_m.empty() && !model.amplitude_m.empty();
   std::string text;
+  const auto digits = [&](double x) { fmt::format_to(std::back_inserter(text), ",{:.9g}", x); };
+  const auto decibels = [&](double x) { fmt::format_to(std::back_inserter(text), ",{:.4f}", x); };
   text.reserve(cut.places.size() * (name.size() + other.size() + 110));
   for (std::size_t i = 0; i < cut.places.size(); ++i) {
     const PairedCut::Place& p = cut.places[i];
     (text += name).append(fmt::format_int(p.line).c_str()).append(other);
-    for (const double x : {p.frequency_hz, p.azimuth_deg, p.elevation_deg}) append_digits(text, x);
+    for (const double x : {p.frequency_hz, p.azimuth_deg, p.elevation_deg}) digits(x);
     for (const double level : {cut.level_dbsm[i], model.level_dbsm[i], model.level_dbsm[i] - cut.level_dbsm[i]})
-      append_decibels(text, level);
+      decibels(level);
     if (phases) {
       const Complex a = cut.amplitude_m[i], b = model.amplitude_m[i];
-      for (const double x : {a.real(), a.imag(), b.real(), b.imag()}) append_digits(text, x);
+      for (const double x : {a.real(), a.imag(), b.real(), b.imag()}) digits(x);
     } else {
       text += ",,,,";
     }
     if (known && cut.known && !std::isnan(cut.known->level_dbsm[i])) {
-      append_decibels(text, cut.known->level_dbsm[i]);
+      decibels(cut.known->level_dbsm[i]);
     } else if (known) {
       text += ',';
     }
@@ -106,7 +93,7 @@ std::string rows_of(const ExportComparison& comparison, const PairedCut& cut, bo
   return text;
 }
 
-nlohmann::ordered_json interpolation_json(const ExportComparison& comparison) {
+ordered_json interpolation_json(const ExportComparison& comparison) {
   if (!comparison.interpolation) return nullptr;
   const InterpolationQuality& q = *comparison.interpolation;
   return {{"radius_m", q.radius_m},
@@ -116,13 +103,12 @@ nlohmann::ordered_json interpolation_json(const ExportComparison& comparison) {
           {"largest_error", q.largest_error}};
 }
 
-nlohmann::ordered_json solver_json(const ExportComparison& comparison) {
+ordered_json solver_json(const ExportComparison& comparison) {
   if (!comparison.solver) return nullptr;
   const RcsRequest& request = *comparison.solver;
-  nlohmann::ordered_json json;
-  json["like"] = request.like.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(request.like);
-  json["crease_deg"] =
-      request.crease_deg ? nlohmann::ordered_json(*request.crease_deg) : nlohmann::ordered_json(nullptr);
+  ordered_json json;
+  json["like"] = request.like.empty() ? ordered_json(nullptr) : ordered_json(request.like);
+  json["crease_deg"] = request.crease_deg ? ordered_json(*request.crease_deg) : ordered_json(nullptr);
   json["edges"] = request.edges;
   json["max_bounces"] = request.max_bounces;
   json["method"] = kSolverMethodNames[static_cast<int>(request.method)];
@@ -130,21 +116,21 @@ nlohmann::ordered_json solver_json(const ExportComparison& comparison) {
 }
 
 // Known values of one quantity.
-nlohmann::ordered_json known_json(const ExportComparison& comparison, std::size_t quantity) {
+ordered_json known_json(const ExportComparison& comparison, std::size_t quantity) {
   if (!comparison.known) return nullptr;
   const KnownValues& known = *comparison.known;
-  nlohmann::ordered_json json{{"body", known.body}, {"value", known.name}};
+  ordered_json json{{"body", known.body}, {"value", known.name}};
   for (const KnownStatistics& s : known.statistics) {
     if (s.quantity != quantity) continue;
-    json["pairs"] = s.pairs;
-    json["export_bias_db"] = s.reference_bias_db;
-    json["export_rms_db"] = s.reference_rms_db;
-    json["compared_bias_db"] = s.compared_bias_db;
-    json["compared_rms_db"] = s.compared_rms_db;
+    json["pairs"] = s.reference.points;
+    json["export_bias_db"] = s.reference.bias_db;
+    json["export_rms_db"] = s.reference.rms_db;
+    json["compared_bias_db"] = s.compared.bias_db;
+    json["compared_rms_db"] = s.compared.rms_db;
     json["own_error_db"] = s.error_db;
-    json["verdict"] = closer_text(s.reference_rms_db, s.compared_rms_db, s.error_db, comparison.compared);
+    json["verdict"] = closer_text(s.reference.rms_db, s.compared.rms_db, s.error_db, comparison.compared);
   }
-  json["levels"] = nlohmann::ordered_json::array();
+  json["levels"] = ordered_json::array();
   for (const KnownLevel& l : known.levels) {
     if (l.quantity != quantity) continue;
     json["levels"].push_back({{"body", l.body},
@@ -158,8 +144,8 @@ nlohmann::ordered_json known_json(const ExportComparison& comparison, std::size_
   return json;
 }
 
-nlohmann::ordered_json trials_json(const ExportComparison& comparison) {
-  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+ordered_json trials_json(const ExportComparison& comparison) {
+  ordered_json json = ordered_json::array();
   for (const Trial& trial : comparison.trials) {
     json.push_back({{"option", trial.option},
                     {"views", trial.views},
@@ -194,10 +180,11 @@ std::string comparison_table(const std::vector<ExportComparison>& comparisons, c
       settings.floor_db, "export", width, "pol", pol, "compared", other, "pairs", "bias", "mean", "rms", "95 %");
   for (const ExportComparison& c : comparisons) {
     for (const ElementStatistics& s : c.elements) {
-      text +=
-          fmt::format("{:<{}}  {:<{}}  {:<{}}  {:>7}  {:>7.3f}  {:>7.3f}  {:>7.3f}  {:>7.3f}  {}\n", c.name, width,
-                      kQuantityNames[s.quantity()], pol, c.compared, other, s.pairs, s.bias_db, s.mean_abs_db, s.rms_db,
-                      s.p95_db, s.correlation ? fmt::format("{:.4f}", *s.correlation) : std::string("no phases"));
+      text += fmt::format("{:<{}}  {:<{}}  {:<{}}  {:>7}  {:>7.3f}  {:>7.3f}  {:>7.3f}  {:>7.3f}  {}\n", c.name, width,
+                          kQuantityNames[s.quantity()], pol, c.compared, other, s.difference.points,
+                          s.difference.bias_db, s.difference.mean_db, s.difference.rms_db, s.p95_db,
+                          s.difference.correlation ? fmt::format("{:.4f}", std::abs(*s.difference.correlation))
+                                                   : std::string("no phases"));
     }
   }
   if (const std::string solver = solver_text(comparisons); !solver.empty()) text += fmt::format("{}\n", solver);
@@ -213,32 +200,32 @@ std::string comparison_table(const std::vector<ExportComparison>& comparisons, c
   return text;
 }
 
-nlohmann::ordered_json comparison_json(const std::vector<ExportComparison>& comparisons,
-                                       const ComparisonSettings& settings) {
-  nlohmann::ordered_json json;
+std::string comparison_json(const std::vector<ExportComparison>& comparisons, const ComparisonSettings& settings) {
+  ordered_json json;
   json["version"] = kVersion;
   json["settings"] = {{"floor_db", settings.floor_db}, {"as_is", settings.as_is}};
-  json["exports"] = nlohmann::ordered_json::array();
-  nlohmann::ordered_json not_compared = nlohmann::ordered_json::array();
+  json["exports"] = ordered_json::array();
+  ordered_json not_compared = ordered_json::array();
   for (const ExportComparison& c : comparisons) {
     for (const ElementStatistics& s : c.elements) {
-      nlohmann::ordered_json entry;
+      ordered_json entry;
       entry["name"] = c.name;
       entry["reader"] = c.reader;
       entry["convention"] = c.notes;
       entry["omitted"] = c.omitted;
       entry["compared"] = c.compared;
       entry["polarisation"] = kQuantityNames[s.quantity()];
-      entry["pairs"] = s.pairs;
-      entry["bias_db"] = s.bias_db;
-      entry["mean_abs_db"] = s.mean_abs_db;
-      entry["rms_db"] = s.rms_db;
+      entry["pairs"] = s.difference.points;
+      entry["bias_db"] = s.difference.bias_db;
+      entry["mean_abs_db"] = s.difference.mean_db;
+      entry["rms_db"] = s.difference.rms_db;
       entry["p95_db"] = s.p95_db;
-      entry["correlation"] = s.correlation ? nlohmann::ordered_json(*s.correlation) : nlohmann::ordered_json(nullptr);
+      entry["correlation"] =
+          s.difference.correlation ? ordered_json(std::abs(*s.difference.correlation)) : ordered_json(nullptr);
       entry["fitted"] = fitted_json(c, s.element);
       entry["lobes"] = extrema_json(s.lobes, s.axis);
       entry["nulls"] = extrema_json(s.nulls, s.axis);
-      entry["worst"] = nlohmann::ordered_json::array();
+      entry["worst"] = ordered_json::array();
       for (const ElementStatistics::Worst& worst : s.worst) {
         entry["worst"].push_back({{"difference_db", worst.difference_db},
                                   {"frequency_hz", worst.place.frequency_hz},
@@ -259,7 +246,7 @@ nlohmann::ordered_json comparison_json(const std::vector<ExportComparison>& comp
     }
   }
   json["not_compared"] = std::move(not_compared);
-  return json;
+  return json.dump(2) + "\n";
 }
 
 std::string comparison_csv(const std::vector<ExportComparison>& comparisons, int threads) {
@@ -304,47 +291,39 @@ std::string differences(const std::vector<ExportComparison>& comparisons) {
     for (const ElementStatistics& s : c.elements) {
       const std::string name =
           s.total ? fmt::format("total, {} transmitted", transmits_v(s.element) ? "v" : "h") : name_of(s);
-      rows.push_back({escape_html(c.name), name, escape_html(c.compared), fmt::format("{}", s.pairs),
-                      decibels(s.bias_db), decibels(s.mean_abs_db), decibels(s.rms_db), decibels(s.p95_db),
-                      s.correlation ? fmt::format("{:.4f}", *s.correlation) : "no phases"});
+      rows.push_back(
+          {escape_html(c.name), name, escape_html(c.compared), fmt::format("{}", s.difference.points),
+           decibels(s.difference.bias_db), decibels(s.difference.mean_db), decibels(s.difference.rms_db),
+           decibels(s.p95_db),
+           s.difference.correlation ? fmt::format("{:.4f}", std::abs(*s.difference.correlation)) : "no phases"});
     }
   }
   return html_table(rows);
 }
 
-// Both against exact and closed-form values; empty without.
-std::string known_table(const std::vector<ExportComparison>& comparisons) {
+// Both against exact and closed-form values: the bodies, the tables of statistics and of levels; each empty without.
+void add_known_values(PageValues& values, const std::vector<ExportComparison>& comparisons) {
   std::vector<std::vector<std::string>> rows{{"export", "element", "places", "export bias (dB)", "export rms (dB)",
                                               "compared bias (dB)", "compared rms (dB)", "closer"}};
   std::vector<std::vector<std::string>> levels{
       {"export", "element", "body", "known (dBsm)", "export (dBsm)", "compared (dBsm)", "closer"}};
-  std::string bodies;
+  std::string& bodies = values["known_bodies"];
   for (const ExportComparison& c : comparisons) {
     if (!c.known) continue;
     bodies += fmt::format("<p>{}: {}, {}.</p>\n", escape_html(c.name), c.known->body, c.known->name);
     for (const KnownStatistics& s : c.known->statistics)
-      rows.push_back({escape_html(c.name), kQuantityNames[s.quantity], fmt::format("{}", s.pairs),
-                      signed_decibels(s.reference_bias_db), decibels(s.reference_rms_db),
-                      signed_decibels(s.compared_bias_db), decibels(s.compared_rms_db),
-                      escape_html(closer_text(s.reference_rms_db, s.compared_rms_db, s.error_db, c.compared))});
+      rows.push_back({escape_html(c.name), kQuantityNames[s.quantity], fmt::format("{}", s.reference.points),
+                      signed_decibels(s.reference.bias_db), decibels(s.reference.rms_db),
+                      signed_decibels(s.compared.bias_db), decibels(s.compared.rms_db),
+                      escape_html(closer_text(s.reference.rms_db, s.compared.rms_db, s.error_db, c.compared))});
     for (const KnownLevel& l : c.known->levels)
       levels.push_back({escape_html(c.name), kQuantityNames[l.quantity], l.body, decibels(l.known_dbsm),
                         decibels(l.reference_dbsm), decibels(l.compared_dbsm),
                         escape_html(closer_text(std::abs(l.reference_dbsm - l.known_dbsm),
                                                 std::abs(l.compared_dbsm - l.known_dbsm), 0, c.compared))});
   }
-  if (bodies.empty()) return "";
-  std::string text = "<h2>Against the known value</h2>\n" + bodies;
-  if (rows.size() > 1)
-    text += "<p>Bias and root mean square of the export and of the compared values, each minus the known value.</p>\n" +
-            html_table(rows, false);
-  if (levels.size() > 1) text += "<p>Levels of each body in the range profiles.</p>\n" + html_table(levels, false);
-  return text;
-}
-
-std::string solver(const std::vector<ExportComparison>& comparisons) {
-  const std::string text = solver_text(comparisons);
-  return text.empty() ? text : fmt::format("<p>{}.</p>\n", escape_html(text));
+  values["known_statistics"] = rows.size() > 1 ? html_table(rows, false) : "";
+  values["known_levels"] = levels.size() > 1 ? html_table(levels, false) : "";
 }
 
 std::string lobes_and_nulls(const std::vector<ExportComparison>& comparisons) {
@@ -378,8 +357,7 @@ std::string fits(const std::vector<ExportComparison>& comparisons) {
                     a.conjugated ? "e<sup>-j&omega;t</sup>, conjugated" : "e<sup>+j&omega;t</sup>", signs,
                     fmt::format("{:+.2f}", a.level_db)});
   }
-  if (rows.size() == 1) return "<p>Nothing was fitted: no phases, or as asked.</p>\n";
-  return html_table(rows, false);
+  return rows.size() == 1 ? "" : html_table(rows, false);
 }
 
 std::string warnings(const std::vector<ExportComparison>& comparisons) {
@@ -417,7 +395,7 @@ std::string readings(const std::vector<ExportComparison>& comparisons) {
     for (const std::string& sentence : c.omitted) notes += "; " + escape_html(sentence);
     items += fmt::format("<li><b>{}</b>: read as {}{}</li>\n", escape_html(c.name), escape_html(c.reader), notes);
   }
-  return "<ul>\n" + items + "</ul>\n";
+  return items;
 }
 
 }  // namespace
@@ -427,31 +405,27 @@ std::string comparison_page(const std::vector<ExportComparison>& comparisons, co
   const std::string title = comparisons.size() == 1
                                 ? comparisons.front().name + " against " + comparisons.front().compared
                                 : fmt::format("{} exports compared", comparisons.size());
-  std::string body = fmt::format(
-      "<header><h1>{}</h1><p class=\"lead\">Levels clipped {:g} dB below the export's maximum; differences are "
-      "compared - "
-      "export; amplitudes in metres, e<sup>+j&omega;t</sup>, about the origin of the mesh. {}</p>"
-      "</header>\n",
-      escape_html(title), settings.floor_db,
-      settings.interpolation_radius_m ? "The compared values are interpolated." : "Nothing is interpolated.");
-  body += "<h2>Differences</h2>\n" + differences(comparisons) + solver(comparisons) + warnings(comparisons);
-  body += known_table(comparisons);
-  if (!figures.curves.file.empty())
-    body += html_figure(figures.curves.file, "Levels above, differences below; at most four cuts.", "curves of both",
-                        figures.curves.plot);
-  body += lobes_and_nulls(comparisons);
-  body += "<h2>Phase</h2>\n" + fits(comparisons);
-  if (!figures.profiles.file.empty())
-    body += "<h2>Range profiles</h2>\n" +
-            html_figure(figures.profiles.file,
-                        "Hann's window over all frequencies of a direction; a point has its own level.",
-                        "range profiles of both", figures.profiles.plot);
-  body += "<h2>Largest differences</h2>\n" + worst(comparisons);
-  body += "<h2>How the files were read</h2>\n" + readings(comparisons);
-  body += fmt::format(
-      "<footer>seaglint {}. Every pair of values is in compare.csv, every figure in compare.json.</footer>\n",
-      kVersion);
-  return html_page(title, body);
+  const auto figure = [](const ComparisonFigure& of, const char* caption, const char* alternative) {
+    return of.file.empty() ? "" : html_figure(of.file, caption, alternative, of.plot);
+  };
+  PageValues values{
+      {"title", title},
+      {"floor_db", fmt::format("{:g}", settings.floor_db)},
+      {"interpolated", settings.interpolation_radius_m ? "yes" : ""},
+      {"differences", differences(comparisons)},
+      {"solver", solver_text(comparisons)},
+      {"warnings", warnings(comparisons)},
+      {"curves", figure(figures.curves, "Levels above, differences below; at most four cuts.", "curves of both")},
+      {"lobes_and_nulls", lobes_and_nulls(comparisons)},
+      {"fits", fits(comparisons)},
+      {"profiles",
+       figure(figures.profiles, "Hann's window over all frequencies of a direction; a point has its own level.",
+              "range profiles of both")},
+      {"worst", worst(comparisons)},
+      {"readings", readings(comparisons)},
+      {"version", kVersion}};
+  add_known_values(values, comparisons);
+  return html_page(title, filled(comparison_template(), values));
 }
 
 }  // namespace seaglint

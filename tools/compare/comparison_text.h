@@ -4,7 +4,6 @@
 // A comparison as a table, as JSON, as CSV and as a self-contained page.
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -18,6 +17,7 @@ std::string solver_text(const std::vector<ExportComparison>& comparisons);
 // For the terminal: one line per export and element, then known values, how each was fitted and its warnings.
 std::string comparison_table(const std::vector<ExportComparison>& comparisons, const ComparisonSettings& settings);
 
+// The content of compare.json:
 // {"version", "settings", "exports": [{"name", "reader", "convention", "compared", "polarisation", "pairs", "bias_db",
 // "mean_abs_db", "rms_db", "p95_db", "correlation", "fitted": {"phase_deg", "origin_m", "origin_error_m",
 // "undetermined", "conjugated", "sign", "offset_db"}, "lobes", "nulls", "worst", "solver": {"like",
@@ -25,8 +25,7 @@ std::string comparison_table(const std::vector<ExportComparison>& comparisons, c
 // "export_rms_db", "compared_bias_db", "compared_rms_db", "own_error_db", "verdict", "levels"}, "trials", "warnings",
 // "interpolation"}]}: one entry per export and polarisation; null where there is no phase, nothing solved, known or
 // interpolated.
-nlohmann::ordered_json comparison_json(const std::vector<ExportComparison>& comparisons,
-                                       const ComparisonSettings& settings);
+std::string comparison_json(const std::vector<ExportComparison>& comparisons, const ComparisonSettings& settings);
 
 // One row per pair: file, line, polarisation, frequency, direction, both levels, their difference, and both amplitudes
 // where they have phases (the export's in the fitted phase). A last column known_dbsm where any target is recognised.

@@ -11,8 +11,7 @@
 #include <utility>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/core/numbers/dbsm.h"
-#include "sim/core/numbers/quantile.h"
+#include "sim/core/numbers/real_functions.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/printable.h"
 #include "sim/core/process/progress.h"
@@ -41,8 +40,6 @@ std::string text_of(const ContributionGroup& group, const std::vector<std::strin
 
 namespace {
 
-constexpr std::array<std::size_t, 2> kElements{0, 3};  // hh, vv of a matrix
-
 using ViewMatrices = std::vector<std::vector<std::array<Complex, 4>>>;  // [view][frequency]
 
 double relative_db(double difference2, double reference2) {
@@ -55,7 +52,7 @@ CrossCheckRow row_of(const std::vector<std::array<Complex, 4>>& beams, const std
                      std::size_t element) {
   double beams2 = 0, rays2 = 0, difference2 = 0;  // sums of squares over the frequencies
   for (std::size_t q = 0; q < beams.size(); ++q) {
-    const Complex &b = beams[q][kElements[element]], &r = rays[q][kElements[element]];
+    const Complex &b = beams[q][kCoPolar[element]], &r = rays[q][kCoPolar[element]];
     beams2 += std::norm(b);
     rays2 += std::norm(r);
     difference2 += std::norm(r - b);
@@ -74,10 +71,10 @@ void set_groups(GroupSums beams, const GroupSums& rays, CrossCheckRow* rows) {
   for (const auto& [group, sum] : rays) {
     for (std::size_t i = 0; i < 4; ++i) beams[group][i] -= sum[i];
   }
-  for (std::size_t element = 0; element < kElements.size(); ++element) {
+  for (std::size_t element = 0; element < kCoPolar.size(); ++element) {
     double all = 0, most = 0;
     for (const auto& [group, difference] : beams) {
-      const double size = std::abs(difference[kElements[element]]);
+      const double size = std::abs(difference[kCoPolar[element]]);
       all += size;
       if (size <= most) continue;
       most = size;
@@ -175,8 +172,6 @@ CrossCheckSummary summary_of(const CrossCheck& check) {
 
 namespace {
 
-constexpr const char* kElementNames[2] = {"hh", "vv"};
-
 std::string group_text(const CrossCheckRow& row, const RcsTarget& target) {
   if (!row.group) return "-";
   return fmt::format("{}: {:.2f} of the difference", text_of(*row.group, target.prepared.mesh.part_names),
@@ -185,7 +180,7 @@ std::string group_text(const CrossCheckRow& row, const RcsTarget& target) {
 
 std::string line_of(const CrossCheckRow& row, const RcsTarget& target) {
   return fmt::format("{:>11.6g} {:>13.6g}  {:<7} {:>10.2f} {:>9.2f} {:>13.2f} {:>11.1f}  {}\n", row.azimuth_deg,
-                     row.elevation_deg, kElementNames[row.element], row.beams_dbsm, row.rays_dbsm, row.difference_db(),
+                     row.elevation_deg, kCoPolarNames[row.element], row.beams_dbsm, row.rays_dbsm, row.difference_db(),
                      row.relative_db, group_text(row, target));
 }
 
@@ -225,7 +220,7 @@ std::string cross_check_table(const RcsRequest& request, const RcsTarget& target
                         lowest, highest, check.grouped_hz);
   for (const CrossCheckRow& row : check.rows) {
     csv += fmt::format("{:.9g},{:.9g},{},{:.4f},{:.4f},{:.4f},{:.3f}", row.azimuth_deg, row.elevation_deg,
-                       kElementNames[row.element], row.beams_dbsm, row.rays_dbsm, row.difference_db(), row.relative_db);
+                       kCoPolarNames[row.element], row.beams_dbsm, row.rays_dbsm, row.difference_db(), row.relative_db);
     if (row.group) {
       csv += fmt::format(",{},{},{},{:.4f}\n", csv_cell(target.prepared.mesh.part_names[row.group->part]),
                          row.group->bounces, kMechanismNames[static_cast<std::size_t>(row.group->mechanism)],
@@ -255,8 +250,6 @@ std::string cross_check_text(const CrossCheck& check, const RcsTarget& target) {
 
 namespace {
 
-constexpr std::array kElement{"hh", "vv"};
-
 FigureAxis axis_of(std::string label, const std::vector<double>& values, double margin, double longest) {
   const auto [low, high] = std::ranges::minmax(values);
   return {std::move(label), AxisRange{std::max(low, high - longest) - margin, high + margin}, false};
@@ -274,7 +267,7 @@ PlotPanels cross_check_plots(const CrossCheck& check) {
   constexpr double kMargin_db = 3, kLongest_db = 60;
   PlotPanels panels{{}, 2, {1500, 800}};
   for (const bool levels : {true, false}) {
-    for (std::size_t element = 0; element < kElement.size(); ++element) {
+    for (std::size_t element = 0; element < kCoPolarNames.size(); ++element) {
       Series beams{"beams", {}, {}, {}, SeriesStyle::kLines}, rays{"rays", {}, {}, {}, SeriesStyle::kLines},
           difference{"", {}, {}, {}, SeriesStyle::kLines};
       std::vector<double> both;
@@ -290,7 +283,7 @@ PlotPanels cross_check_plots(const CrossCheck& check) {
       LinePlot plot;
       plot.x = axis_of(azimuth ? "azimuth (deg)" : "elevation (deg)", beams.x, 0, 1e9);
       if (levels) {
-        plot.title = kElement[element];
+        plot.title = kCoPolarNames[element];
         plot.y = axis_of("radar cross section (dBsm)", both, kMargin_db, kLongest_db);
         plot.legend_above = true;
         plot.series = {std::move(beams), std::move(rays)};
@@ -305,8 +298,6 @@ PlotPanels cross_check_plots(const CrossCheck& check) {
 }
 
 namespace {
-
-constexpr double kMostDb = 300;
 
 SolverMethod other_than(SolverMethod method) {
   return method == SolverMethod::kBeams ? SolverMethod::kRays : SolverMethod::kBeams;
@@ -331,12 +322,13 @@ SampleDifference difference_of(const Pipeline& pipeline, const Pipeline& other, 
   const std::vector<float> map = pipeline.received_sample(sample, train, response).stored.magnitude,
                            other_map = other.received_sample(sample, train, by_other).stored.magnitude;
   const std::size_t cell = static_cast<std::size_t>(std::ranges::max_element(map) - map.begin());
-  return {sample,
-          target.name,
-          target.solver.method,
-          other_than(target.solver.method),
-          relative_difference_db(response.response, by_other.response),
-          std::clamp(20 * std::log10(static_cast<double>(other_map[cell]) / map[cell]), -kMostDb, kMostDb)};
+  return {
+      sample,
+      target.name,
+      target.solver.method,
+      other_than(target.solver.method),
+      relative_difference_db(response.response, by_other.response),
+      std::clamp(20 * std::log10(static_cast<double>(other_map[cell]) / map[cell]), -kMostRelativeDb, kMostRelativeDb)};
 }
 
 const SampleDifference& largest_by(const std::vector<SampleDifference>& all, auto size) {
@@ -387,9 +379,7 @@ double relative_difference_db(const FrequencyResponse& reference, const Frequenc
     difference2 += std::norm(other.values[i] - reference.values[i]);
     reference2 += std::norm(reference.values[i]);
   }
-  if (difference2 == 0) return -kMostDb;
-  if (reference2 == 0) return kMostDb;
-  return std::clamp(10 * std::log10(difference2 / reference2), -kMostDb, kMostDb);
+  return relative_db(difference2, reference2);
 }
 
 std::string text_of(const SampleCrossCheck& check) {

@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/core/numbers/dbsm.h"
+#include "sim/core/numbers/real_functions.h"
 #include "sim/core/process/error.h"
 #include "sim/scattering/observation/observation.h"
-#include "tools/compare/view_grids.h"
+#include "tools/compare/paired_cut.h"
 
 namespace seaglint {
 namespace {

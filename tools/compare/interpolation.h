@@ -8,7 +8,7 @@
 
 #include "sim/core/process/parallel.h"
 #include "sim/field_tables/field_table.h"
-#include "tools/compare/view_grids.h"
+#include "tools/compare/paired_cut.h"
 
 namespace seaglint {
 

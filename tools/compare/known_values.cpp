@@ -8,10 +8,10 @@
 #include <limits>
 #include <map>
 
-#include "sim/canonical/canonical_echo.h"
+#include "sim/canonical/canonical_body.h"
 #include "sim/core/numbers/constants.h"
-#include "sim/core/numbers/dbsm.h"
-#include "tools/compare/curve_features.h"
+#include "sim/core/numbers/real_functions.h"
+#include "tools/compare/differences.h"
 #include "tools/rcs/rcs_views.h"
 
 namespace seaglint {
@@ -90,28 +90,22 @@ double highest_known(const std::vector<PairedCut>& cuts, std::optional<std::size
   return highest;
 }
 
-KnownStatistics statistics_of(const std::vector<PairedCut>& cuts, std::size_t quantity, double floor) {
-  KnownStatistics sums;
-  sums.quantity = quantity;
+// Absent where nothing is known.
+std::optional<KnownStatistics> known_statistics(const std::vector<PairedCut>& cuts, std::size_t quantity,
+                                                double floor) {
+  DifferenceSum reference, compared;
+  bool any = false;
   for (const PairedCut& cut : cuts) {
     for (std::size_t i = 0; cut.quantity() == quantity && i < cut.places.size(); ++i) {
-      if (std::isnan(cut.known->level_dbsm[i])) continue;
-      const double known = std::max(cut.known->level_dbsm[i], floor);
-      const double reference = std::max(cut.level_dbsm[i], floor) - known,
-                   compared = std::max(cut.models[0].level_dbsm[i], floor) - known;
-      ++sums.pairs;
-      sums.reference_bias_db += reference;
-      sums.reference_rms_db += reference * reference;
-      sums.compared_bias_db += compared;
-      sums.compared_rms_db += compared * compared;
+      const double known = cut.known->level_dbsm[i];
+      if (std::isnan(known)) continue;
+      any = true;
+      reference.add(cut.level_dbsm[i], known, floor, cut.x[i]);
+      compared.add(cut.models[0].level_dbsm[i], known, floor, cut.x[i]);
     }
   }
-  const double n = static_cast<double>(std::max<std::size_t>(1, sums.pairs));
-  sums.reference_bias_db /= n;
-  sums.compared_bias_db /= n;
-  sums.reference_rms_db = std::sqrt(sums.reference_rms_db / n);
-  sums.compared_rms_db = std::sqrt(sums.compared_rms_db / n);
-  return sums;
+  if (!any) return std::nullopt;
+  return KnownStatistics{quantity, reference.difference(), compared.difference(), 0};
 }
 
 KnownValues of_one(std::vector<PairedCut>& cuts, const CanonicalBody& body, double floor_db) {
@@ -120,9 +114,10 @@ KnownValues of_one(std::vector<PairedCut>& cuts, const CanonicalBody& body, doub
   const double error_db = set_known_levels(cuts, body), highest = highest_known(cuts);
   for (std::size_t quantity = 0; quantity < kQuantities; ++quantity) {
     if (highest_known(cuts, quantity) < highest - kNothing_db) continue;
-    KnownStatistics statistics = statistics_of(cuts, quantity, highest - floor_db);
-    statistics.error_db = error_db;
-    if (statistics.pairs > 0) known.statistics.push_back(statistics);
+    std::optional<KnownStatistics> statistics = known_statistics(cuts, quantity, highest - floor_db);
+    if (!statistics) continue;
+    statistics->error_db = error_db;
+    known.statistics.push_back(*statistics);
   }
   for (PairedCut& cut : cuts) {
     if (highest_known(cuts, cut.quantity()) < highest - kNothing_db ||
@@ -216,9 +211,9 @@ std::vector<std::string> known_lines(const KnownValues& known, const std::string
   for (const KnownStatistics& s : known.statistics) {
     lines.push_back(
         fmt::format("{}: {} of a {}, {} places: export bias {:+.2f}, rms {:.2f} dB; {} bias {:+.2f}, rms {:.2f} dB: {}",
-                    kQuantityNames[s.quantity], known.name, known.body, s.pairs, s.reference_bias_db,
-                    s.reference_rms_db, compared, s.compared_bias_db, s.compared_rms_db,
-                    closer_text(s.reference_rms_db, s.compared_rms_db, s.error_db, compared)));
+                    kQuantityNames[s.quantity], known.name, known.body, s.reference.points, s.reference.bias_db,
+                    s.reference.rms_db, compared, s.compared.bias_db, s.compared.rms_db,
+                    closer_text(s.reference.rms_db, s.compared.rms_db, s.error_db, compared)));
   }
   constexpr std::size_t kMostLines = 12;
   for (std::size_t i = 0; i < std::min(kMostLines, known.levels.size()); ++i) {

@@ -9,17 +9,15 @@
 #include <vector>
 
 #include "sim/canonical/canonical_body.h"
-#include "tools/compare/paired_cut.h"
+#include "tools/compare/differences.h"
 
 namespace seaglint {
 
 // Differences of both from the known levels of one element, dB.
 struct KnownStatistics {
-  std::size_t quantity = 0;  // quantity_of()
-  std::size_t pairs = 0;
-  double reference_bias_db = 0, reference_rms_db = 0;  // export - known
-  double compared_bias_db = 0, compared_rms_db = 0;    // compared - known
-  double error_db = 0;                                 // of the known values themselves; 0: exact
+  std::size_t quantity = 0;        // quantity_of()
+  Difference reference, compared;  // export - known, compared - known
+  double error_db = 0;             // of the known values themselves; 0: exact
 };
 
 // Levels at the specular point of one of several spheres, dBsm: sums over frequency as in range_profile().

@@ -6,74 +6,133 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <unordered_map>
+#include <utility>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/core/numbers/dbsm.h"
+#include "sim/core/numbers/real_functions.h"
 #include "sim/core/process/error.h"
 #include "sim/scattering/observation/observation.h"
-#include "tools/figure/figure.h"
 
 namespace seaglint {
+
+std::vector<ViewGrid> view_grids(std::span<const ViewPoint> points) {
+  using Direction = std::pair<double, double>;  // elevation, azimuth
+  std::map<Direction, std::vector<double>> frequencies;
+  std::vector<ViewPoint> sorted(points.begin(), points.end());
+  std::sort(sorted.begin(), sorted.end());
+  sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
+  for (const ViewPoint& p : sorted) frequencies[{p.elevation_deg, p.azimuth_deg}].push_back(p.frequency_hz);
+
+  std::map<std::vector<double>, std::map<double, std::vector<double>>> azimuths;  // by frequencies, then elevation
+  for (const auto& [direction, list] : frequencies) azimuths[list][direction.first].push_back(direction.second);
+
+  std::vector<ViewGrid> grids;
+  for (const auto& [list, rows] : azimuths) {
+    std::map<std::vector<double>, std::vector<double>> elevations;  // by azimuths
+    for (const auto& [elevation, row] : rows) elevations[row].push_back(elevation);
+    for (const auto& [row, column] : elevations) grids.push_back({list, row, column});
+  }
+  return grids;
+}
+
+std::vector<ViewGrid> cuts_of(const ViewGrid& grid) {
+  const std::size_t azimuths = grid.azimuth_deg.size(), elevations = grid.elevation_deg.size();
+  const bool along_frequency = grid.frequency_hz.size() > std::max(azimuths, elevations);
+  std::vector<ViewGrid> cuts;
+  const auto add = [&](const std::vector<double>& azimuth_deg, const std::vector<double>& elevation_deg) {
+    cuts.push_back({grid.frequency_hz, azimuth_deg, elevation_deg});
+  };
+  if (along_frequency) {
+    for (const double el : grid.elevation_deg) {
+      for (const double az : grid.azimuth_deg) add({az}, {el});
+    }
+  } else if (azimuths >= elevations) {
+    for (const double el : grid.elevation_deg) add(grid.azimuth_deg, {el});
+  } else {
+    for (const double az : grid.azimuth_deg) add({az}, grid.elevation_deg);
+  }
+  return cuts;
+}
+
+double azimuth_of(const RcsCut& cut, double phi_deg) {
+  return std::remainder((phi_deg - cut.phi_offset_deg) / cut.phi_scale, 360);
+}
+
+ViewPoint view_point(const RcsCut& cut, const FieldValue& value) {
+  return {value.frequency_hz, azimuth_of(cut, value.phi_deg), 90 - value.theta_deg};
+}
+
+const DeclaredTransmitter& stated_transmitter(const RcsCut& cut) {
+  if (cut.transmitter) return *cut.transmitter;
+  throw InputError(fmt::format(
+      "{}: neither the file nor its name says where the incident wave comes from: give --incidence monostatic "
+      "or --incidence THETA,PHI",
+      cut.name));
+}
+
+std::optional<FixedTransmitter> fixed_transmitter(const RcsCut& cut) {
+  const DeclaredTransmitter& transmitter = stated_transmitter(cut);
+  if (transmitter.is_monostatic) return std::nullopt;
+  return FixedTransmitter{azimuth_of(cut, transmitter.phi_deg), 90 - transmitter.theta_deg};
+}
 
 namespace {
 
 constexpr double kAngleStep_deg = 1e-3;  // CST prints three decimals
-constexpr long kCircle = 360'000;        // steps in 360 deg
 constexpr double kFrequencyTolerance = 1e-6;
 constexpr double kSameLevel_db = 0.1;  // allowed difference of a direction that a file contains twice
 
-// Direction in steps, theta in the upper and phi in the lower half.
-using DirectionKey = std::int64_t;
-
-DirectionKey key_of(long theta, long phi) {
-  phi %= kCircle;
-  return static_cast<DirectionKey>(theta) << 32 | (phi < 0 ? phi + kCircle : phi);
-}
-
-long steps(double angle_deg) { return std::lround(angle_deg / kAngleStep_deg); }
-
-std::vector<const FieldValue*> by_frequency(const RcsCut& cut) {
-  std::vector<const FieldValue*> values;
-  values.reserve(cut.values.size());
-  for (const FieldValue& value : cut.values) values.push_back(&value);
-  const auto lower = [](const FieldValue* a, const FieldValue* b) { return a->frequency_hz < b->frequency_hz; };
-  if (!std::is_sorted(values.begin(), values.end(), lower)) std::stable_sort(values.begin(), values.end(), lower);
-  return values;
-}
-
-// A reference's samples of one frequency by their direction.
-class Samples {
+// The values of a cut by frequency and direction.
+class ValuesByPlace {
  public:
-  // `ascending`: the reference's values by frequency.
-  Samples(const RcsCut& reference, const std::vector<const FieldValue*>& ascending, double frequency_hz) {
-    const auto first = std::lower_bound(ascending.begin(), ascending.end(), (1 - kFrequencyTolerance) * frequency_hz,
-                                        [](const FieldValue* value, double f) { return value->frequency_hz < f; });
-    for (auto at = first; at != ascending.end() && (*at)->frequency_hz <= (1 + kFrequencyTolerance) * frequency_hz;
-         ++at) {
-      const FieldValue& sample = **at;
-      const auto [place, is_new] =
-          by_direction_.try_emplace(key_of(steps(sample.theta_deg), steps(sample.phi_deg)), &sample);
-      if (!is_new && std::abs(place->second->level_dbsm - sample.level_dbsm) > kSameLevel_db) {
-        throw InputError(fmt::format("{}: theta {} phi {} at {} GHz is a duplicate, with {} and {} dBsm",
-                                     reference.name, sample.theta_deg, sample.phi_deg, sample.frequency_hz * 1e-9,
-                                     place->second->level_dbsm, sample.level_dbsm));
-      }
+  // Throws InputError for a place that has two different levels.
+  explicit ValuesByPlace(const RcsCut& cut) : phi_scale_(cut.phi_scale), phi_offset_deg_(cut.phi_offset_deg) {
+    for (const FieldValue& value : cut.values) frequency_hz_.push_back(value.frequency_hz);
+    std::ranges::sort(frequency_hz_);
+    frequency_hz_.erase(std::unique(frequency_hz_.begin(), frequency_hz_.end()), frequency_hz_.end());
+    by_place_.reserve(cut.values.size());
+    for (const FieldValue& value : cut.values) {
+      const auto [first, is_new] = by_place_.try_emplace(
+          key(index_of(value.frequency_hz), steps(value.theta_deg), steps(value.phi_deg)), &value);
+      if (!is_new && std::abs(first->second->level_dbsm - value.level_dbsm) > kSameLevel_db)
+        throw InputError(fmt::format("{}: theta {} phi {} at {} GHz is a duplicate, with {} and {} dBsm", cut.name,
+                                     value.theta_deg, value.phi_deg, value.frequency_hz * 1e-9,
+                                     first->second->level_dbsm, value.level_dbsm));
     }
   }
-  // Rounding may give equal angles neighbouring keys.
-  const FieldValue* at(double theta_deg, double phi_deg) const {
-    for (const long theta : {0L, -1L, 1L}) {
-      for (const long phi : {0L, -1L, 1L}) {
-        const auto place = by_direction_.find(key_of(steps(theta_deg) + theta, steps(phi_deg) + phi));
-        if (place != by_direction_.end()) return place->second;
+
+  // Null where there is none. Rounding may give equal angles neighbouring keys.
+  const FieldValue* at(const ViewPoint& place) const {
+    const long at_theta = steps(90 - place.elevation_deg),
+               at_phi = steps(phi_scale_ * place.azimuth_deg + phi_offset_deg_);
+    for (std::size_t f = index_of((1 - kFrequencyTolerance) * place.frequency_hz);
+         f < frequency_hz_.size() && frequency_hz_[f] <= (1 + kFrequencyTolerance) * place.frequency_hz; ++f) {
+      for (const long theta : {0L, -1L, 1L}) {
+        for (const long phi : {0L, -1L, 1L}) {
+          const auto found = by_place_.find(key(f, at_theta + theta, at_phi + phi));
+          if (found != by_place_.end()) return found->second;
+        }
       }
     }
     return nullptr;
   }
 
  private:
-  std::unordered_map<DirectionKey, const FieldValue*> by_direction_;
+  static long steps(double angle_deg) { return std::lround(angle_deg / kAngleStep_deg); }
+  static std::uint64_t key(std::size_t frequency, long theta, long phi) {
+    constexpr long kCircle = 360'000;  // steps in 360 deg
+    const auto turn = static_cast<std::uint64_t>((phi % kCircle + kCircle) % kCircle);
+    return (static_cast<std::uint64_t>(frequency) << 40) | (turn << 20) | static_cast<std::uint64_t>(theta + kCircle);
+  }
+  std::size_t index_of(double frequency_hz) const {
+    return static_cast<std::size_t>(std::ranges::lower_bound(frequency_hz_, frequency_hz) - frequency_hz_.begin());
+  }
+
+  double phi_scale_, phi_offset_deg_;
+  std::vector<double> frequency_hz_;  // ascending, each once
+  std::unordered_map<std::uint64_t, const FieldValue*> by_place_;
 };
 
 std::string span_text(std::vector<double> values) {
@@ -155,24 +214,23 @@ const char* axis_unit(CutAxis axis) {
 std::vector<PairedCut> paired_cuts(const RcsSweep& sweep, const RcsCut& reference) {
   require_same_transmitter(sweep, reference);
   const CutAxis axis = axis_of(sweep);
-  const std::vector<const FieldValue*> ascending = by_frequency(reference);
+  const ValuesByPlace values(reference);
   std::vector<PairedCut> cuts;
   for (std::size_t q = 0; q < sweep.frequency_hz.size(); ++q) {
     const double f = sweep.frequency_hz[q], k = 2 * kPi * f / kSpeedOfLight;
-    const Samples samples(reference, ascending, f);
     if (cuts.empty() || axis != CutAxis::kFrequency) {
-      cuts.emplace_back();
-      cuts.back().reference = reference.name;
-      cuts.back().element = reference.element;
-      cuts.back().total = reference.total;
-      cuts.back().origin_m = reference.origin_m;
-      cuts.back().axis = axis;
-      if (axis != CutAxis::kFrequency) cuts.back().frequency_hz = f;
+      PairedCut& cut = cuts.emplace_back();
+      cut.reference = reference.name;
+      cut.element = reference.element;
+      cut.total = reference.total;
+      cut.origin_m = reference.origin_m;
+      cut.axis = axis;
+      if (axis != CutAxis::kFrequency) cut.frequency_hz = f;
     }
     PairedCut& cut = cuts.back();
     for (std::size_t view = 0; view < sweep.views(); ++view) {
       const double az = sweep.azimuth_of(view), el = sweep.elevation_of(view);
-      const FieldValue* sample = samples.at(90 - el, reference.phi_scale * az + reference.phi_offset_deg);
+      const FieldValue* sample = values.at({f, az, el});
       if (!sample) continue;
       cut.x.push_back(axis == CutAxis::kAzimuth     ? az
                       : axis == CutAxis::kElevation ? el
@@ -224,225 +282,39 @@ void set_models(PairedCut& cut, const RcsSweep& sweep) {
   if (sweep.flat) cut.flat = along_cut(*sweep.flat);
 }
 
-namespace {
-
-const char* axis_label(CutAxis axis) {
-  switch (axis) {
-    case CutAxis::kAzimuth: return "azimuth (deg)";
-    case CutAxis::kElevation: return "elevation (deg)";
-    case CutAxis::kFrequency: return "frequency (GHz)";
-    default: return "";
+std::vector<RcsSweep> table_sweeps(const RcsCut& cut, const RcsCut& other) {
+  const ValuesByPlace values(other);
+  std::vector<ViewPoint> points;
+  for (const FieldValue& value : cut.values) {
+    const ViewPoint p = view_point(cut, value);
+    if (values.at(p) != nullptr) points.push_back(p);
   }
-}
-
-std::string upper(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return text;
-}
-
-}  // namespace
-
-double DifferenceSum::add(double computed_dbsm, double reference_dbsm, double floor_dbsm, double x) {
-  const double difference = std::max(computed_dbsm, floor_dbsm) - std::max(reference_dbsm, floor_dbsm);
-  ++sums_.points;
-  sums_.mean_db += std::abs(difference);
-  sums_.bias_db += difference;
-  sums_.rms_db += difference * difference;
-  if (std::abs(difference) > std::abs(sums_.largest_db)) {
-    sums_.largest_db = difference;
-    sums_.largest_at = x;
-  }
-  return difference;
-}
-
-void DifferenceSum::add_phases(const Complex& computed, const Complex& reference) {
-  product_ += std::conj(reference) * computed;
-  computed_power_ += std::norm(computed);
-  reference_power_ += std::norm(reference);
-}
-
-Difference DifferenceSum::difference() const {
-  Difference d = sums_;
-  const double n = static_cast<double>(d.points);
-  d.mean_db /= n;
-  d.bias_db /= n;
-  d.rms_db = std::sqrt(d.rms_db / n);
-  if (computed_power_ > 0 && reference_power_ > 0)
-    d.correlation = product_ / std::sqrt(computed_power_ * reference_power_);
-  return d;
-}
-
-Difference error_statistics(const PairedCut& cut, const PairedCut::Model& model, double floor_db) {
-  const double floor = *std::max_element(cut.level_dbsm.begin(), cut.level_dbsm.end()) - floor_db;
-  DifferenceSum sum;
-  for (std::size_t i = 0; i < cut.x.size(); ++i) sum.add(model.level_dbsm[i], cut.level_dbsm[i], floor, cut.x[i]);
-  for (std::size_t i = 0; i < cut.amplitude_m.size(); ++i) sum.add_phases(model.amplitude_m[i], cut.amplitude_m[i]);
-  return sum.difference();
-}
-
-namespace {
-
-// Another reference at the same directions and frequencies, in the role of a computed model.
-std::optional<PairedCut::Model> as_model(const PairedCut& other, const PairedCut& cut) {
-  if (other.quantity() != cut.quantity() || other.frequency_hz != cut.frequency_hz || other.x != cut.x)
-    return std::nullopt;
-  PairedCut::Model model{other.reference, other.level_dbsm, other.amplitude_m};
-  if (model.amplitude_m.empty()) model.amplitude_m.assign(other.x.size(), 0.0);
-  return model;
-}
-
-}  // namespace
-
-std::string error_table(const std::vector<PairedCut>& cuts, double floor_db) {
-  struct Row {
-    const PairedCut* cut;
-    std::string model;
-    Difference difference;
-  };
-  std::vector<Row> rows;
-  for (const PairedCut& cut : cuts) {
-    for (const PairedCut::Model& model : cut.models)
-      rows.push_back({&cut, model.name, error_statistics(cut, model, floor_db)});
-  }
-  // Differences between references.
-  for (std::size_t i = 0; i < cuts.size(); ++i) {
-    for (std::size_t j = i + 1; j < cuts.size(); ++j) {
-      if (const auto model = as_model(cuts[i], cuts[j]))
-        rows.push_back({&cuts[j], model->name, error_statistics(cuts[j], *model, floor_db)});
-    }
-  }
-  std::size_t width = 9, model_width = 5, pol_width = 3;
-  for (const Row& row : rows) {
-    width = std::max(width, row.cut->reference.size());
-    pol_width = std::max(pol_width, std::string_view(kQuantityNames[row.cut->quantity()]).size());
-    model_width = std::max(model_width, row.model.size());
-  }
-  std::string text = fmt::format(
-      "Differences, compared - reference, both clipped at {:g} dB below the reference's maximum:\n{:<{}}  {:<{}}  "
-      "{:>9}  "
-      "{:<{}} {:>6} {:>8} {:>7} {:>7} {:>8}  {:<13} {}\n",
-      floor_db, "reference", width, "pol", pol_width, "f_ghz", "compared", std::max(model_width, std::size_t{8}),
-      "points", "mean_db", "rms_db", "bias_db", "largest", "at", "correlation");
-  for (const Row& row : rows) {
-    const Difference& d = row.difference;
-    const std::string f = row.cut->frequency_hz ? fmt::format("{:g}", *row.cut->frequency_hz * 1e-9) : "sweep";
-    text += fmt::format(
-        "{:<{}}  {:<{}}  {:>9}  {:<{}} {:>6} {:>8.3f} {:>7.3f} {:>7.3f} {:>8.3f}  {:<13} {}\n", row.cut->reference,
-        width, kQuantityNames[row.cut->quantity()], pol_width, f, row.model, std::max(model_width, std::size_t{8}),
-        d.points, d.mean_db, d.rms_db, d.bias_db, d.largest_db,
-        fmt::format("{:.6g} {}", d.largest_at, axis_unit(row.cut->axis)),
-        d.correlation ? fmt::format("{:.4f} at {:.1f} deg", std::abs(*d.correlation), degrees(std::arg(*d.correlation)))
-                      : "-");
-  }
-  return text;
-}
-
-PlotPanels comparison_plots(const std::vector<PairedCut>& cuts, double floor_db) {
-  if (cuts.empty() || cuts.front().axis == CutAxis::kSeveral || cuts.front().x.size() < 2) return {};
-  // Cuts of one frequency and polarisation share a column.
-  constexpr std::size_t kMaxColumns = 4;
-  std::vector<std::vector<const PairedCut*>> columns;
-  for (const PairedCut& cut : cuts) {
-    const auto place = std::find_if(columns.begin(), columns.end(), [&](const auto& column) {
-      return column.front()->quantity() == cut.quantity() && column.front()->frequency_hz == cut.frequency_hz &&
-             column.front()->place == cut.place;
-    });
-    if (place != columns.end()) {
-      place->push_back(&cut);
-    } else if (columns.size() < kMaxColumns) {
-      columns.push_back({&cut});
-    }
-  }
-
-  std::vector<LinePlot> levels, differences;
-  for (const auto& column : columns) {
-    const PairedCut& first = *column.front();
-    double highest = -1e300;
-    for (const PairedCut* cut : column)
-      highest = std::max(highest, *std::max_element(cut->level_dbsm.begin(), cut->level_dbsm.end()));
-    const double floor = highest - floor_db;
-    const auto clipped = [&](std::vector<double> values) {
-      for (double& v : values) v = std::max(v, floor);
-      return values;
-    };
-    LinePlot level, difference;
-    level.legend_above = difference.legend_above = true;
-    level.title = (first.total ? fmt::format("total, {} transmitted", transmits_v(first.element) ? "V" : "H")
-                               : upper(kPolarisationNames[static_cast<int>(first.element)])) +
-                  (first.frequency_hz ? fmt::format(", {:g} GHz", *first.frequency_hz * 1e-9) : std::string()) +
-                  (first.place.empty() ? "" : ", " + first.place);
-    level.x.label = difference.x.label = axis_label(first.axis);
-    level.x.range = difference.x.range =
-        AxisRange{*std::min_element(first.x.begin(), first.x.end()), *std::max_element(first.x.begin(), first.x.end())};
-    difference.y.label = "computed - reference (dB)";
-    double widest = 0.2, lowest = highest;
-    for (const PairedCut* cut : column) {
-      const std::string& name = cut->reference;
-      lowest = std::min(lowest, *std::min_element(cut->level_dbsm.begin(), cut->level_dbsm.end()));
-      level.series.push_back({name, cut->x, clipped(cut->level_dbsm), {}, SeriesStyle::kLines});
-      for (const PairedCut::Model& model : cut->models) {
-        Series series{model.name + " - " + name, cut->x, {}, {}, SeriesStyle::kLines};
-        const std::vector<double> computed = clipped(model.level_dbsm), reference = clipped(cut->level_dbsm);
-        for (std::size_t i = 0; i < cut->x.size(); ++i) {
-          series.y.push_back(computed[i] - reference[i]);
-          widest = std::max(widest, std::abs(series.y.back()));
+  std::vector<RcsSweep> sweeps;
+  for (const ViewGrid& grid : view_grids(points)) {
+    RcsRequest request;
+    request.frequency_hz = grid.frequency_hz;
+    request.azimuth_deg = grid.azimuth_deg;
+    request.elevation_deg = grid.elevation_deg;
+    request.transmitter = fixed_transmitter(cut);
+    RcsSweep& sweep = sweeps.emplace_back(requested_sweep(request));
+    RcsSweep::Model model{other.name, true, {}};
+    model.matrices.assign(sweep.views(), std::vector<std::array<Complex, 4>>(sweep.frequency_hz.size()));
+    for (std::size_t q = 0; q < sweep.frequency_hz.size(); ++q) {
+      const double f = sweep.frequency_hz[q], k = 2 * kPi * f / kSpeedOfLight;
+      for (std::size_t view = 0; view < sweep.views(); ++view) {
+        const double az = sweep.azimuth_of(view), el = sweep.elevation_of(view);
+        const FieldValue& value = *values.at({f, az, el});
+        Complex amplitude = value.amplitude_m.value_or(amplitude_of_dbsm(value.level_dbsm));
+        if (value.amplitude_m && !other.origin_m.isZero(1e-12)) {
+          const Vec3 r = direction_to_radar(radians(az), radians(el));
+          amplitude *= std::polar(1.0, k * (sweep.transmitter.value_or(r) + r).dot(other.origin_m));
         }
-        difference.series.push_back(std::move(series));
+        model.matrices[view][q][static_cast<std::size_t>(other.element)] = amplitude;
       }
-      if (!cut->known) continue;
-      Series series{cut->known->name + " - " + name, cut->x, {}, {}, SeriesStyle::kLinesPoints};
-      for (std::size_t i = 0; i < cut->x.size(); ++i)
-        series.y.push_back(cut->known->level_dbsm[i] - std::max(cut->level_dbsm[i], floor));
-      difference.series.push_back(std::move(series));
     }
-    for (const PairedCut::Model& model : first.models)
-      level.series.push_back({model.name, first.x, clipped(model.level_dbsm), {}, SeriesStyle::kLines});
-    if (first.flat) {
-      const std::vector<double> flat = clipped(first.flat->level_dbsm), smooth = level.series.back().y;
-      Series band{"to flat facets", first.x, smooth, {}, SeriesStyle::kBand};
-      for (std::size_t i = 0; i < flat.size(); ++i)
-        band.interval.push_back({std::min(flat[i], smooth[i]), std::max(flat[i], smooth[i])});
-      level.series.push_back(std::move(band));
-    }
-    if (first.known)
-      level.series.push_back({first.known->name, first.x, first.known->level_dbsm, {}, SeriesStyle::kLinesPoints});
-    for (std::size_t i = 0; i + 1 < column.size(); ++i) {
-      const auto other = as_model(*column[i], *column[i + 1]);
-      if (!other) continue;
-      Series series{other->name + " - " + column[i + 1]->reference, column[i]->x, {}, {}, SeriesStyle::kLines};
-      const std::vector<double> upper = clipped(other->level_dbsm), lower = clipped(column[i + 1]->level_dbsm);
-      for (std::size_t n = 0; n < upper.size(); ++n) series.y.push_back(upper[n] - lower[n]);
-      difference.series.push_back(std::move(series));
-    }
-    // The axis is limited: nulls of only one curve would compress the rest.
-    constexpr double kMargin_db = 3, kBelowReference_db = 12, kWidest_db = 20;
-    level.y = {"radar cross section (dBsm)",
-               AxisRange{std::max(floor, lowest - kBelowReference_db), highest + kMargin_db}, false};
-    widest = std::min(1.05 * widest, kWidest_db);
-    difference.y.range = AxisRange{-widest, widest};
-    levels.push_back(std::move(level));
-    differences.push_back(std::move(difference));
+    sweep.models.push_back(std::move(model));
   }
-  // Two columns per row (all, if their number is odd): levels above differences, then the next two.
-  const std::size_t count = columns.size(), abreast = count % 2 == 0 ? 2 : count;
-  std::vector<LinePlot> plots;
-  for (std::size_t first = 0; first < count; first += abreast) {
-    for (auto* row : {&levels, &differences}) {
-      for (std::size_t c = first; c < std::min(first + abreast, count); ++c) plots.push_back(std::move((*row)[c]));
-    }
-  }
-  const int blocks = static_cast<int>((count + abreast - 1) / abreast);
-  return {std::move(plots),
-          static_cast<int>(abreast),
-          {abreast == 1 ? 900 : static_cast<int>(750 * abreast), 860 * blocks}};
-}
-
-bool draw_comparison(const std::vector<PairedCut>& cuts, double floor_db, const std::string& title,
-                     const std::filesystem::path& file) {
-  const PlotPanels panels = comparison_plots(cuts, floor_db);
-  if (panels.plots.empty()) return false;
-  write_figure(title, panels, file);
-  return true;
+  return sweeps;
 }
 
 }  // namespace seaglint

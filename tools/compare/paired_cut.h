@@ -1,20 +1,57 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Values of a reference beside those of a sweep at the same directions and frequencies, and the statistics of their
-// differences.
+// Values of a reference beside those of a sweep at the same directions and frequencies: directions of a file in the
+// body's angles, as few grids that a sweep solves at once, and pairs.
 
+#include <compare>
 #include <cstddef>
-#include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "sim/field_tables/field_table.h"
-#include "tools/figure/figure.h"
+#include "tools/rcs/rcs_request.h"
 #include "tools/rcs/rcs_views.h"
 
 namespace seaglint {
+
+struct ViewPoint {
+  double frequency_hz = 0, azimuth_deg = 0, elevation_deg = 0;
+  auto operator<=>(const ViewPoint&) const = default;  // NOLINT(modernize-use-nullptr): compares with 0
+};
+
+// All combinations of these values.
+struct ViewGrid {
+  std::vector<double> frequency_hz, azimuth_deg, elevation_deg;  // ascending
+  bool operator==(const ViewGrid&) const = default;
+};
+
+// Grids that hold every point exactly once and nothing else: directions of equal frequencies, then elevations of equal
+// azimuths. Points that stand repeatedly count once.
+std::vector<ViewGrid> view_grids(std::span<const ViewPoint> points);
+
+// The grid cut along its longest side, so that one variable changes in each: frequencies of each direction, or
+// directions of one elevation or azimuth at all frequencies.
+std::vector<ViewGrid> cuts_of(const ViewGrid& grid);
+
+// Directions of a cut in the body's angles: azimuth = (phi - phi_offset) / phi_scale, elevation = 90 deg - theta.
+
+double azimuth_of(const RcsCut& cut, double phi_deg);  // -180..180 deg
+
+ViewPoint view_point(const RcsCut& cut, const FieldValue& value);
+
+// Throws InputError with the option that states it if the cut has none.
+const DeclaredTransmitter& stated_transmitter(const RcsCut& cut);
+
+// Absent for a monostatic cut.
+std::optional<FixedTransmitter> fixed_transmitter(const RcsCut& cut);
+
+// The values of `other` at the directions (0.001 deg) and frequencies (1e-6) of `cut`, as few sweeps with one model of
+// its name; the element of `other` alone is filled, about the body's origin. Without phases the amplitudes are positive
+// with the level's magnitude. Empty if no place is equal.
+std::vector<RcsSweep> table_sweeps(const RcsCut& cut, const RcsCut& other);
 
 // Variable that changes along a cut.
 enum class CutAxis { kAzimuth, kElevation, kFrequency, kSeveral };
@@ -63,46 +100,5 @@ std::vector<PairedCut> match_reference(const RcsSweep& sweep, const RcsCut& refe
 
 // Fills the cut's models from the sweep that it was matched with, once that is computed.
 void set_models(PairedCut& cut, const RcsSweep& sweep);
-
-// Differences of a computed sweep from a reference: error statistics, figure.
-
-struct Difference {
-  std::size_t points = 0;
-  double mean_db = 0;  // of |computed - reference|
-  double rms_db = 0;
-  double largest_db = 0;               // with its sign
-  double largest_at = 0;               // x there
-  double bias_db = 0;                  // mean of computed - reference
-  std::optional<Complex> correlation;  // <conj(reference) computed> / (|reference| |computed|)
-};
-
-// Sums the differences of pairs of values.
-class DifferenceSum {
- public:
-  // Both levels are raised to at least floor_dbsm; x is where they stand. Returns computed - reference, dB.
-  double add(double computed_dbsm, double reference_dbsm, double floor_dbsm, double x);
-  void add_phases(const Complex& computed, const Complex& reference);
-  Difference difference() const;  // of at least one pair
-
- private:
-  Difference sums_;
-  Complex product_ = 0;
-  double computed_power_ = 0, reference_power_ = 0;
-};
-
-// Statistics after levels of both are raised to at least floor_db below the reference maximum (error measure of the
-// Austin suite, with 80 dB).
-Difference error_statistics(const PairedCut& cut, const PairedCut::Model& model, double floor_db);
-
-// Text table with one line per cut and model.
-std::string error_table(const std::vector<PairedCut>& cuts, double floor_db);
-
-// Levels above and differences below, one column per frequency and polarisation, at most four; the area between the
-// last model and flat facets is filled. Empty if no cut has an axis to draw along.
-PlotPanels comparison_plots(const std::vector<PairedCut>& cuts, double floor_db);
-
-// Draws them; false if there are none.
-bool draw_comparison(const std::vector<PairedCut>& cuts, double floor_db, const std::string& title,
-                     const std::filesystem::path& file);
 
 }  // namespace seaglint

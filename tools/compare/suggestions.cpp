@@ -14,9 +14,9 @@
 #include <utility>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/core/numbers/quantile.h"
+#include "sim/core/numbers/real_functions.h"
 #include "sim/core/process/error.h"
-#include "tools/compare/curve_features.h"
+#include "tools/compare/differences.h"
 #include "tools/rcs/rcs_request.h"
 
 namespace seaglint {
@@ -210,17 +210,13 @@ void suggest_size(const PairedCut& cut, std::vector<std::string>& sentences) {
 
 // |<conj(reference) compared>| / (|reference| |compared|) of one element; 0 without phases.
 double correlation_of(const std::vector<PairedCut>& cuts, Polarisation element) {
-  Complex product = 0;
-  double reference = 0, compared = 0;
+  DifferenceSum sum;
   for (const PairedCut& cut : cuts) {
     if (cut.element != element || cut.models[0].amplitude_m.size() != cut.amplitude_m.size()) continue;
-    for (std::size_t i = 0; i < cut.amplitude_m.size(); ++i) {
-      product += std::conj(cut.amplitude_m[i]) * cut.models[0].amplitude_m[i];
-      reference += std::norm(cut.amplitude_m[i]);
-      compared += std::norm(cut.models[0].amplitude_m[i]);
-    }
+    for (std::size_t i = 0; i < cut.amplitude_m.size(); ++i)
+      sum.add_phases(cut.models[0].amplitude_m[i], cut.amplitude_m[i]);
   }
-  return reference > 0 && compared > 0 ? std::abs(product) / std::sqrt(reference * compared) : 0;
+  return std::abs(sum.correlation().value_or(0));
 }
 
 void suggest_conventions(const Alignment& alignment, const std::vector<PairedCut>& cuts,
@@ -275,7 +271,7 @@ namespace {
 
 constexpr std::size_t kViews = 8;
 constexpr double kPoor_db = 1.5, kOtherUnit_db = 8, kDynamic_db = 40;
-constexpr double kRounding_db = 120;  // a symmetric body has no cross-polar echo but rounding
+constexpr double kCrossRounding_db = 120;  // a symmetric body has no cross-polar echo but rounding
 
 double median_of(std::vector<double> values) { return quartiles(std::move(values)).median; }
 
@@ -329,7 +325,8 @@ std::map<PlaceKey, double> differences_of(const std::vector<PairedCut>& cuts) {
   std::map<PlaceKey, double> differences;
   for (const PairedCut& cut : cuts) {
     for (std::size_t i = 0; i < cut.places.size(); ++i) {
-      if (cut.level_dbsm[i] < highest - kDynamic_db || cut.models[0].level_dbsm[i] < highest - kRounding_db) continue;
+      if (cut.level_dbsm[i] < highest - kDynamic_db || cut.models[0].level_dbsm[i] < highest - kCrossRounding_db)
+        continue;
       const PairedCut::Place& p = cut.places[i];
       differences[{cut.quantity(), p.frequency_hz, p.path_gradient.x(), p.path_gradient.y(), p.path_gradient.z()}] =
           cut.models[0].level_dbsm[i] - cut.level_dbsm[i];

@@ -9,7 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "classify/model/study_text.h"
+#include "classify/model/study.h"
+#include "seaglint_version.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/random.h"
 #include "sim/core/text/json.h"
@@ -122,13 +123,9 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr double kPaperHandmade = 0.86;
+constexpr double kNearChance = 0.1;  // of the maps: quantities within it of chance separate nothing
 
 double chance_of(const Study& study) { return 1 / static_cast<double>(study.classes.size()); }
-
-const Outcome& outcome_of(const Study& study, const std::string& group) {
-  const auto found = std::ranges::find(study.groups, group, &FeatureGroupResult::name);
-  return found->of_group();
-}
 
 // Name, evaluation.
 std::vector<std::pair<std::string, const Evaluation*>> baselines(const Study& study) {
@@ -167,117 +164,115 @@ std::string heights(const Evaluation& evaluation) {
   return fmt::format("{}", fmt::join(values, " / "));
 }
 
-// Half of the interval of 95 % of a - b; NaN where one of them has no interval.
-double half_interval(const Scores& a, const Scores& b) {
-  return half_width(difference_of(estimate_of(a), estimate_of(b)));
+Estimate difference_of(const Scores& a, const Scores& b) { return difference_of(estimate_of(a), estimate_of(b)); }
+
+// Whether all differences are above 0: each by more than its interval of 95 %, or one below by more than that of
+// Bonferroni's level.
+Verdict all_above(const std::vector<Estimate>& differences) {
+  const double level = kLevel / static_cast<double>(differences.size());
+  if (std::ranges::all_of(differences, [](const Estimate& d) { return d.value > half_width(d); }))
+    return Verdict::kHeld;
+  return std::ranges::any_of(differences, [&](const Estimate& d) { return -d.value > half_width(d, level); })
+             ? Verdict::kNotHeld
+             : Verdict::kUndecided;
 }
 
-// Whether a is at least b: undecided when it is less by no more than half_interval(), or without one.
-Verdict at_least(const Scores& a, const Scores& b) {
-  if (a.accuracy >= b.accuracy) return Verdict::kHeld;
-  return b.accuracy - a.accuracy > half_interval(a, b) ? Verdict::kNotHeld : Verdict::kUndecided;
+Claim above_the_papers_accuracy(const Study& study, Protocol protocol) {
+  Scores scores = outcome_of(study, "handmade", protocol).primary.scores;
+  Estimate above = estimate_of(scores);
+  const double half = half_width(above);
+  scores.accuracy_95 = {std::max(scores.accuracy - half, 0.0), std::min(scores.accuracy + half, 1.0)};  // NaN stays
+  above.value -= kPaperHandmade;
+  return {"hand-made features are above 86 %", all_above({above}), percent(scores) + " %",
+          "held: the interval of 95 % is above 86 %; not held: below"};
 }
 
-Verdict both(Verdict a, Verdict b) {
-  if (a == Verdict::kNotHeld || b == Verdict::kNotHeld) return Verdict::kNotHeld;
-  return a == Verdict::kHeld && b == Verdict::kHeld ? Verdict::kHeld : Verdict::kUndecided;
-}
-
-Claim above_the_papers_accuracy(const Study& study) {
-  Scores scores = outcome_of(study, "handmade").primary.scores;
-  const double half = half_width(estimate_of(scores));
-  scores.accuracy_95 = {std::max(0.0, scores.accuracy - half), std::min(1.0, scores.accuracy + half)};
-  Claim claim{"hand-made features are above 86 %", Verdict::kUndecided, percent(scores) + " %",
-              "held: the interval is above 86 %; not held: below"};
-  if (scores.accuracy - half > kPaperHandmade) claim.verdict = Verdict::kHeld;
-  if (scores.accuracy + half < kPaperHandmade) claim.verdict = Verdict::kNotHeld;
-  return claim;
-}
-
-Claim both_are_best(const Study& study) {
-  const Scores &fused = outcome_of(study, "fused").primary.scores,
-               &handmade = outcome_of(study, "handmade").primary.scores,
-               &network = outcome_of(study, "cnn").primary.scores;
+Claim both_are_best(const Study& study, Protocol protocol) {
+  const auto scores = [&](const char* group) -> const Scores& {
+    return outcome_of(study, group, protocol).primary.scores;
+  };
+  const Scores &fused = scores("fused"), &handmade = scores("handmade"), &network = scores("cnn");
   return {"hand-made and learned features together are the best",
-          both(at_least(fused, handmade), at_least(fused, network)),
+          all_above({difference_of(fused, handmade), difference_of(fused, network)}),
           fmt::format("fused {}, hand-made {}, network {} %", rounded(fused), rounded(handmade), rounded(network)),
-          "held: no less than either; not held: less than one of them by more than the interval of the difference"};
+          "held: more than each by more than the interval of 95 % of the difference; not held: less than one by more "
+          "than its interval for two"};
 }
 
 // From the lowest to the highest waves.
-Claim rises_with_the_waves(const Study& study) {
-  const Evaluation& handmade = outcome_of(study, "handmade").primary;
-  Claim claim{
-      "hand-made features rise with the wave height", Verdict::kUndecided,
-      fmt::format("{} % at Hs {} m", by_height(handmade), heights(handmade)),
-      "held: more in the highest waves than in the lowest by more than the interval of the difference; not held: "
-      "less"};
-  if (handmade.by_wave_height.size() < 2) return claim;
-  const Scores &low = handmade.by_wave_height.front().scores, &high = handmade.by_wave_height.back().scores;
-  if (high.accuracy - low.accuracy > half_interval(high, low)) claim.verdict = Verdict::kHeld;
-  if (high.accuracy < low.accuracy) claim.verdict = Verdict::kNotHeld;
-  return claim;
+Claim rises_with_the_waves(const Study& study, Protocol protocol) {
+  const Evaluation& handmade = outcome_of(study, "handmade", protocol).primary;
+  const std::vector<BinnedScores>& bins = handmade.by_wave_height;
+  return {"hand-made features rise with the wave height",
+          bins.size() < 2 ? Verdict::kUndecided : all_above({difference_of(bins.back().scores, bins.front().scores)}),
+          fmt::format("{} % at Hs {} m", by_height(handmade), heights(handmade)),
+          "held: more in the highest waves than in the lowest by more than the interval of 95 % of the difference; not "
+          "held: less by more than it"};
 }
 
-Claim trees_are_superior(const Study& study) {
-  Claim claim{"trees are no worse than logistic regression", Verdict::kHeld, "",
-              "held: no less for any features; not held: less for some by more than the interval of the difference"};
+Claim trees_are_superior(const Study& study, Protocol protocol) {
+  Claim claim{"trees are superior to logistic regression", Verdict::kUndecided, "",
+              "held: more for all features by more than the interval of 95 % of the difference; not held: less for "
+              "some by more than its interval for three"};
+  std::vector<Estimate> differences;
   for (const auto& [name, group] : {std::pair{"hand-made", "handmade"}, {"network", "cnn"}, {"fused", "fused"}}) {
-    const Outcome& outcome = outcome_of(study, group);
-    claim.verdict = both(claim.verdict, at_least(outcome.primary.scores, outcome.linear.scores));
+    const Outcome& outcome = outcome_of(study, group, protocol);
+    differences.push_back(difference_of(outcome.primary.scores, outcome.linear.scores));
     claim.why += fmt::format("{}{} {} and {}", claim.why.empty() ? "" : ", ", name, rounded(outcome.primary.scores),
                              rounded(outcome.linear.scores));
   }
+  claim.verdict = all_above(differences);
   claim.why += " %";
   return claim;
 }
 
-// What is open where Holm's procedure rejects chance for no quantity of the floor.
-std::string not_rejected(const std::vector<FloorEntry>& floor, const Study& study) {
-  const FloorEntry* widest = nullptr;
-  for (const FloorEntry& entry : floor) {
-    const double high = entry.scores.accuracy_95.high;
-    if (std::isfinite(high) && (widest == nullptr || high > widest->scores.accuracy_95.high)) widest = &entry;
-  }
-  if (widest == nullptr) return "no quantity has an interval";
-  return fmt::format("chance ({:.1f} %) is rejected for no quantity, which does not prove it: {} may reach {:.1f} %",
-                     100 * chance_of(study), widest->name, 100 * widest->scores.accuracy_95.high);
+// How far the interval of a quantity extends from chance; infinite without an interval.
+double farthest(const FloorEntry& entry, double chance) {
+  const auto& [low, high] = entry.scores.accuracy_95;
+  return std::isfinite(low) ? std::max(high - chance, chance - low) : std::numeric_limits<double>::infinity();
 }
 
-Claim motion_alone_separates(const Study& study) {
-  Claim claim{"motion alone separates the classes", Verdict::kHeld, "",
-              "not held: Holm's procedure rejects that some quantity other than motion is at chance; held: it rejects "
-              "none, which does not prove that all are"};
-  const std::vector<FloorEntry> floor = floor_of(study);
+Claim motion_alone_separates(const Study& study, Protocol protocol) {
+  Claim claim{"motion alone separates the classes", Verdict::kUndecided, "",
+              fmt::format("not held: Holm's procedure rejects that some quantity other than motion is at chance; held: "
+                          "the intervals of all are within {:g} % of chance",
+                          100 * kNearChance)};
+  const double chance = chance_of(study);
+  const std::vector<FloorEntry> floor = floor_of(study, protocol);
   for (const FloorEntry& entry : floor) {
-    if (!std::isfinite(entry.scores.accuracy_95.low)) claim.verdict = both(claim.verdict, Verdict::kUndecided);
     if (!entry.leaks) continue;
     claim.verdict = Verdict::kNotHeld;
     claim.why += fmt::format("{}{} {} %", claim.why.empty() ? "" : ", ", entry.name, rounded(entry.scores));
   }
-  if (claim.why.empty()) claim.why = not_rejected(floor, study);
-  if (study.classes.size() > 2 && claim.verdict == Verdict::kNotHeld)
-    claim.why += fmt::format(" (chance: {:.1f} %)", 100 * chance_of(study));
-  return claim;
-}
-
-const char* text(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::kHeld: return "held";
-    case Verdict::kNotHeld: return "not held";
-    case Verdict::kUndecided: return "undecided";
+  if (claim.verdict == Verdict::kNotHeld) {
+    if (study.classes.size() > 2) claim.why += fmt::format(" (chance: {:.1f} %)", 100 * chance);
+    return claim;
   }
-  return "";
+  const auto widest =
+      std::ranges::max_element(floor, {}, [&](const FloorEntry& entry) { return farthest(entry, chance); });
+  if (widest == floor.end() || !std::isfinite(farthest(*widest, chance))) {
+    claim.why = "not every quantity has an interval";
+    return claim;
+  }
+  if (farthest(*widest, chance) <= kNearChance) claim.verdict = Verdict::kHeld;
+  claim.why = fmt::format("chance ({:.1f} %) is rejected for no quantity; {} may be {:.1f} to {:.1f} %", 100 * chance,
+                          widest->name, 100 * widest->scores.accuracy_95.low, 100 * widest->scores.accuracy_95.high);
+  return claim;
 }
 
 }  // namespace
 
-std::vector<FloorEntry> floor_of(const Study& study) {
+const char* name(Verdict verdict) {
+  constexpr const char* kNames[] = {"held", "not held", "undecided"};
+  return kNames[static_cast<int>(verdict)];
+}
+
+std::vector<FloorEntry> floor_of(const Study& study, Protocol protocol) {
   std::vector<FloorEntry> entries;
   std::vector<Estimate> estimates;
   for (const ProbeResult& probe : study.probes) {
     if (probe.kind == ProbeKind::kFeature && probe.name != "sigma_r alone") continue;
-    entries.push_back({probe.name, probe.of_group().scores});
+    entries.push_back({probe.name, probe.of(protocol).scores});
     estimates.push_back(estimate_of(entries.back().scores));
   }
   const std::vector<ConfidenceInterval> intervals = holm_intervals(estimates, chance_of(study));
@@ -289,33 +284,30 @@ std::vector<FloorEntry> floor_of(const Study& study) {
   return entries;
 }
 
-std::vector<Claim> claims_of(const Study& study) {
-  return {above_the_papers_accuracy(study), both_are_best(study), rises_with_the_waves(study),
-          trees_are_superior(study), motion_alone_separates(study)};
+std::vector<Claim> claims_of(const Study& study, Protocol protocol) {
+  return {above_the_papers_accuracy(study, protocol), both_are_best(study, protocol),
+          rises_with_the_waves(study, protocol), trees_are_superior(study, protocol),
+          motion_alone_separates(study, protocol)};
 }
 
-ordered_json benchmark_json(const Study& study) {
-  ordered_json json;
+std::string benchmark_json(const BenchmarkRecord& record, const Study& study) {
+  ordered_json json{{"benchmark", record.name},    {"small", record.small},
+                    {"program_version", kVersion}, {"seed", record.seed},
+                    {"maps", record.maps},         {"seas", record.seas},
+                    {"division", study.division},  {"split_repeats", record.split_repeats}};
   if (study.classes.size() > 2) json["classes"] = study.classes;
   for (const auto& [name, evaluation] : baselines(study)) json["baselines"][name] = to_object(*evaluation);
-  const std::vector<FloorEntry> floor = floor_of(study);
-  for (const FloorEntry& entry : floor) {
+  for (const FloorEntry& entry : floor_of(study)) {
     const auto probe = std::ranges::find(study.probes, entry.name, &ProbeResult::name);
-    ordered_json object = to_object(probe->of_group());
+    ordered_json& object = json["floor"][entry.name];
+    object = to_object(probe->of_group());
     object["interval"] = {number_or_null(entry.scores.accuracy_95.low), number_or_null(entry.scores.accuracy_95.high)};
     object["leaks"] = entry.leaks;
-    json["floor"][entry.name] = object;
   }
-  json["claims"] = ordered_json::array();
-  for (const Claim& claim : claims_of(study)) {
-    ordered_json object{{"claim", claim.text}};
-    object["held"] =
-        claim.verdict == Verdict::kUndecided ? ordered_json(nullptr) : ordered_json(claim.verdict == Verdict::kHeld);
-    object["why"] = claim.why;
-    object["meaning"] = claim.meaning;
-    json["claims"].push_back(object);
-  }
-  return json;
+  for (const Claim& claim : claims_of(study))
+    json["claims"].push_back(
+        {{"claim", claim.text}, {"verdict", name(claim.verdict)}, {"why", claim.why}, {"meaning", claim.meaning}});
+  return json.dump(2) + "\n";
 }
 
 std::string benchmark_text(const Study& study) {
@@ -331,17 +323,17 @@ std::string benchmark_text(const Study& study) {
   }
   all += "\nThe paper's claims on this data set (intervals of 95 % by Student's distribution, over seas)\n\n";
   for (const Claim& claim : claims_of(study))
-    all += fmt::format("  {:<52} {:<10} {}\n", claim.text, text(claim.verdict), claim.why);
+    all += fmt::format("  {:<52} {:<10} {}\n", claim.text, name(claim.verdict), claim.why);
   return all;
 }
 
-std::string benchmark_row(const std::string& name, std::size_t maps, std::size_t seas, const Study& study) {
+std::string benchmark_row(const BenchmarkRecord& record, const Study& study) {
   const std::vector<FloorEntry> floor = floor_of(study);
   const auto highest = std::ranges::max_element(
       floor, {}, [&](const FloorEntry& entry) { return std::abs(entry.scores.accuracy - chance_of(study)); });
   const auto cell = [&](const char* group) { return by_height(outcome_of(study, group).primary); };
-  return fmt::format("| `{}` | {}, {} | {} | {} | {} | {} {} |\n", name, maps, seas, cell("handmade"), cell("cnn"),
-                     cell("fused"), highest->name, rounded(highest->scores));
+  return fmt::format("| `{}` | {}, {} | {} | {} | {} | {} {} |\n", record.name, record.maps, record.seas,
+                     cell("handmade"), cell("cnn"), cell("fused"), highest->name, rounded(highest->scores));
 }
 
 }  // namespace seaglint

@@ -4,8 +4,8 @@
 // What a study shows: accuracies of the baselines on unseen seas, of quantities other than motion, and the claims of
 // the paper; intervals by Student's distribution.
 
+#include <cstdint>
 #include <limits>
-#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
 #include <vector>
@@ -54,40 +54,53 @@ std::vector<ConfidenceInterval> holm_intervals(std::span<const Estimate> estimat
 // it.
 std::vector<bool> holm_rejections(std::span<const Estimate> estimates, double null = 0.5);
 
-// What a benchmark states: accuracies of the baselines on unseen seas, of quantities other than motion, and the claims
-// of the paper on this data set.
+// What a study shows of the paper's claims, by protocol, and what a benchmark states of it: accuracies of the baselines
+// on unseen seas and of quantities other than motion.
 
-// A quantity other than motion, classified alone on unseen seas.
+// A quantity other than motion, classified alone.
 struct FloorEntry {
   std::string name;
   Scores scores;       // accuracy_95: Holm's interval over all entries; NaN with one sea
   bool leaks = false;  // Holm's procedure rejects chance
 };
 
-// All probes of a study but the features of motion (MWR, CCF, sigma_v). Chance is 1 / number of classes.
-std::vector<FloorEntry> floor_of(const Study& study);
+// All probes of a study but the features of motion (MWR, CCF, sigma_v). Chance is 1 / number of classes. The study has
+// the protocol.
+std::vector<FloorEntry> floor_of(const Study& study, Protocol protocol = Protocol::kGroup);
 
 enum class Verdict { kHeld, kNotHeld, kUndecided };
+const char* name(Verdict verdict);  // "held", "not held", "undecided"
 
 // A claim of the paper on this data set.
 struct Claim {
   std::string text;
-  Verdict verdict = Verdict::kUndecided;  // undecided: the intervals of 95 % overlap
-  std::string why;                        // the figures
-  std::string meaning;                    // what the verdict follows from, a sentence
+  Verdict verdict = Verdict::kUndecided;
+  std::string why;      // the figures
+  std::string meaning;  // what each verdict follows from
 };
 
-// Intervals and differences by Student's distribution, the floor by Holm's procedure, which can reject
-// chance but not prove it. In this order: hand-made features above 86 %; both together no worse than either; hand-made
-// features rise with the wave height; trees no worse than logistic regression; motion alone separates the classes.
-std::vector<Claim> claims_of(const Study& study);
+// Both verdicts need significance at 5 %, else the claim is undecided: differences by Student's distribution, several
+// of one claim by Bonferroni's levels where one of them is enough; quantities other than motion by Holm's procedure. In
+// this order: hand-made features above 86 %; both together better than either; hand-made features rise with the wave
+// height; trees better than logistic regression; motion alone separates the classes (held: every other quantity is
+// within 10 % of chance). The study has the protocol.
+std::vector<Claim> claims_of(const Study& study, Protocol protocol = Protocol::kGroup);
 
-// Members `baselines` and `floor` (name -> accuracy, interval, by wave height) and `claims`. Fractions; null where
-// undefined.
-nlohmann::ordered_json benchmark_json(const Study& study);
+// Of a benchmark, beside its study.
+struct BenchmarkRecord {
+  std::string name;
+  bool small = false;
+  std::uint64_t seed = 0;
+  std::size_t maps = 0, seas = 0;
+  int split_repeats = 1;
+};
+
+// The content of benchmark.json: the record, `baselines` and `floor` (name -> accuracy, interval, by wave height) and
+// `claims`. Fractions; null where undefined.
+std::string benchmark_json(const BenchmarkRecord& record, const Study& study);
 
 // The same as a table for the terminal, and as a row of scenarios/README.md.
 std::string benchmark_text(const Study& study);
-std::string benchmark_row(const std::string& name, std::size_t maps, std::size_t seas, const Study& study);
+std::string benchmark_row(const BenchmarkRecord& record, const Study& study);
 
 }  // namespace seaglint

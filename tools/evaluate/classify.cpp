@@ -17,7 +17,7 @@
 #include "classify/dataset/format/npz.h"
 #include "classify/model/saved_model.h"
 #include "classify/model/scores.h"
-#include "classify/model/study_text.h"
+#include "classify/model/study.h"
 #include "radar/echo/echo.h"
 #include "seaglint_version.h"
 #include "sim/core/numbers/constants.h"

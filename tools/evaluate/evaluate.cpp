@@ -4,18 +4,23 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "classify/dataset/directory/dataset_reader.h"
+#include "classify/dataset/format/manifest.h"
+#include "classify/model/saved_model.h"
+#include "classify/model/scores.h"
 #include "classify/model/study.h"
-#include "classify/model/study_text.h"
 #include "seaglint_version.h"
+#include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/core/process/printable.h"
@@ -25,7 +30,48 @@
 
 namespace seaglint {
 
+namespace fs = std::filesystem;
+
 namespace {
+
+using nlohmann::ordered_json;
+
+// Use of a map in the training.
+enum class TrainingUse { kNone, kSeaSeen, kTrained };
+
+// The rows of one bin of a column with the scores of the classifiers (kModelNames).
+struct BinScores {
+  ColumnBin bin;
+  std::array<Scores, kModels> scores;
+};
+struct ColumnScores {
+  std::string column;
+  std::string unit;
+  std::vector<BinScores> bins;
+};
+
+// Count of maps outside the range of a column over the training maps.
+struct OutsideCount {
+  ValueRange range;
+  std::size_t below = 0, above = 0;
+  std::size_t undefined = 0;  // where every training map has a value, or a value where none has
+};
+
+// Members with [row] refer to all maps of the data sets in their order.
+struct ModelEvaluation {
+  AppliedRows applied;
+  std::vector<std::int64_t> seas;                 // [row]
+  std::vector<TrainingUse> uses;                  // [row]
+  std::vector<std::vector<std::string>> outside;  // [row]: names of features and conditions outside the training range
+  std::vector<std::size_t> evaluated;             // rows, ascending
+  std::array<Scores, kModels> scores;             // of the evaluated rows, as are the following
+  std::array<std::vector<std::vector<RocPoint>>, kModels> roc;  // roc_curves(); empty curves when a class is missing
+  std::array<Calibration, kModels> calibrations;
+  std::vector<ColumnScores> by;
+  std::vector<OutsideCount> features, conditions;
+  std::size_t feature_rows_outside = 0;    // maps with a feature outside its range
+  std::size_t condition_rows_outside = 0;  // maps with a condition outside its range
+};
 
 // Random indices of the intervals by column: above those of the totals, a block for each column.
 constexpr std::uint64_t kFirstColumnIndex = 1000000;
@@ -88,7 +134,6 @@ ColumnScores column_scores(const ModelEvaluation& evaluation, const SavedModel& 
 // Evaluated rows with and without a property, as two bins; empty when all are alike.
 std::vector<ColumnBin> two_bins(const ModelEvaluation& evaluation, const std::string& with, const std::string& without,
                                 const std::function<bool(std::size_t row)>& has) {
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   std::vector<ColumnBin> bins{{without, kNan, kNan, kNan, {}}, {with, kNan, kNan, kNan, {}}};
   for (std::size_t i = 0; i < evaluation.evaluated.size(); ++i)
     bins[has(evaluation.evaluated[i]) ? 1 : 0].rows.push_back(i);
@@ -149,8 +194,8 @@ std::vector<OutsideCount> count_outside(ModelEvaluation& evaluation, const std::
   return counts;
 }
 
-}  // namespace
-
+// `applied`: of all maps of the data sets; `uses`: of every row. Throws InputError for an unknown column and when no
+// map is left to evaluate.
 ModelEvaluation evaluate_rows(const SavedModel& model, AppliedRows applied, std::vector<TrainingUse> uses,
                               const EvaluateRequest& request) {
   ModelEvaluation evaluation;
@@ -181,10 +226,6 @@ ModelEvaluation evaluate_rows(const SavedModel& model, AppliedRows applied, std:
   score_columns(evaluation, model, request.by);
   return evaluation;
 }
-
-namespace {
-
-using nlohmann::ordered_json;
 
 constexpr std::array<const char*, kModels> kTitles{"hand-made", "CNN", "fused", "extended"};
 
@@ -250,15 +291,9 @@ std::size_t count_of(const ModelEvaluation& evaluation, TrainingUse use) {
   return static_cast<std::size_t>(std::count(evaluation.uses.begin(), evaluation.uses.end(), use));
 }
 
-}  // namespace
-
 const char* name(TrainingUse use) {
-  switch (use) {
-    case TrainingUse::kNone: return "none";
-    case TrainingUse::kSeaSeen: return "sea_seen";
-    case TrainingUse::kTrained: return "trained";
-  }
-  return "";
+  constexpr const char* kNames[] = {"none", "sea_seen", "trained"};
+  return kNames[static_cast<int>(use)];
 }
 
 std::string evaluation_table(const ModelEvaluation& evaluation, const SavedModel& model,
@@ -313,6 +348,7 @@ std::string evaluation_table(const ModelEvaluation& evaluation, const SavedModel
   return text;
 }
 
+// `manifests`: of the data sets in their order. Undefined values are null.
 std::string evaluation_json(const ModelEvaluation& evaluation, const SavedModel& model, const EvaluateRequest& request,
                             std::span<const Manifest> manifests) {
   ordered_json json;
@@ -361,6 +397,8 @@ std::string evaluation_json(const ModelEvaluation& evaluation, const SavedModel&
   return json.dump(2) + "\n";
 }
 
+// One line per map: data set, sample, sea, conditions, features, probabilities (probability_columns()), use in the
+// training, whether it was evaluated, names of features and conditions outside the training range.
 std::string probabilities_csv(const ModelEvaluation& evaluation, const std::vector<std::string>& classes) {
   std::string text = "data_set,sample,sea,label,target_name,significant_wave_height_m,azimuth_deg,scr_peak_cell_db";
   for (const std::string& feature : evaluation.applied.features.names) text += "," + feature;
@@ -383,10 +421,6 @@ std::string probabilities_csv(const ModelEvaluation& evaluation, const std::vect
   }
   return text;
 }
-
-namespace fs = std::filesystem;
-
-namespace {
 
 // Throws InputError for a directory of a data set or model, WorkError where nothing can be written.
 void require_output(const fs::path& directory) {

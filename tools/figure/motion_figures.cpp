@@ -11,7 +11,7 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/dispersion.h"
 #include "sim/motion/ship/rao_files.h"
-#include "sim/motion/ship/rao_table.h"
+#include "sim/motion/ship/responses.h"
 #include "sim/motion/ship/ship.h"
 #include "sim/motion/statistics.h"
 #include "tools/figure/figure.h"

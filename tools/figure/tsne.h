@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "classify/features/feature_matrix.h"
+#include "classify/features/feature_vector.h"
 
 namespace seaglint {
 

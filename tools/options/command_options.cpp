@@ -20,25 +20,25 @@ namespace seaglint {
 
 namespace {
 
-std::string shown(const std::string& text) { return text.empty() ? "''" : text; }
+std::string or_quotes(const std::string& text) { return text.empty() ? "''" : text; }
 
 // For integers and for those of 0 or more; replace a valid text by the shortest decimal digits of the same value. These
 // functions return the error text of an option's value, "" if it is valid.
 template <class Whole>
 std::string rewrite_whole(std::string& text, const std::optional<Whole>& value, const char* bound) {
-  if (!value) return fmt::format("value {}: must be a whole number{}", shown(text), bound);
+  if (!value) return fmt::format("value {}: must be a whole number{}", or_quotes(text), bound);
   text = fmt::format("{}", *value);
   return "";
 }
 
 std::string number_error(const std::string& text) {
-  return parse_number(text) ? "" : fmt::format("value {}: must be a number", shown(text));
+  return parse_number(text) ? "" : fmt::format("value {}: must be a number", or_quotes(text));
 }
 
 std::string number_error(const std::string& text, double lowest, double highest) {
   const std::optional<double> value = parse_number(text);
   const bool inside = value && *value >= lowest && *value <= highest;
-  return inside ? "" : fmt::format("value {}: must be within {} and {}", shown(text), lowest, highest);
+  return inside ? "" : fmt::format("value {}: must be within {} and {}", or_quotes(text), lowest, highest);
 }
 
 std::string rewrite_integer(std::string& text) { return rewrite_whole(text, parse_integer(text), ""); }

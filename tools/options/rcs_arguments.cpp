@@ -12,7 +12,7 @@
 #include "sim/core/process/printable.h"
 #include "sim/core/text/names.h"
 #include "sim/core/text/words.h"
-#include "sim/field_tables/read_field_table.h"
+#include "sim/field_tables/field_table.h"
 #include "tools/rcs/rcs_request.h"
 #include "tools/rcs/rcs_table.h"
 #include "tools/rcs/rcs_target.h"
@@ -442,7 +442,7 @@ CommandOption RcsArguments::add_export_as_to(CommandOptions& command) {
   return command
       .add_option("--export-as", export_as,
                   "Also write the solved values beside the table as another program does (repeatable): feko (.ffe), "
-                  "cst (farfield tables in dB(m^2)), pyaedt (.json with a pandas .h5), npz (NumPy)")
+                  "cst (farfield tables in dB(m^2)), npz (NumPy)")
       .repeatable("FORMAT")
       .one_of({std::begin(kExportFormats), std::end(kExportFormats)});
 }

@@ -2,10 +2,12 @@
 #include "tools/page/html.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <zlib.h>
 #include <bit>
 #include <cmath>
-#include <nlohmann/json.hpp>
+#include <set>
+#include <vector>
 
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
@@ -41,6 +43,63 @@ std::string base64(std::string_view bytes) {
   return out;
 }
 
+namespace {
+
+class TemplateReader {
+ public:
+  TemplateReader(std::string_view page, const PageValues& values) : page_(page), values_(values) {}
+
+  std::string all() {
+    std::string text = up_to_end_of("");
+    for (const auto& [name, value] : values_)
+      SEAGLINT_CHECK(used_.contains(name), fmt::format("the template has no placeholder {}", name));
+    return text;
+  }
+
+ private:
+  std::string up_to_end_of(std::string_view section) {
+    std::string text;
+    for (;;) {
+      const std::size_t open = page_.find("{{", at_);
+      text += page_.substr(at_, open - at_);
+      if (open == std::string_view::npos) {
+        SEAGLINT_CHECK(section.empty(), fmt::format("section {} does not end", section));
+        return text;
+      }
+      const std::size_t braces = page_.substr(open).starts_with("{{{") ? 3 : 2;
+      const std::size_t close = page_.find(braces == 3 ? "}}}" : "}}", open);
+      SEAGLINT_CHECK(close != std::string_view::npos, "a placeholder does not end");
+      std::string_view name = page_.substr(open + braces, close - open - braces);
+      at_ = close + braces;
+      const char kind = name.empty() ? ' ' : name.front();
+      if (kind == '#' || kind == '^' || kind == '/') name.remove_prefix(1);
+      if (kind == '/') {
+        SEAGLINT_CHECK(name == section, fmt::format("section {} ends as {}", section, name));
+        return text;
+      }
+      const auto found = values_.find(name);
+      SEAGLINT_CHECK(found != values_.end(), fmt::format("placeholder {} has no value", name));
+      used_.insert(found->first);
+      const std::string& value = found->second;
+      if (kind == '#' || kind == '^') {
+        const std::string inner = up_to_end_of(name);
+        if (value.empty() == (kind == '^')) text += inner;
+      } else {
+        text += braces == 3 ? value : escape_html(value);
+      }
+    }
+  }
+
+  std::string_view page_;
+  const PageValues& values_;
+  std::size_t at_ = 0;
+  std::set<std::string> used_;
+};
+
+}  // namespace
+
+std::string filled(std::string_view page, const PageValues& values) { return TemplateReader(page, values).all(); }
+
 std::string html_table(const std::vector<std::vector<std::string>>& rows, bool numbers) {
   std::string out = fmt::format("<div class=\"scroll\"><table{}>\n", numbers ? " class=\"numbers\"" : "");
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -60,77 +119,73 @@ std::string html_figure(const std::filesystem::path& file, std::string_view capt
                      plot.empty() ? "" : fmt::format("<script type=\"application/json\">{}</script>", plot), caption);
 }
 
-std::string script_json(std::string text) {
-  for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at))
-    text.replace(at, 1, "\\u003c");
-  return text;
+std::string html_page(std::string_view title, std::string_view body, std::string_view script) {
+  const bool draws = body.find("<script type=\"application/json\"") != std::string_view::npos;
+  return filled(page_template(), {{"title", std::string(title)},
+                                  {"style", std::string(page_style())},
+                                  {"body", std::string(body)},
+                                  {"plotly", draws ? std::string(plotly_gzip()) : ""},
+                                  {"page_script", std::string(page_script())},
+                                  {"script", std::string(script)}});
 }
 
-std::string html_page(std::string_view title, std::string_view body, std::string_view script) {
-  std::string scripts;
-  if (body.find("<script type=\"application/json\"") != std::string_view::npos) {
-    scripts = fmt::format(
-        "<script type=\"text/plain\" id=\"plotly\">{}</script>\n<script>\n{}</script>\n<script>\n{}</script>\n",
-        plotly_gzip(), page_script(), script);
+std::string json_string(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') {
+      out += {'\\', c};
+    } else if (c == '<' || static_cast<unsigned char>(c) < 0x20) {
+      out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+    } else {
+      out += c;
+    }
   }
-  return fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<link rel=\"icon\" "
-      "href=\"data:,\">\n<title>{}</title>\n<style>{}</style>\n</head>\n<body>\n<main>\n{}</main>\n{}</body>\n</"
-      "html>\n",
-      escape_html(title), page_style(), body, scripts);
+  return out + "\"";
+}
+
+std::string json_number(double value, int digits) {
+  return std::isfinite(value) ? fmt::format("{:.{}g}", value, digits) : "null";
+}
+
+std::string json_numbers(std::span<const double> values, int digits) {
+  std::vector<std::string> texts;
+  for (const double value : values) texts.push_back(json_number(value, digits));
+  return fmt::format("[{}]", fmt::join(texts, ","));
 }
 
 namespace {
 
-using nlohmann::ordered_json;
-
-ordered_json number(double value) {
-  return std::isfinite(value) ? ordered_json::parse(fmt::format("{:.6g}", value)) : ordered_json(nullptr);
+std::string axis_of(const FigureAxis& axis) {
+  return fmt::format(
+      R"({{"label":{},"log":{}{}}})", json_string(axis.label), axis.logarithmic,
+      axis.range ? fmt::format(R"(,"range":[{},{}])", json_number(axis.range->first), json_number(axis.range->second))
+                 : "");
 }
 
-template <class Values>
-ordered_json numbers(const Values& values) {
-  ordered_json list = ordered_json::array();
-  for (const double value : values) list.push_back(number(value));
-  return list;
-}
-
-ordered_json axis_of(const FigureAxis& axis) {
-  ordered_json json{{"label", axis.label}, {"log", axis.logarithmic}};
-  if (axis.range) json["range"] = {number(axis.range->first), number(axis.range->second)};
-  return json;
-}
-
-ordered_json series_of(const Series& series) {
+std::string series_of(const Series& series) {
   constexpr const char* kStyles[] = {"lines", "points", "linespoints", "band"};
-  ordered_json json{{"name", series.name}, {"style", kStyles[static_cast<int>(series.style)]}};
-  json["x"] = numbers(series.x);
-  json["y"] = numbers(series.y);
-  if (series.interval.empty()) return json;
-  std::vector<double> low, high;
-  for (const auto& [l, h] : series.interval) {
-    low.push_back(l);
-    high.push_back(h);
+  std::string bounds;
+  for (const std::size_t side : {0u, 1u}) {
+    if (series.interval.empty()) break;
+    std::vector<double> values;
+    for (const auto& interval : series.interval) values.push_back(interval[side]);
+    bounds += fmt::format(R"(,"{}":{})", side == 0 ? "low" : "high", json_numbers(values));
   }
-  json["low"] = numbers(low);
-  json["high"] = numbers(high);
-  return json;
+  return fmt::format(R"({{"name":{},"style":"{}","x":{},"y":{}{}}})", json_string(series.name),
+                     kStyles[static_cast<int>(series.style)], json_numbers(series.x), json_numbers(series.y), bounds);
 }
 
 }  // namespace
 
 std::string plot_json(std::span<const LinePlot> plots, int columns) {
-  ordered_json json{{"columns", columns}, {"panels", ordered_json::array()}};
+  std::vector<std::string> panels;
   for (const LinePlot& plot : plots) {
-    ordered_json panel{{"title", plot.title}, {"x", axis_of(plot.x)}, {"y", axis_of(plot.y)}};
-    panel["equal"] = plot.equal_axes;
-    panel["series"] = ordered_json::array();
-    for (const Series& series : plot.series) panel["series"].push_back(series_of(series));
-    json["panels"].push_back(std::move(panel));
+    std::vector<std::string> series;
+    for (const Series& one : plot.series) series.push_back(series_of(one));
+    panels.push_back(fmt::format(R"({{"title":{},"x":{},"y":{},"equal":{},"series":[{}]}})", json_string(plot.title),
+                                 axis_of(plot.x), axis_of(plot.y), plot.equal_axes, fmt::join(series, ",")));
   }
-  return script_json(json.dump());
+  return fmt::format(R"({{"columns":{},"panels":[{}]}})", columns, fmt::join(panels, ","));
 }
 
 std::string plot_json(const LinePlot& plot) { return plot_json(std::span(&plot, 1), 1); }

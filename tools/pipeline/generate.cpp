@@ -11,14 +11,13 @@
 #include <vector>
 
 #include "classify/dataset/directory/dataset_writer.h"
-#include "classify/dataset/format/layout.h"
+#include "classify/dataset/format/shard.h"
 #include "seaglint_version.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/out_of_memory.h"
 #include "sim/core/process/printable.h"
 #include "sim/core/process/progress.h"
-#include "sim/scenario/writer.h"
-#include "tools/pipeline/moving_bodies.h"
+#include "sim/scenario/scenario.h"
 #include "tools/pipeline/scenario_check.h"
 #include "tools/pipeline/warnings.h"
 
@@ -46,14 +45,7 @@ GenerateResult generate_dataset(const Pipeline& pipeline, const std::filesystem:
   require_address_space(std::size_t{32} * (2 + std::min(thread_count(options.threads), 8)) << 20, "making maps");
   const Scenario& scenario = pipeline.scenario();
   const SamplePlan& plan = pipeline.plan();
-  report_motion_files(pipeline);
-  report_spectrum_table(scenario);
-  if (!options.response) report_rest(scenario, target_motions(pipeline));
-  warn(mesh_warnings(pipeline));
-  warn(motion_warnings(pipeline));
-  warn(sea_warnings(scenario, plan.sea_states()));
-  warn(band_warnings(pipeline));
-  warn(map_coverage_warnings(pipeline));
+  report_scenario(pipeline, {.rest = !options.response, .bands = true, .coverage = true});
   DatasetWriter writer(directory, scenario, plan, options.resume, kVersion);
 
   // The part's shards to be generated, and their samples in order.
@@ -124,7 +116,7 @@ GenerateResult generate_dataset(const Pipeline& pipeline, const std::filesystem:
 namespace {
 
 // The scenario with one value for everything that echoes do not depend on.
-std::string echo_yaml(Scenario scenario) {
+Scenario without_maps(Scenario scenario) {
   std::erase_if(scenario.variations,
                 [](const Variation& variation) { return variation.key_path.starts_with("clutter."); });
   scenario.name = "echoes";
@@ -136,7 +128,15 @@ std::string echo_yaml(Scenario scenario) {
   scenario.dataset.train_fraction = standard.train_fraction;
   scenario.dataset.complex_maps = scenario.dataset.echoes = false;
   scenario.dataset.maps_per_shard = standard.maps_per_shard;
-  return effective_yaml(scenario);
+  return scenario;
+}
+
+// Number and file of the shard of a sample.
+std::pair<std::size_t, const ManifestShard&> shard_of(const DatasetReader& reader, std::size_t sample) {
+  const std::vector<ManifestShard>& shards = reader.manifest().shards;
+  const auto found = std::ranges::find_if(
+      shards, [&](const ManifestShard& shard) { return sample < shard.first_sample + shard.samples; });
+  return {static_cast<std::size_t>(found - shards.begin()), *found};
 }
 
 }  // namespace
@@ -149,21 +149,19 @@ StoredEchoes::StoredEchoes(const DatasetReader& reader) : reader_(reader) {
 }
 
 IntervalResult StoredEchoes::response(std::size_t sample, const PulseTrain& train) const {
-  const std::vector<ManifestShard>& files = reader_.manifest().shards;
-  const auto after = std::find_if(files.begin(), files.end(),
-                                  [&](const ManifestShard& file) { return sample < file.first_sample + file.samples; });
-  const auto shard = shards_.get(static_cast<std::size_t>(after - files.begin()), [&] {
+  const auto [number, file] = shard_of(reader_, sample);
+  const auto shard = shards_.get(number, [&] {
     const std::lock_guard lock(hdf5_mutex());
-    return reader_.shard(static_cast<std::size_t>(after - files.begin()));
+    return reader_.shard(number);
   });
-  const Sample& stored = shard->samples[sample - after->first_sample];
+  const Sample& stored = shard->samples[sample - file.first_sample];
   IntervalResult response;
   response.response.pulses = static_cast<int>(train.pulses());
   response.response.frequencies_per_pulse = static_cast<int>(train.frequencies());
   const std::size_t values = train.pulses() * train.frequencies();
   if (stored.echo.size() != 2 * values) {
     throw InputError(fmt::format("{}: sample {}: the echo has {} values, its pulses {}",
-                                 (reader_.directory() / after->file).string(), sample, stored.echo.size() / 2, values));
+                                 (reader_.directory() / file.file).string(), sample, stored.echo.size() / 2, values));
   }
   for (std::size_t i = 0; i < values; ++i)
     response.response.values.emplace_back(stored.echo[2 * i], stored.echo[2 * i + 1]);
@@ -172,13 +170,13 @@ IntervalResult StoredEchoes::response(std::size_t sample, const PulseTrain& trai
 }
 
 void require_same_echoes(const Pipeline& pipeline, const Scenario& stored) {
-  const std::string there = echo_yaml(stored), here = echo_yaml(pipeline.scenario());
+  const Scenario there = without_maps(stored), here = without_maps(pipeline.scenario());
   if (there != here) {
     throw InputError(fmt::format(
         "--set: only clutter, map, features and learning can be set, the stored echoes depend on the rest: {}",
-        first_difference(there, here)));
+        first_difference(effective_yaml(there), effective_yaml(here))));
   }
-  const double before_m = range_window_m(stored, SamplePlan(stored), pipeline.targets());
+  const double before_m = pipeline.window_m_of(stored);
   if (before_m != pipeline.window_m()) {
     throw InputError(
         fmt::format("map.range_span_m: the stored echoes are those of a range window of {:.6g} m, here {:.6g} m",
@@ -232,12 +230,10 @@ double largest_difference(const std::vector<float>& a, const std::vector<float>&
 
 }  // namespace
 
-StoredSample stored_sample(const DatasetReader& reader, std::size_t number) {
-  const std::vector<ManifestShard>& shards = reader.manifest().shards;
-  const auto after = std::find_if(shards.begin(), shards.end(),
-                                  [&](const ManifestShard& s) { return number < s.first_sample + s.samples; });
-  Shard shard = reader.shard(static_cast<std::size_t>(after - shards.begin()));
-  return {std::move(shard.samples[number - after->first_sample]), std::move(shard.axes), std::move(shard.origin)};
+StoredSample stored_sample(const DatasetReader& reader, std::size_t sample) {
+  const auto [number, file] = shard_of(reader, sample);
+  Shard shard = reader.shard(number);
+  return {std::move(shard.samples[sample - file.first_sample]), std::move(shard.axes), std::move(shard.origin)};
 }
 
 double reproduction_tolerance(const Provenance& origin) {

@@ -76,8 +76,8 @@ struct StoredSample {
   Provenance origin;  // program version and processor that wrote it
 };
 
-// Reads sample `number` < reader.size() of the data set. Throws InputError naming a damaged shard.
-StoredSample stored_sample(const DatasetReader& reader, std::size_t number);
+// sample < reader.size(). Throws InputError naming a damaged shard.
+StoredSample stored_sample(const DatasetReader& reader, std::size_t sample);
 
 // Allowed difference of a sample of this origin regenerated here, as a fraction of the map's peak and of a measured
 // column: 0 for this program version on this kind of processor, else kOtherProcessor.

@@ -54,10 +54,6 @@ void store_signal(const GeneratedSample& made, bool complex_maps, Sample& stored
   }
 }
 
-}  // namespace
-
-namespace {
-
 // The scenario; throws an InputError of all files that it names and that are missing.
 Scenario with_files(Scenario scenario) {
   input_files(scenario);
@@ -75,24 +71,26 @@ void check_draws(const Scenario& scenario, const SamplePlan& plan) {
 
 }  // namespace
 
-Pipeline::Pipeline(Scenario scenario, SamplePlan plan)
-    : scenario_(with_files(std::move(scenario))),
-      plan_(std::move(plan)),
-      loaded_(std::make_shared<LoadedBodies>()),
-      targets_(std::make_shared<const std::vector<Target>>(load_targets(scenario_, plan_, loaded_.get()))),
-      range_window_m_(range_window_m(scenario_, plan_, *targets_)) {
+Pipeline::Pipeline(Scenario scenario, SamplePlan plan, const StopFlag* stop)
+    : Pipeline(with_files(std::move(scenario)), std::move(plan), std::make_shared<TargetCache>(), std::nullopt, stop) {
   check_draws(scenario_, plan_);
 }
 
-Pipeline::Pipeline(Scenario scenario, SamplePlan plan, std::shared_ptr<LoadedBodies> loaded, double range_window_m)
+Pipeline::Pipeline(Scenario scenario, SamplePlan plan, std::shared_ptr<TargetCache> cache,
+                   std::optional<double> range_window_m, const StopFlag* stop)
     : scenario_(std::move(scenario)),
       plan_(std::move(plan)),
-      loaded_(std::move(loaded)),
-      targets_(std::make_shared<const std::vector<Target>>(load_targets(scenario_, plan_, loaded_.get()))),
-      range_window_m_(range_window_m) {}
+      cache_(std::move(cache)),
+      targets_(std::make_shared<const std::vector<Target>>(
+          load_targets({.scenario = scenario_, .plan = plan_, .cache = cache_.get(), .stop = stop}))),
+      range_window_m_(range_window_m ? *range_window_m : window_m_of(scenario_)) {}
 
 Pipeline Pipeline::of_other(const Scenario& scenario) const {
-  return Pipeline(scenario, SamplePlan(scenario), loaded_, range_window_m_);
+  return Pipeline(scenario, SamplePlan(scenario), cache_, range_window_m_, nullptr);
+}
+
+double Pipeline::window_m_of(const Scenario& other) const {
+  return range_window_m({.scenario = other, .plan = SamplePlan(other), .cache = cache_.get()}, *targets_);
 }
 
 std::shared_ptr<const Scene> Pipeline::scene(int sea_state, int realisation) const {
@@ -100,19 +98,23 @@ std::shared_ptr<const Scene> Pipeline::scene(int sea_state, int realisation) con
     auto targets = targets_;
     if (!scenario_.variations.empty()) {
       const Scenario drawn = plan_.drawn(scenario_, {.sea_state = sea_state, .realisation = realisation});
-      targets = std::make_shared<const std::vector<Target>>(load_targets(drawn, plan_, loaded_.get()));
+      targets = std::make_shared<const std::vector<Target>>(
+          load_targets({.scenario = drawn, .plan = plan_, .cache = cache_.get()}));
     }
-    Scene scene = make_scene(scenario_, plan_, *targets, sea_state, realisation);
+    Scene scene = make_scene({.scenario = scenario_,
+                              .targets = *targets,
+                              .sea = {static_cast<std::size_t>(sea_state), static_cast<std::size_t>(realisation)},
+                              .plan = &plan_});
     scene.targets = std::move(targets);
     return scene;
   });
 }
 
 IntervalResult Pipeline::target_response(std::size_t index, const ObservedInterval& seen, const StopFlag* stop) {
-  const auto& [scenario, scene, view, state, sampling] = seen;
+  const auto& [scenario, scene, view, sampling] = seen;
   const Target& target = (*scene->targets)[index];
   const Vec3 r_hat = direction_to_radar(view.azimuth_rad, view.elevation_rad);
-  const SeaReflection mirror(scenario.sea_reflection, total_wave_height(state));
+  const SeaReflection mirror(scenario.sea_reflection, total_wave_height(scene->state));
   const SeaReflection* sea = scenario.sea_reflection.enabled ? &mirror : nullptr;
   const TargetSpec& spec = target.spec;
   const Vec3& relative_velocity_mps = target.relative_velocity_mps;
@@ -145,12 +147,6 @@ IntervalResult Pipeline::target_response(std::size_t index, const ObservedInterv
   return sum;
 }
 
-IntervalSampling Pipeline::sampling(const PulseTrain& train, double start_s) const {
-  IntervalSampling sampling = interval_sampling(train, start_s);
-  sampling.line_of_sight_rate = Vec3(scenario_.radar.platform.velocity_mps) / (scenario_.radar.range_km * 1e3);
-  return sampling;
-}
-
 ClutterScene Pipeline::clutter_scene(const SampleAddress& at, const Scene& scene) const {
   // Maps of one sea, view and target have one texture; another target has another texture, since a texture common to
   // both labels would reveal one label from the other.
@@ -159,7 +155,7 @@ ClutterScene Pipeline::clutter_scene(const SampleAddress& at, const Scene& scene
   const View view = plan_.view(at);
   return {scenario_.radar,
           direction_to_radar(view.azimuth_rad, view.elevation_rad),
-          total_wave_height(plan_.sea_state(at)),
+          total_wave_height(scene.state),
           &scene.sea,
           plan_.start_s(at),
           Vec3((*scene.targets)[static_cast<std::size_t>(at.target)].spec.motion.speed_mps, 0, 0),
@@ -167,8 +163,9 @@ ClutterScene Pipeline::clutter_scene(const SampleAddress& at, const Scene& scene
 }
 
 IntervalResult Pipeline::response(const SampleAddress& at, const PulseTrain& train, const StopFlag* stop) const {
-  const ObservedInterval seen{scenario_of(at), scene(at.sea_state, at.realisation), plan_.view(at), plan_.sea_state(at),
-                              sampling(train, plan_.start_s(at))};
+  ObservedInterval seen{scenario_of(at), scene(at.sea_state, at.realisation), plan_.view(at),
+                        interval_sampling(train, plan_.start_s(at))};
+  seen.sampling.line_of_sight_rate = Vec3(scenario_.radar.platform.velocity_mps) / (scenario_.radar.range_km * 1e3);
   const auto target = static_cast<std::size_t>(at.target);
   IntervalResult sum = target_response(target, seen, stop);
   for (const std::size_t companion : (*seen.scene->targets)[target].companions) {
@@ -179,11 +176,12 @@ IntervalResult Pipeline::response(const SampleAddress& at, const PulseTrain& tra
   return sum;
 }
 
-Echo Pipeline::echo_of(std::size_t sample, const SampleAddress& at, const PulseTrain& train,
-                       const IntervalResult& response, const Scene& scene) const {
+Echo Pipeline::echo(std::size_t sample, const PulseTrain& train, const IntervalResult& response,
+                    const ClutterSpec& clutter) const {
+  const SampleAddress at = plan_.address(sample);
+  const std::shared_ptr<const Scene> moving = scene(at.sea_state, at.realisation);
   try {
-    return synthesise_echo(train, response.response, scenario_of(at).clutter, scenario_.seed, sample,
-                           clutter_scene(at, scene));
+    return synthesise_echo(train, response.response, clutter, scenario_.seed, sample, clutter_scene(at, *moving));
   } catch (const InputError& error) {
     const TargetSpec& target = scenario_.targets[static_cast<std::size_t>(at.target)];
     const View view = plan_.view(at);
@@ -198,6 +196,10 @@ PulseTrain Pipeline::pulse_train(std::size_t sample) const {
                           plan_.first_of_interval(sample));
 }
 
+PulseTrain Pipeline::nominal_train() const {
+  return make_pulse_train(scenario_.radar, range_window_m_, scenario_.seed, 0);
+}
+
 GeneratedSample Pipeline::generate_sample(std::size_t sample, const StopFlag* stop) const {
   const PulseTrain train = pulse_train(sample);
   const auto made = [&] { return response(plan_.address(sample), train, stop); };
@@ -208,15 +210,15 @@ GeneratedSample Pipeline::generate_sample(std::size_t sample, const StopFlag* st
 GeneratedSample Pipeline::received_sample(std::size_t sample, const PulseTrain& train,
                                           const IntervalResult& response) const {
   const SampleAddress at = plan_.address(sample);
-  // Sea and motion are common to both classes and all views; hop code, clutter and noise are specific to the sample.
-  const std::shared_ptr<const Scene> moving = scene(at.sea_state, at.realisation);
   SampleRecord record = planned_record(scenario_, plan_, sample, at);
   record.aspect_traces = response.traces;
+  const std::shared_ptr<const Scene> moving = scene(at.sea_state, at.realisation);
   const std::vector<Trajectory>& bodies = moving->bodies[static_cast<std::size_t>(at.target)];
   const double middle_s = plan_.start_s(at) + 0.5 * (train.time_s.front() + train.time_s.back());
   if (!bodies.empty()) store_motion(bodies.front(), middle_s, record);  // points have velocities only
-  GeneratedSample made = sample_of_echo(echo_of(sample, at, train, response, *moving), train, scenario_,
-                                        scenario_of(at).clutter, std::move(record));
+  const ClutterSpec clutter = scenario_of(at).clutter;
+  GeneratedSample made =
+      sample_of_echo(echo(sample, train, response, clutter), train, scenario_, clutter, std::move(record));
   made.address = at;
   if (scenario_.dataset.echoes) {
     for (const Complex& value : response.response.values) {
@@ -255,5 +257,108 @@ GeneratedSample sample_of_echo(const Echo& echo, const PulseTrain& train, const 
 }
 
 StoredAxes stored_axes(const RvMap& map) { return {map.range_m, map.velocity_mps}; }
+
+FullBandInterval full_band_interval(const Pipeline& pipeline, std::size_t sample) {
+  const SampleAddress at = pipeline.plan().address(sample);
+  const Scenario scenario = pipeline.scenario_of(at);
+  // One carrier with the bandwidth of all; the hop step is the whole band, so that the unambiguous range window is
+  // unchanged.
+  RadarSpec radar = scenario.radar;
+  const double lowest_mhz = 1e3 * radar.carrier_ghz - 0.5 * radar.bandwidth_mhz;
+  radar.bandwidth_mhz += (radar.carrier_count - 1) * radar.hop_step_mhz;
+  radar.hop_step_mhz = radar.bandwidth_mhz;
+  radar.carrier_count = 1;
+  radar.hop_code = HopCode::kStepped;
+  radar.carrier_ghz = 1e-3 * (lowest_mhz + 0.5 * radar.bandwidth_mhz);
+  radar.sampling_mhz = std::max(radar.sampling_mhz, 2 * radar.bandwidth_mhz);
+
+  FullBandInterval band;
+  band.train = make_pulse_train(radar, pipeline.window_m(), scenario.seed, pipeline.plan().first_of_interval(sample));
+  ClutterSpec none;
+  none.enabled = false;
+  band.echo = pipeline.echo(sample, band.train, pipeline.response(at, band.train), none).target;
+  band.image = form_rv_map(band.echo, band.train, scenario.map, radar.intra_pulse_motion);
+  return band;
+}
+
+RangeProfiles range_profiles(const FullBandInterval& band, const MapSpec& spec) {
+  RangeProfiles profiles;
+  const std::size_t frequencies = band.train.frequencies();
+  MapSpec row = spec;
+  row.velocity_span_mps = 1e-6;  // one velocity, 0
+  for (std::size_t n = 0; n < band.train.pulses(); ++n) {
+    PulseTrain pulse = band.train;
+    pulse.code = {band.train.code[n]};
+    pulse.carrier_hz = {band.train.carrier_hz[n]};
+    pulse.time_s = {0};
+    const RvMap map = form_rv_map({&band.echo[n * frequencies], frequencies}, pulse, row, pulse.intra_pulse_motion);
+    profiles.time_s.push_back(band.train.time_s[n]);
+    profiles.range_m = map.range_m;
+    for (const Complex& value : map.values) profiles.magnitude_m.push_back(std::abs(value));
+  }
+  return profiles;
+}
+
+namespace {
+
+// Mean power at the map's frequencies.
+double power_of_map(const SampledEcho& sampled, const PulseTrain& train) {
+  return mean_power(spectrum_of(sampled, train));
+}
+
+// Samples of all pulses: 2 GB for each of target, clutter and noise.
+constexpr double kMaxSamples = 134217728;
+
+void check_size(const Scenario& scenario, const PulseTrain& fine, double sampling_hz) {
+  const double per_pulse = samples_per_pulse(fine, sampling_hz);
+  const auto pulses = static_cast<double>(fine.pulses());
+  if (pulses * per_pulse <= kMaxSamples) return;
+  throw InputError(fmt::format("{}: value {}: with {:.0f} samples of each pulse at most {:.0f} pulses make an echo",
+                               place_of(scenario, "radar.pulses"), pulses, per_pulse,
+                               std::floor(kMaxSamples / per_pulse)));
+}
+
+// The response at the frequencies of the map, each the middle one of those of the fine grid in its cell.
+IntervalResult at_map_frequencies(const IntervalResult& fine_response, const PulseTrain& train,
+                                  const PulseTrain& fine) {
+  const auto refinement = static_cast<std::size_t>(fine.grid_refinement);
+  IntervalResult result{{static_cast<int>(train.pulses()), static_cast<int>(train.frequencies()), {}},
+                        fine_response.traces};
+  for (std::size_t i = 0; i < train.pulses() * train.frequencies(); ++i)
+    result.response.values.push_back(fine_response.response.values[i * refinement + refinement / 2]);
+  return result;
+}
+
+void scale(SampledEcho& sampled, double power_gain) {
+  for (Complex& value : sampled.values) value *= std::sqrt(power_gain);
+}
+
+}  // namespace
+
+SampledInterval sampled_interval(const Pipeline& pipeline, std::size_t sample) {
+  const SampleAddress at = pipeline.plan().address(sample);
+  const Scenario scenario = pipeline.scenario_of(at);
+  const double sampling_hz = scenario.radar.sampling_mhz * 1e6;
+  const PulseTrain train = pipeline.pulse_train(sample), fine = train_for_samples(train, scenario.radar);
+  check_size(scenario, fine, sampling_hz);
+  const IntervalResult response = pipeline.response(at, fine);
+  const Echo echo = pipeline.echo(sample, fine, response, scenario.clutter);
+  const GeneratedSample made = pipeline.received_sample(sample, train, at_map_frequencies(response, train, fine));
+
+  SampledInterval interval;
+  interval.train = train;
+  interval.record = made.stored.record;
+  interval.target = sample_echo(echo.target, fine, sampling_hz);
+  const double target_power = power_of_map(interval.target, train);
+  const auto with_level = [&](const std::vector<Complex>& part, double ratio_db, double more) {
+    SampledEcho sampled = sample_echo(part, fine, sampling_hz);
+    scale(sampled, more * target_power / power_of_map(sampled, train) * std::pow(10, -ratio_db / 10));
+    return sampled;
+  };
+  if (!echo.clutter.empty()) interval.clutter = with_level(echo.clutter, made.received.scr.per_pulse_db, 1);
+  if (!echo.noise.empty())
+    interval.noise = with_level(echo.noise, made.received.scr.snr_per_pulse_db, fine.grid_refinement);
+  return interval;
+}
 
 }  // namespace seaglint

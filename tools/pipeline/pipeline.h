@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Generates one sample of a scenario: sea and motion, response, echo, map, features. Every step is one call of one
-// stage.
+// Generates one sample of a scenario: sea and motion, response, echo, map, features; and other products of its
+// interval: ISAR image, range profiles, I/Q samples. Every step is one call of one stage.
 
 #include <memory>
 #include <optional>
@@ -39,11 +39,15 @@ struct GeneratedSample {
 GeneratedSample sample_of_echo(const Echo& echo, const PulseTrain& train, const Scenario& scenario,
                                const ClutterSpec& clutter, SampleRecord record);
 
+// The axes of a map.
+StoredAxes stored_axes(const RvMap& map);
+
 // Generates any sample of a scenario, in any order and from any thread.
 class Pipeline {
  public:
   explicit Pipeline(const Scenario& scenario) : Pipeline(scenario, SamplePlan(scenario)) {}
-  Pipeline(Scenario scenario, SamplePlan plan);  // loads the meshes; throws InputError
+  // Loads the meshes. Throws InputError, Interrupted when *stop becomes true.
+  Pipeline(Scenario scenario, SamplePlan plan, const StopFlag* stop = nullptr);
 
   // Pipeline of another scenario in the range window of this one, with which it shares bodies of equal fields.
   Pipeline of_other(const Scenario& scenario) const;
@@ -55,49 +59,48 @@ class Pipeline {
   // The scenario with the drawn values of a sample.
   Scenario scenario_of(const SampleAddress& at) const { return plan_.drawn(scenario_, at); }
 
+  double window_m() const { return range_window_m_; }  // full width of the range window of all its maps, m
+  // That of another scenario with the same targets.
+  double window_m_of(const Scenario& other) const;
+
   // sample < plan().size(). Throws InputError when the target has no power, Interrupted when *stop becomes true while
   // its response is computed.
   GeneratedSample generate_sample(std::size_t sample, const StopFlag* stop = nullptr) const;
 
-  // Its two steps after one another: the pulses of a sample; and the sample whose target has this response at their
-  // times and frequencies. Throws InputError when the response has no power.
+  // Its steps after one another: the pulses of a sample; the response of its target with its companions at their times
+  // and frequencies; the echo; the map and its features. The last two throw InputError, naming target and sample, when
+  // the response has no power.
   PulseTrain pulse_train(std::size_t sample) const;
+  IntervalResult response(const SampleAddress& at, const PulseTrain& train, const StopFlag* stop = nullptr) const;
+  Echo echo(std::size_t sample, const PulseTrain& train, const IntervalResult& response,
+            const ClutterSpec& clutter) const;
   GeneratedSample received_sample(std::size_t sample, const PulseTrain& train, const IntervalResult& response) const;
 
-  double window_m() const { return range_window_m_; }  // full width of the range window of all its maps, m
-
-  // Frequency response H of a sample's target with its companions, at the times and frequencies of `train`.
-  IntervalResult response(const SampleAddress& at, const PulseTrain& train, const StopFlag* stop = nullptr) const;
-
-  // Sea and motion that the clutter of a sample depends on; refers to the scene.
-  ClutterScene clutter_scene(const SampleAddress& at, const Scene& scene) const;
+  // A pulse train with drawn keys at the middles of their distributions: band, frequencies and number of pulses of all
+  // maps, and the hop code of the first.
+  PulseTrain nominal_train() const;
 
   // The scene of a realisation; the most recent ones are cached.
   std::shared_ptr<const Scene> scene(int sea_state, int realisation) const;
 
  private:
+  Pipeline(Scenario scenario, SamplePlan plan, std::shared_ptr<TargetCache> cache, std::optional<double> range_window_m,
+           const StopFlag* stop);
   // What determines a sample's response: drawn values, and the scene of its sea.
   struct ObservedInterval {
     Scenario scenario;
     std::shared_ptr<const Scene> scene;
     View view;
-    SeaState state;
     IntervalSampling sampling;
   };
-  // Times and directions at which the interval from start_s samples the response, with the radar's own motion.
-  IntervalSampling sampling(const PulseTrain& train, double start_s) const;
   // H of a target: the sum over its bodies, or its ideal points.
   static IntervalResult target_response(std::size_t target, const ObservedInterval& seen, const StopFlag* stop);
-
-  // The echo of a sample. Throws InputError, naming target and sample, when it has no power.
-  Echo echo_of(std::size_t sample, const SampleAddress& at, const PulseTrain& train, const IntervalResult& response,
-               const Scene& scene) const;
-
-  Pipeline(Scenario scenario, SamplePlan plan, std::shared_ptr<LoadedBodies> loaded, double range_window_m);
+  // Sea and motion that the clutter of a sample depends on; refers to the scene.
+  ClutterScene clutter_scene(const SampleAddress& at, const Scene& scene) const;
 
   Scenario scenario_;
   SamplePlan plan_;
-  std::shared_ptr<LoadedBodies> loaded_;
+  std::shared_ptr<TargetCache> cache_;
   std::shared_ptr<const std::vector<Target>> targets_;
   double range_window_m_ = 0;
 
@@ -105,7 +108,34 @@ class Pipeline {
   mutable SharedResults<std::size_t, IntervalResult> responses_{16};  // by the first sample of an interval and target
 };
 
-// The axes of a map.
-StoredAxes stored_axes(const RvMap& map);
+// Echo and map of the target alone, without clutter and noise, for a radar that transmits the whole synthetic bandwidth
+// with every pulse: an ISAR image (range, velocity). Band, pulse times and motion, including the radar's own, are those
+// of the sample's map.
+struct FullBandInterval {
+  PulseTrain train;           // of one carrier, in the middle of the band
+  std::vector<Complex> echo;  // [pulse][frequency]
+  RvMap image;
+};
+FullBandInterval full_band_interval(const Pipeline& pipeline, std::size_t sample);
+
+// High-resolution range profiles |HRRP| of its single pulses, metres, [pulse][range].
+struct RangeProfiles {
+  std::vector<double> time_s, range_m;
+  std::vector<double> magnitude_m;
+};
+RangeProfiles range_profiles(const FullBandInterval& band, const MapSpec& spec);
+
+// Echo of a sample over time as I/Q samples of a receiver. Target and clutter are those of the sample's map, at the
+// same levels. Noise has the level of the map's noise but is another realisation: the map's frequencies contain only
+// one part in `refinement` of it.
+struct SampledInterval {
+  PulseTrain train;                           // of the map
+  SampledEcho target;                         // of the target with its companions
+  std::optional<SampledEcho> clutter, noise;  // absent where the scenario has none
+  SampleRecord record;                        // row of the sample in a data set
+};
+
+// Throws InputError when radar.sampling_mhz fits no frequency grid, or the echo would hold more than 2^27 samples.
+SampledInterval sampled_interval(const Pipeline& pipeline, std::size_t sample);
 
 }  // namespace seaglint

@@ -13,15 +13,16 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <thread>
 #include <variant>
 
 #include "classify/dataset/directory/dataset_writer.h"
-#include "classify/dataset/format/array_type.h"
+#include "classify/dataset/format/hdf5_file.h"
 #include "radar/rvmap/rv_map.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/printable.h"
-#include "sim/scenario/writer.h"
-#include "tools/pipeline/moving_bodies.h"
+#include "sim/scenario/scenario.h"
+#include "tools/pipeline/warnings.h"
 
 namespace seaglint {
 
@@ -33,36 +34,30 @@ double seconds_of(clockid_t clock) {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-}  // namespace
-
+// Processor time of the calling thread, s.
 double thread_seconds() { return seconds_of(CLOCK_THREAD_CPUTIME_ID); }
 
-TimeLimit::TimeLimit(double processor_s, const StopFlag* outer) {
-  clockid_t clock = CLOCK_PROCESS_CPUTIME_ID;
-  pthread_getcpuclockid(pthread_self(), &clock);
-  const double end_s = seconds_of(clock) + processor_s;
-  over_ = processor_s <= 0 || (outer != nullptr && *outer);
-  watch_ = std::thread([this, clock, end_s, outer] {
-    std::unique_lock lock(mutex_);
-    while (!ended_.wait_for(lock, std::chrono::milliseconds(20), [this] { return is_ended_; })) {
-      if (seconds_of(clock) >= end_s || (outer != nullptr && *outer)) {
-        over_ = true;
-        return;
+// A flag that becomes true when the thread that makes the limit has used `processor_s` more seconds of processor time,
+// or when *outer becomes true.
+class TimeLimit {
+ public:
+  TimeLimit(double processor_s, const StopFlag* outer) : over_(processor_s <= 0 || (outer != nullptr && *outer)) {
+    clockid_t clock = CLOCK_PROCESS_CPUTIME_ID;
+    pthread_getcpuclockid(pthread_self(), &clock);
+    watch_ = std::jthread([this, clock, outer, end_s = seconds_of(clock) + processor_s](const std::stop_token& ended) {
+      while (!over_ && !ended.stop_requested()) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        if (seconds_of(clock) >= end_s || (outer != nullptr && *outer)) over_ = true;
       }
-    }
-  });
-}
-
-TimeLimit::~TimeLimit() {
-  {
-    const std::lock_guard lock(mutex_);
-    is_ended_ = true;
+    });
   }
-  ended_.notify_all();
-  watch_.join();
-}
 
-namespace {
+  const StopFlag* flag() const { return &over_; }
+
+ private:
+  StopFlag over_;
+  std::jthread watch_;  // ends before the flag
+};
 
 // Values of all varied keys, in their order.
 using Values = std::vector<std::string>;
@@ -460,7 +455,7 @@ std::string key_lines(const Scenario& scenario, bool drawn) {
   return text.empty() ? line(drawn ? "drawn" : "swept", "nothing") : text;
 }
 
-constexpr const char* kModels[] = {"fixed", "ship", "float", "series", "rao"};
+constexpr const char* kMotionModels[] = {"fixed", "ship", "float", "series", "rao"};
 
 std::string motion_lines(const Pipeline& pipeline) {
   const auto& states = pipeline.plan().sea_states();
@@ -475,8 +470,8 @@ std::string motion_lines(const Pipeline& pipeline) {
       continue;
     }
     add(fmt::format("{}: {}, {} at Hs {:.3g} m{}{}", target.name,
-                    kModels[static_cast<std::size_t>(target.motion.model)], moves, height_m, rests.empty() ? "" : "; ",
-                    rests));
+                    kMotionModels[static_cast<std::size_t>(target.motion.model)], moves, height_m,
+                    rests.empty() ? "" : "; ", rests));
   }
   for (const TargetSpec& target : pipeline.scenario().targets) {
     if (target.mesh.empty())
@@ -490,7 +485,7 @@ std::string motion_lines(const Pipeline& pipeline) {
 double stored_bytes(const Pipeline& pipeline) {
   const Scenario& scenario = pipeline.scenario();
   const DatasetSpec& set = scenario.dataset;
-  const PulseTrain train = make_pulse_train(scenario.radar, pipeline.window_m(), scenario.seed, 0);
+  const PulseTrain train = pipeline.nominal_train();
   const MapGrid grid = map_grid(train, scenario.map);
   const auto cells = static_cast<double>(grid.range_m.size() * grid.velocity_mps.size());
   const auto pulses = static_cast<double>(train.pulses()), frequencies = static_cast<double>(train.frequencies());
@@ -500,8 +495,8 @@ double stored_bytes(const Pipeline& pipeline) {
   for (const SampleColumn& column : sample_columns())
     each += static_cast<double>(std::holds_alternative<std::string SampleRecord::*>(column.member) ? kNameBytes
                                                                                                    : sizeof(double));
-  const DrawnKeys drawn = drawn_keys(scenario);
-  each += static_cast<double>(drawn.numbers.size() * sizeof(double) + drawn.words.size() * kNameBytes);
+  for (const Variation& variation : scenario.variations)
+    each += static_cast<double>(variation.distribution.is_numeric() ? sizeof(double) : kNameBytes);
   const SamplePlan& plan = pipeline.plan();
   return static_cast<double>(plan.size()) * each + static_cast<double>(plan.shards()) * kShardBytes + kOtherBytes;
 }

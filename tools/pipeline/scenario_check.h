@@ -4,42 +4,15 @@
 // What a scenario makes: seas, cases and maps, what varies and what moves, the processor time of making it, and swept
 // or drawn keys that change nothing.
 
-#include <condition_variable>
 #include <limits>
-#include <mutex>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "sim/core/process/parallel.h"
-#include "sim/scenario/varied_keys.h"
+#include "sim/scenario/keys.h"
 #include "tools/pipeline/pipeline.h"
 
 namespace seaglint {
-
-// Processor time of trial maps, and its limit.
-
-// Processor time of the calling thread, s.
-double thread_seconds();
-
-// A flag that becomes true when the thread that makes the limit has used `processor_s` more seconds of processor time,
-// or when *outer becomes true.
-class TimeLimit {
- public:
-  TimeLimit(double processor_s, const StopFlag* outer);
-  TimeLimit(const TimeLimit&) = delete;
-  TimeLimit& operator=(const TimeLimit&) = delete;
-  ~TimeLimit();
-
-  const StopFlag* flag() const { return &over_; }
-
- private:
-  StopFlag over_{false};
-  std::mutex mutex_;
-  std::condition_variable ended_;
-  bool is_ended_ = false;
-  std::thread watch_;
-};
 
 // Swept and drawn keys of a scenario that change nothing in its maps. They are found by making maps: two maps that
 // differ in the value of one key alone are compared.

@@ -2,22 +2,152 @@
 #include "tools/pipeline/scene.h"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
-#include <optional>
 #include <utility>
+#include <variant>
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
 #include "sim/geometry/placement/target_mesh.h"
+#include "sim/geometry/placement/waterline.h"
 #include "sim/motion/target_motion.h"
 #include "sim/scattering/observation/observation.h"
 #include "sim/sea/realisation.h"
 
 namespace seaglint {
+
+namespace {
+
+double largest_radius_m(const TriangleMesh& mesh) {
+  double radius = 0;
+  for (const Vec3& vertex : mesh.vertices) radius = std::max(radius, vertex.norm());
+  return radius;
+}
+
+// How the file's mesh becomes that of a body of one size: enlarged, then moved.
+MeshPlacement placement_of(const TargetSpec& spec, double scale) {
+  const MeshPlacement whole = with_scale(spec, scale);
+  MeshPlacement placement;
+  placement.scale = whole.scale;
+  placement.offset_m = whole.offset_m;
+  return placement;
+}
+
+Bounds box_of(const FileMesh& file, const MeshPlacement& placement) {
+  const Vec3 offset(placement.offset_m);
+  return {placement.scale * file.box.lower + offset, placement.scale * file.box.upper + offset};
+}
+
+MeshPlacement axes_of(const TargetSpec& spec) {
+  MeshPlacement axes;
+  axes.unit = spec.unit;
+  axes.forward = spec.forward;
+  axes.up = spec.up;
+  return axes;
+}
+
+// Mesh and materials of a body of one size, with their keys for error messages.
+TargetSource source_of(const Scenario& scenario, const TargetSpec& spec, double scale,
+                       std::shared_ptr<const FileMesh> file) {
+  const std::string path = "targets." + spec.name;
+  TargetSource source{.mesh = find_mesh(scenario, spec),
+                      .placement = placement_of(spec, scale),
+                      .loaded = std::shared_ptr<const TriangleMesh>(file, &file->mesh),
+                      .materials = {},
+                      .material_folder = scenario.folder,
+                      .lowest_hz = 1e9 * lowest_ghz(scenario.radar),
+                      .highest_hz = 1e9 * highest_ghz(scenario.radar),
+                      .materials_place = place_of(scenario, path),
+                      .frequencies_place = place_of(scenario, path),
+                      .mesh_place = place_of(scenario, path + ".mesh")};
+  for (std::size_t i = 0; i < spec.part_materials.size(); ++i) {
+    const PartMaterialSpec& part = spec.part_materials[i];
+    source.materials.push_back(
+        {part.part, part.material, place_of(scenario, fmt::format("{}.part_materials.{}.material", path, i))});
+  }
+  source.materials.push_back({std::nullopt, spec.material, place_of(scenario, path + ".material")});
+  return source;
+}
+
+// height_m: of the mesh's origin above the water; absent where the body does not reach the water.
+ScattererSettings scatterer_settings(const Scenario& scenario, const TargetSpec& spec, std::optional<double> height_m) {
+  return {.waterline_m = height_m ? std::optional(-*height_m) : std::nullopt,
+          .sea_reflects = height_m && scenario.sea_reflection.enabled,
+          .crease_rad = spec.solver.crease_deg ? std::optional(radians(*spec.solver.crease_deg)) : std::nullopt,
+          .sheet_thickness_m = 1e-3 * spec.sheet_thickness_mm,
+          .edges = spec.solver.edges,
+          .lowest_hz = 1e9 * lowest_ghz(scenario.radar),
+          .highest_hz = 1e9 * highest_ghz(scenario.radar)};
+}
+
+// Whether the motion model depends on the mesh: of ships and floats that are no raft.
+bool moves_by_size(const TargetSpec& spec) {
+  const MotionModel model = spec.motion.model;
+  return !is_raft(spec.layout) && (model == MotionModel::kShip || model == MotionModel::kFloat);
+}
+
+// Motion model of a body from its enlarged mesh, of a rigid raft from the keys alone.
+Body load_body(const Scenario& scenario, const TargetSpec& spec, const TriangleMesh& mesh) {
+  try {
+    return make_body(spec.motion,
+                     is_raft(spec.layout) ? BodyShape{.box = {}, .hull = {}, .is_raft = true} : shape_of(mesh),
+                     scenario.folder);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", place_of(scenario, "targets." + spec.name), error.what()));
+  }
+}
+
+}  // namespace
+
+template <class Key, class Value>
+template <class Make>
+std::shared_ptr<const Value> TargetCache::Kept<Key, Value>::get(const Key& key, const Make& make) {
+  const auto known = std::ranges::find(entries_, key, &Entry::key);
+  Entry entry = known == entries_.end() ? Entry{key, std::make_shared<const Value>(make())} : *known;
+  if (known != entries_.end()) entries_.erase(known);
+  const auto is_unused = [](const Entry& kept) { return kept.value.use_count() == 1; };
+  if (static_cast<std::size_t>(std::ranges::count_if(entries_, is_unused)) > kKept)
+    entries_.erase(std::ranges::find_if(entries_, is_unused));
+  return entries_.emplace_back(std::move(entry)).value;
+}
+
+std::shared_ptr<const FileMesh> TargetCache::file(const Scenario& scenario, const TargetSpec& spec) {
+  const FileKey key{find_mesh(scenario, spec), axes_of(spec)};
+  const std::lock_guard lock(mutex_);
+  return files_.get(key, [&] {
+    FileMesh file{read_placed_mesh(key.file, key.axes), {}, 0};
+    file.box = bounds(file.mesh);
+    file.radius_m = largest_radius_m(file.mesh);
+    return file;
+  });
+}
+
+BodyModel TargetCache::model(const Scenario& scenario, const TargetSpec& spec, double scale,
+                             std::optional<double> height_m, bool with_scatterer) {
+  BodyModel model;
+  model.scale = scale;
+  model.file = file(scenario, spec);
+  model.box = box_of(*model.file, placement_of(spec, scale));
+  const std::lock_guard lock(mutex_);
+  std::optional<TargetMesh> placed_mesh;
+  const auto mesh = [&]() -> TargetMesh& {
+    if (!placed_mesh) placed_mesh = load_target_mesh(source_of(scenario, spec, scale, model.file));
+    return *placed_mesh;
+  };
+  const FileKey file_key{find_mesh(scenario, spec), axes_of(spec)};
+  model.motion = motions_.get({file_key, placement_of(spec, moves_by_size(spec) ? scale : 1), scenario.folder,
+                               spec.motion, is_raft(spec.layout)},
+                              [&] { return load_body(scenario, spec, mesh().mesh); });
+  if (!with_scatterer) return model;
+  const ScattererSettings settings = scatterer_settings(scenario, spec, height_m);
+  model.prepared = prepared_.get(
+      {file_key, placement_of(spec, scale), scenario.folder, spec.material, spec.part_materials, settings},
+      [&] { return prepare_target(std::move(mesh()), settings); });
+  model.radius_m = largest_radius_m(model.prepared->mesh);
+  return model;
+}
 
 namespace {
 
@@ -28,12 +158,108 @@ double scene_duration_s(const Scenario& scenario, const SamplePlan& plan) {
   return plan.last_start_s() + interval_length_s(scenario.radar);
 }
 
+// Of a body of one size, above its mesh origin, m, with the margin of what counts as in the water surface.
+struct HeightsOfBody {
+  double bottom_m = 0, top_m = 0, margin_m = 0;
+};
+
+HeightsOfBody heights_of(const TargetSpec& spec, const FileMesh& file, double scale) {
+  const Bounds body = box_of(file, placement_of(spec, scale));
+  return {body.lower.z(), body.upper.z(), waterline_margin(body)};
+}
+
+// Throws InputError for a body that is entirely under water and, if the sea reflects, for bodies at several heights of
+// which one reaches into the water.
+void check_above_water(const Scenario& scenario, const TargetSpec& spec, const FileMesh& file) {
+  const std::string target = fmt::format("targets.{}", spec.name);
+  const std::vector<double> scales = body_scales(spec.layout, spec.scale), heights_m = body_heights_m(spec.layout);
+  for (std::size_t i = 0; i < scales.size(); ++i) {
+    const double height_m = rest_height_m(spec) + heights_m[i];
+    const HeightsOfBody body = heights_of(spec, file, scales[i]);
+    const double top_m = body.top_m + height_m, bottom_m = body.bottom_m + height_m;
+    const bool has_heights = spec.layout && spec.layout->heights_m;
+    if (scenario.sea_reflection.enabled && has_heights && bottom_m < 0) {
+      throw InputError(
+          fmt::format("{}: its lowest body reaches {:.6g} m below the water: with sea_reflection bodies at several "
+                      "heights must be above it",
+                      place_of(scenario, target + ".layout.heights"), -bottom_m));
+    }
+    // A plate in the water surface is not below it.
+    if (top_m > body.margin_m || (!scenario.sea_reflection.enabled && bottom_m >= -body.margin_m)) continue;
+    if (has_heights) {
+      throw InputError(
+          fmt::format("{}: body {} reaches up to {:.6g} m above the water: must be above 0, else the whole "
+                      "body is under water",
+                      place_of(scenario, target + ".layout.heights"), i + 1, top_m));
+    }
+    if (spec.motion.model == MotionModel::kFloat || is_moving_raft(spec)) {
+      throw InputError(fmt::format("{}: value {}: must be greater than {:.6g}, else the whole target is under water",
+                                   place_of(scenario, target + ".motion.origin_above_waterline_m"), height_m,
+                                   -body.top_m));
+    }
+    throw InputError(
+        fmt::format("{}: its highest point is at z = {:.6g} m: must be above 0, the water, else the whole target is "
+                    "under water; offset_m lifts it",
+                    place_of(scenario, target + ".mesh"), body.top_m));
+  }
+}
+
+// Throws InputError for more sizes of one mesh than memory is expected to hold: up to 2 GB per million triangles.
+void check_sizes(const Scenario& scenario, const TargetSpec& spec, std::size_t sizes, std::size_t triangles) {
+  constexpr std::size_t kMostTriangles = 2'000'000;
+  if (sizes == 1 || sizes * triangles <= kMostTriangles) return;
+  throw InputError(fmt::format(
+      "{}: {} bodies of different sizes with {} triangles each: must have at most {} triangles in all",
+      place_of(scenario, fmt::format("targets.{}.layout.scales", spec.name)), sizes, triangles, kMostTriangles));
+}
+
+// The models of a target's bodies, in their order.
+std::vector<std::shared_ptr<const BodyModel>> load_models(const TargetRequest& request, const TargetSpec& spec,
+                                                          TargetCache& cache) {
+  const Scenario& scenario = request.scenario;
+  const std::shared_ptr<const FileMesh> file = cache.file(scenario, spec);
+  check_above_water(scenario, spec, *file);
+  const std::vector<double> scales = body_scales(spec.layout, spec.scale), heights_m = body_heights_m(spec.layout);
+  std::vector<std::pair<double, std::optional<double>>> bodies;  // scale, and height of those in the water
+  for (std::size_t i = 0; i < scales.size(); ++i) {
+    const double height_m = rest_height_m(spec) + heights_m[i];
+    const HeightsOfBody body = heights_of(spec, *file, scales[i]);
+    const bool touches = scenario.sea_reflection.enabled ? body.bottom_m + height_m <= body.margin_m
+                                                         : body.bottom_m + height_m < -body.margin_m;
+    bodies.emplace_back(scales[i], touches ? std::optional(height_m) : std::nullopt);
+  }
+  const bool for_echoes = request.use == TargetUse::kEcho;
+  std::map<std::pair<double, std::optional<double>>, std::shared_ptr<const BodyModel>> made;
+  for (const auto& body : bodies) made[body] = nullptr;
+  for (auto& [body, model] : made) {
+    if (request.stop != nullptr && *request.stop) throw Interrupted();
+    model = std::make_shared<const BodyModel>(cache.model(scenario, spec, body.first, body.second, for_echoes));
+    if (for_echoes) check_sizes(scenario, spec, made.size(), model->prepared->mesh.triangles.size());
+  }
+  std::vector<std::shared_ptr<const BodyModel>> models;
+  for (const auto& body : bodies) models.push_back(made.at(body));
+  return models;
+}
+
+// Throws InputError unless the intervals of a realisation are within the time series of the motion.
+void check_series(const TargetRequest& request, const TargetSpec& spec, const Body& body) {
+  const auto* series = std::get_if<AttitudeSeries>(&body.model);
+  if (series == nullptr) return;
+  try {
+    trajectory_of(*series, spec.motion.series_start_s, scene_duration_s(request.scenario, request.plan),
+                  spec.motion.translations, Vec3::Zero(), Vec3::Zero());
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: value {}: {}",
+                                 place_of(request.scenario, fmt::format("targets.{}.motion.series_start_s", spec.name)),
+                                 spec.motion.series_start_s, error.what()));
+  }
+}
+
 // Radius, m, about the target's reference point within which the target stays.
 double reach_m(const Target& target, double interval_s) {
   double reach = 0;
   for (const PointSpec& point : target.spec.points) {
-    const Vec3 position(point.position_m[0], point.position_m[1], point.position_m[2]);
-    const Vec3 velocity(point.velocity_mps[0], point.velocity_mps[1], point.velocity_mps[2]);
+    const Vec3 position(point.position_m), velocity(point.velocity_mps);
     reach = std::max({reach, position.norm(), (position + velocity * interval_s).norm()});
   }
   const std::vector<double> heights_m = body_heights_m(target.spec.layout);
@@ -60,30 +286,6 @@ void check_scene_range(const Scenario& scenario, const TargetSpec& spec, const T
   }
 }
 
-// Throws InputError unless the intervals of a realisation are within the time series of the motion.
-void check_series(const Scenario& scenario, const SamplePlan& plan, const TargetSpec& spec, const Body& body) {
-  const auto* series = std::get_if<AttitudeSeries>(&body.model);
-  if (series == nullptr) return;
-  try {
-    trajectory_of(*series, spec.motion.series_start_s, scene_duration_s(scenario, plan), spec.motion.translations,
-                  Vec3::Zero(), Vec3::Zero());
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: value {}: {}",
-                                 place_of(scenario, fmt::format("targets.{}.motion.series_start_s", spec.name)),
-                                 spec.motion.series_start_s, error.what()));
-  }
-}
-
-Target load_target(const Scenario& scenario, const SamplePlan& plan, const TargetSpec& spec, LoadedBodies& loaded) {
-  Target target;
-  target.spec = spec;
-  if (spec.mesh.empty()) return target;
-  target.models = loaded.models(scenario, spec);
-  for (const auto& model : target.models) target.radii_m.push_back(model->radius_m);
-  check_series(scenario, plan, spec, *target.models.front()->motion);
-  return target;
-}
-
 // Sets the rest positions of the target's bodies, the first numbered `bodies`, and increases `bodies` by their number.
 void place_bodies(Target& target, std::size_t& bodies) {
   target.first_body = bodies;
@@ -107,20 +309,24 @@ Target moved(const Target& original, const TargetSpec& host, const CompanionSpec
   return target;
 }
 
-// All targets in order, then the companions, at their places; load(spec) gives a target without them.
-std::vector<Target> placed_targets(const Scenario& scenario, const std::function<Target(const TargetSpec&)>& load) {
+// All targets in order, then the companions, at their places; load(target) sets what a mesh determines.
+template <class Load>
+std::vector<Target> placed_targets(const Scenario& scenario, TargetUse use, const Load& load) {
   std::vector<Target> targets;
   std::size_t bodies = 0;
   for (const TargetSpec& spec : scenario.targets) {
-    targets.push_back(load(spec));
-    if (spec.role == TargetRole::kPart) continue;  // placed with each target that it accompanies
-    place_bodies(targets.back(), bodies);
-    check_scene_range(scenario, spec, targets.back(), std::nullopt);
+    Target& target = targets.emplace_back();
+    target.spec = spec;
+    const bool is_part = spec.role == TargetRole::kPart;  // placed with each target that it accompanies
+    if (!spec.mesh.empty() && !(is_part && use == TargetUse::kMotion)) load(target);
+    if (is_part) continue;
+    place_bodies(target, bodies);
+    if (use == TargetUse::kEcho) check_scene_range(scenario, spec, target, std::nullopt);
   }
+  if (use == TargetUse::kMotion) return targets;
   for (std::size_t t = 0; t < scenario.targets.size(); ++t) {
     for (const CompanionSpec& companion : scenario.targets[t].companions) {
-      const auto named = std::find_if(scenario.targets.begin(), scenario.targets.end(),
-                                      [&](const TargetSpec& spec) { return spec.name == companion.target; });
+      const auto named = std::ranges::find(scenario.targets, companion.target, &TargetSpec::name);
       Target target =
           moved(targets[static_cast<std::size_t>(named - scenario.targets.begin())], scenario.targets[t], companion);
       place_bodies(target, bodies);
@@ -143,34 +349,21 @@ double reach_of_all_m(const Scenario& scenario, const std::vector<Target>& targe
   return reach;
 }
 
-// Extent of a turned mesh, neither enlarged nor moved.
-struct TurnedMesh {
-  TurnedMesh() = default;
-  explicit TurnedMesh(const TriangleMesh& mesh) : radius_m(seaglint::radius_m(mesh)), box(bounds(mesh)) {}
-  double radius_m = 0;
-  Bounds box;
-};
-
 // Largest reach of any target with the values drawn in any sea, by meshes as they are in their files. Throws InputError
 // where a drawn body is under water.
-double largest_reach_m(const Scenario& scenario, const SamplePlan& plan) {
-  std::map<std::string, TurnedMesh> meshes;  // by placement and mesh
+double largest_reach_m(const TargetRequest& request, TargetCache& cache) {
   double reach = 0;
-  for (std::size_t state = 0; state < plan.sea_states().size(); ++state) {
-    for (int realisation = 0; realisation < scenario.dataset.realisations_per_case; ++realisation) {
-      const Scenario drawn = plan.drawn(scenario, {.sea_state = static_cast<int>(state), .realisation = realisation});
-      const std::vector<Target> targets = placed_targets(drawn, [&](const TargetSpec& spec) {
-        Target target;
-        target.spec = spec;
-        if (spec.mesh.empty()) return target;
-        const MeshPlacement turned = turned_mesh(spec);
-        const std::string mesh = placement_text(turned) + " " + spec.mesh;
-        if (!meshes.contains(mesh)) meshes[mesh] = TurnedMesh(read_placed_mesh(find_mesh(drawn, spec), turned));
-        check_above_water(drawn, spec, meshes[mesh].box);
+  for (std::size_t state = 0; state < request.plan.sea_states().size(); ++state) {
+    for (int realisation = 0; realisation < request.scenario.dataset.realisations_per_case; ++realisation) {
+      const Scenario drawn =
+          request.plan.drawn(request.scenario, {.sea_state = static_cast<int>(state), .realisation = realisation});
+      const std::vector<Target> targets = placed_targets(drawn, request.use, [&](Target& target) {
+        const TargetSpec& spec = target.spec;
+        const std::shared_ptr<const FileMesh> file = cache.file(drawn, spec);
+        check_above_water(drawn, spec, *file);
         const double offset_m = Vec3(spec.offset_m).norm();
         for (const double scale : body_scales(spec.layout, spec.scale))
-          target.radii_m.push_back(scale * (meshes[mesh].radius_m + offset_m / spec.scale));
-        return target;
+          target.radii_m.push_back(scale * (file->radius_m + offset_m / spec.scale));
       });
       reach = std::max(reach, reach_of_all_m(drawn, targets));
     }
@@ -179,20 +372,27 @@ double largest_reach_m(const Scenario& scenario, const SamplePlan& plan) {
 }
 
 bool draws_targets(const Scenario& scenario) {
-  return std::any_of(scenario.variations.begin(), scenario.variations.end(),
-                     [](const Variation& variation) { return variation.key_path.starts_with("targets."); });
+  return std::ranges::any_of(scenario.variations,
+                             [](const Variation& variation) { return variation.key_path.starts_with("targets."); });
 }
 
 }  // namespace
 
-std::vector<Target> load_targets(const Scenario& scenario, const SamplePlan& plan, LoadedBodies* loaded) {
-  LoadedBodies alone;
-  return placed_targets(
-      scenario, [&](const TargetSpec& spec) { return load_target(scenario, plan, spec, loaded ? *loaded : alone); });
+std::vector<Target> load_targets(const TargetRequest& request) {
+  TargetCache alone;
+  TargetCache& cache = request.cache ? *request.cache : alone;
+  return placed_targets(request.scenario, request.use, [&](Target& target) {
+    target.models = load_models(request, target.spec, cache);
+    for (const auto& model : target.models) target.radii_m.push_back(model->radius_m);
+    if (request.use == TargetUse::kEcho) check_series(request, target.spec, *target.models.front()->motion);
+  });
 }
 
-double range_window_m(const Scenario& scenario, const SamplePlan& plan, const std::vector<Target>& targets) {
-  const double drawn_reach = draws_targets(scenario) ? largest_reach_m(scenario, plan) : 0;
+double range_window_m(const TargetRequest& request, const std::vector<Target>& targets) {
+  const Scenario& scenario = request.scenario;
+  TargetCache alone;
+  const double drawn_reach =
+      draws_targets(scenario) ? largest_reach_m(request, request.cache ? *request.cache : alone) : 0;
   const double reach = std::max(drawn_reach, reach_of_all_m(scenario, targets));
   // 10 % larger than the target, since bodies drift and multiply reflected paths are longer than direct ones.
   const double window_m = std::max(scenario.map.range_span_m, 2.2 * reach);
@@ -207,22 +407,80 @@ double range_window_m(const Scenario& scenario, const SamplePlan& plan, const st
   return window_m;
 }
 
-Scene make_scene(const Scenario& scenario, const SamplePlan& plan, const std::vector<Target>& targets, int sea_state,
-                 int realisation, double at_least_s) {
-  const SeaState state = plan.sea_state({.sea_state = sea_state, .realisation = realisation});
-  const std::uint64_t key = sea_key(static_cast<std::size_t>(sea_state), static_cast<std::size_t>(realisation));
-  const double duration_s = std::max(at_least_s, scene_duration_s(scenario, plan));
+ChosenSea choose_sea(const Scenario& scenario, const SeaChoice& choice) {
+  constexpr std::size_t kMaxRealisations = 1000000;  // of sea_key()
+  const std::vector<SeaState> states = sea_states(scenario.sea);
+  if (choice.sea_state >= states.size())
+    throw InputError(
+        fmt::format("sea_state {}: must be within 0 and {}, the scenario's last", choice.sea_state, states.size() - 1));
+  if (choice.realisation >= kMaxRealisations)
+    throw InputError(fmt::format("realisation {}: must be within 0 and {}", choice.realisation, kMaxRealisations - 1));
+  const SeaState& state = states[choice.sea_state];
+  return {state, realise_sea(state, scenario.seed, sea_key(choice.sea_state, choice.realisation))};
+}
 
-  Scene scene{realise_sea(state, scenario.seed, key), {}, {}};
-  for (const Target& target : targets) {
-    std::vector<const Body*> motions;
-    for (const auto& model : target.models) motions.push_back(model->motion.get());
-    scene.bodies.push_back(target.rest_positions.empty()
-                               ? std::vector<Trajectory>{}
-                               : simulate_target(target.spec, motions, state, scene.sea, duration_s, scenario.seed, key,
-                                                 target.first_body));
+Scene make_scene(const SceneRequest& request) {
+  const std::uint64_t key = sea_key(request.sea.sea_state, request.sea.realisation);
+  Scene scene;
+  double duration_s = request.at_least_s;
+  if (request.plan != nullptr) {
+    scene.state = request.plan->sea_state({.sea_state = static_cast<int>(request.sea.sea_state),
+                                           .realisation = static_cast<int>(request.sea.realisation)});
+    scene.sea = realise_sea(scene.state, request.scenario.seed, key);
+    duration_s = std::max(duration_s, scene_duration_s(request.scenario, *request.plan));
+  } else {
+    ChosenSea chosen = choose_sea(request.scenario, request.sea);
+    scene.state = chosen.state;
+    scene.sea = std::move(chosen.field);
+  }
+  for (const Target& target : request.targets) {
+    if (request.stop != nullptr && *request.stop) throw Interrupted();
+    std::vector<Trajectory>& bodies = scene.bodies.emplace_back();
+    if (target.rest_positions.empty()) continue;
+    std::vector<const Body*> models;
+    for (const auto& model : target.models) models.push_back(model->motion.get());
+    bodies = simulate_target({.target = target.spec,
+                              .models = models,
+                              .state = scene.state,
+                              .sea = scene.sea,
+                              .duration_s = duration_s,
+                              .seed = request.scenario.seed,
+                              .sea_index = key,
+                              .first_body = target.first_body,
+                              .threads = request.threads});
   }
   return scene;
+}
+
+namespace {
+
+// Mean velocity of a body along x, without its motion in the waves, m/s.
+double mean_speed(const Body& body) {
+  if (const auto* ship = std::get_if<ShipParticulars>(&body.model)) return ship->speed;
+  if (const auto* table = std::get_if<RaoTable>(&body.model)) return table->speed();
+  return 0;
+}
+
+}  // namespace
+
+std::vector<NamedTrajectory> named_bodies(const std::vector<Target>& targets, const Scene& scene) {
+  std::vector<NamedTrajectory> bodies;
+  for (std::size_t t = 0; t < targets.size(); ++t) {
+    const Target& target = targets[t];
+    const bool raft = is_raft(target.spec.layout);
+    for (std::size_t i = 0; i < scene.bodies[t].size() && !(raft && i > 0); ++i) {
+      const BodyModel& model = *target.models[i];
+      bodies.push_back({target.spec.layout && !raft ? fmt::format("{}_{}", target.spec.name, i + 1) : target.spec.name,
+                        scene.bodies[t][i], placed(model.file->mesh, placement_of(target.spec, model.scale)),
+                        mean_speed(*model.motion)});
+    }
+  }
+  if (bodies.empty()) throw InputError("targets: none of them is a mesh, so nothing moves in the waves");
+  return bodies;
+}
+
+MotionSample motion_at(const NamedTrajectory& body, double t) {
+  return body.trajectory.sample(std::min(t, body.trajectory.end_s()));
 }
 
 }  // namespace seaglint

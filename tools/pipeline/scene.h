@@ -1,18 +1,44 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The bodies of a scenario and their motion in one sea realisation.
+// The bodies of a scenario: their meshes, scatterers and motion models, their places, and their motion in one sea
+// realisation.
 
+#include <cstddef>
+#include <filesystem>
 #include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
 #include <vector>
 
+#include "sim/core/process/parallel.h"
+#include "sim/motion/body.h"
 #include "sim/motion/kinematics/trajectory.h"
+#include "sim/scattering/scatterer/prepare_target.h"
 #include "sim/scenario/sample_plan.h"
 #include "sim/scenario/scenario.h"
 #include "sim/sea/wave_field.h"
-#include "tools/pipeline/body_model.h"
+#include "tools/figure/motion_figures.h"
 
 namespace seaglint {
+
+// A mesh as its file has it, in metres with its axes turned, neither enlarged nor moved.
+struct FileMesh {
+  TriangleMesh mesh;
+  Bounds box;
+  double radius_m = 0;  // largest distance of a vertex from the origin
+};
+
+// What the bodies of one size of a target have in common.
+struct BodyModel {
+  double scale = 1;                                // factor by which the mesh of the file is enlarged, after its unit
+  Bounds box;                                      // of the whole mesh at this scale and offset
+  double radius_m = 0;                             // largest distance of a vertex of `prepared` from the mesh's origin
+  std::shared_ptr<const FileMesh> file;            // whole
+  std::shared_ptr<const PreparedTarget> prepared;  // cut at the waterline; null for TargetUse::kMotion
+  std::shared_ptr<const Body> motion;  // of a rigid raft that of the raft, whatever the size of its reflectors
+};
 
 // A target as loaded: bodies of one mesh, or ideal points.
 struct Target {
@@ -26,26 +52,130 @@ struct Target {
   Vec3 relative_velocity_mps = Vec3::Zero();
 };
 
-// Loads the targets of a scenario without variations in its order, then one more target per companion, moved to its
-// place. Throws InputError for a mesh that is missing or invalid, and for a material that is missing, invalid or not
-// defined at the radar's frequencies.
-std::vector<Target> load_targets(const Scenario& scenario, const SamplePlan& plan, LoadedBodies* loaded = nullptr);
+// Meshes, scatterers and motion models by the values that determine them, each made once: those in use elsewhere, and
+// the kKept others used last. Any thread may use it.
+class TargetCache {
+ public:
+  std::shared_ptr<const FileMesh> file(const Scenario& scenario, const TargetSpec& spec);
+  // Of one body. height_m: of the mesh's origin above the water; absent where the body does not reach the water.
+  BodyModel model(const Scenario& scenario, const TargetSpec& spec, double scale, std::optional<double> height_m,
+                  bool with_scatterer);
+
+ private:
+  template <class Key, class Value>
+  class Kept {
+   public:
+    template <class Make>
+    std::shared_ptr<const Value> get(const Key& key, const Make& make);
+
+   private:
+    static constexpr std::size_t kKept = 16;
+    struct Entry {
+      Key key;
+      std::shared_ptr<const Value> value;
+    };
+    std::vector<Entry> entries_;  // the one used last at the end
+  };
+  struct FileKey {
+    std::filesystem::path file;
+    MeshPlacement axes;
+    bool operator==(const FileKey&) const = default;
+  };
+  struct MotionKey {
+    FileKey mesh;
+    MeshPlacement placement;
+    std::filesystem::path folder;  // searched for the files that are named
+    MotionSpec motion;
+    bool is_raft = false;
+    bool operator==(const MotionKey&) const = default;
+  };
+  struct ScattererKey {
+    FileKey mesh;
+    MeshPlacement placement;
+    std::filesystem::path folder;
+    std::string material;
+    std::vector<PartMaterialSpec> part_materials;
+    ScattererSettings settings;
+    bool operator==(const ScattererKey&) const = default;
+  };
+
+  std::mutex mutex_;
+  Kept<FileKey, FileMesh> files_;
+  Kept<ScattererKey, PreparedTarget> prepared_;
+  Kept<MotionKey, Body> motions_;
+};
+
+// What targets are loaded for. Motion alone needs no scatterers, no companions and no models of parts, and neither a
+// radar that is far from all bodies nor a recorded motion that lasts until the last interval.
+enum class TargetUse { kEcho, kMotion };
+
+struct TargetRequest {
+  const Scenario& scenario;  // without variations, or with drawn values
+  const SamplePlan& plan;
+  TargetUse use = TargetUse::kEcho;
+  TargetCache* cache = nullptr;  // null: one of its own
+  const StopFlag* stop = nullptr;
+};
+
+// The targets of a scenario in its order, then one more per companion, moved to its place. Bodies of one size share a
+// model, unless they are in the water at different heights. Scatterers are cut at the mean water surface of the body
+// at rest; motion models have the whole mesh. Throws InputError for a mesh that is missing or invalid, a body entirely
+// under water, if the sea reflects also for bodies at several heights of which one reaches into the water, for a
+// material that is missing, invalid or not defined at the radar's frequencies, for a motion file that is missing or
+// invalid, and for bodies of several sizes with more than 2 million triangles in all; Interrupted when *stop becomes
+// true.
+std::vector<Target> load_targets(const TargetRequest& request);
 
 // Full width, m, of the range window that contains the response of every target of the scenario at every aspect, with
 // all values that its plan draws. It is one number for all samples: a window fitted to the target would reveal its
-// size. Throws InputError when the echo from the window would last beyond the next pulse.
-double range_window_m(const Scenario& scenario, const SamplePlan& plan, const std::vector<Target>& targets);
+// size. `targets` of this scenario or of one with the same targets. Throws InputError when the echo from the window
+// would last beyond the next pulse.
+double range_window_m(const TargetRequest& request, const std::vector<Target>& targets);
 
-// One sea realisation with the motion of every body, from t = 0 to the end of the last interval.
+// A realisation of one of the scenario's sea states, as the samples of the data set have it.
+struct SeaChoice {
+  std::size_t sea_state = 0;    // index into sea_states()
+  std::size_t realisation = 0;  // below 1000000; the data set has those below dataset.realisations_per_case
+};
+
+struct ChosenSea {
+  SeaState state;
+  WaveField field;
+};
+
+// With drawn keys at the middles of their distributions. Throws InputError for a sea state or realisation beyond the
+// last.
+ChosenSea choose_sea(const Scenario& scenario, const SeaChoice& choice);
+
+struct SceneRequest {
+  const Scenario& scenario;
+  const std::vector<Target>& targets;
+  SeaChoice sea = {};
+  // Its drawn values of the sea, and its intervals, which the scene contains; null: choose_sea().
+  const SamplePlan* plan = nullptr;
+  double at_least_s = 0;  // a longer scene begins with the same values
+  int threads = 1;        // without influence on the result; 0 = all processors
+  const StopFlag* stop = nullptr;
+};
+
+// One sea realisation with the motion of every body, from t = 0.
 struct Scene {
+  SeaState state;
   WaveField sea;
   std::vector<std::vector<Trajectory>> bodies;                   // [target][body]; none for points and parts
   std::shared_ptr<const std::vector<Target>> targets = nullptr;  // those that move, as a Pipeline loads them
 };
 
-// Generates the scene over the intervals of the plan, at least at_least_s long; a longer scene begins with the same
-// values.
-Scene make_scene(const Scenario& scenario, const SamplePlan& plan, const std::vector<Target>& targets, int sea_state,
-                 int realisation, double at_least_s = 0);
+// Throws Interrupted between targets when *stop becomes true.
+Scene make_scene(const SceneRequest& request);
+
+// Bodies of every mesh target but parts in the order of the file, `ship`, `array_1`, `array_2`, ... A rigid raft is one
+// body: its first reflector, whose angles and translations are the raft's. Throws InputError for a scenario without
+// meshes.
+std::vector<NamedTrajectory> named_bodies(const std::vector<Target>& targets, const Scene& scene);
+
+// Angles and translations at a time within the simulated duration; a time beyond the last sample by rounding is the
+// last sample's. A body at rest has no samples of its own.
+MotionSample motion_at(const NamedTrajectory& body, double t);
 
 }  // namespace seaglint

@@ -4,18 +4,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <system_error>
 #include <utility>
 
 #include "classify/dataset/directory/dataset_writer.h"
 #include "classify/model/saved_model.h"
-#include "classify/model/study_text.h"
+#include "classify/model/study.h"
 #include "seaglint_version.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
-#include "sim/scenario/writer.h"
+#include "sim/scenario/scenario.h"
 #include "tools/pipeline/warnings.h"
 
 namespace seaglint {
@@ -146,13 +148,24 @@ void divide_rows(LearningData& data, const Scenario& scenario) {
   if (!request.is_default() || data.manifests.size() > 1) require_classes(table.division(), table.labels, scenario);
 }
 
-TrainedModel train_on(const LearningData& data, const Scenario& scenario, const fs::path& model_directory, int threads,
-                      const StopFlag* stop, StudyScope scope = StudyScope::kFull) {
+// Throws InputError when a data set has other classes, map or feature settings than the first.
+void require_same_settings(const fs::path& data_set, const fs::path& first, const Scenario& of_first) {
+  const Scenario own = read_scenario(data_set / kScenarioFile);
+  const std::string classes = classes_difference(own.dataset.classes, of_first.dataset.classes);
+  if (!classes.empty())
+    throw InputError(fmt::format("{}: other classes than {}: {}", data_set.string(), first.string(), classes));
+  const std::string other = settings_difference(settings_of(own), settings_of(of_first));
+  if (!other.empty())
+    throw InputError(fmt::format("{}: other settings than {}: {}", data_set.string(), first.string(), other));
+}
+
+TrainedModel train_on(const LearningData& data, const Scenario& scenario, const TrainRequest& request) {
+  const fs::path& model_directory = request.model_directory;
   make_directory(model_directory);
   TrainedModel model;
   model.study = run_study(data.table, scenario.learning, scenario.dataset.train_fraction, scenario.seed,
-                          thread_count(threads), stop, scope);
-  model.metrics = metrics_json(model.study, data, scenario);
+                          thread_count(request.threads), request.stop, request.scope);
+  model.metrics = metrics_json(model.study, data, scenario).dump(2) + "\n";
   ModelCard card = describe_model(model.study, data.table, scenario, data.axes, kVersion);
   for (const Manifest& manifest : data.manifests)
     card.data_sets.push_back({manifest.scenario, manifest.scenario_sha256, manifest.seed, manifest.samples});
@@ -165,7 +178,7 @@ TrainedModel train_on(const LearningData& data, const Scenario& scenario, const 
   save_models(model.study, data.table, model_directory);
   save_model_card(std::move(card), model_directory);
   write_file(model_directory / kEmbeddingsFile, embeddings_csv(data.table, model.study.embeddings));
-  write_file(mark, model.metrics.dump(2) + "\n");
+  write_file(mark, model.metrics);
   remove_leftovers(model_directory);
   return model;
 }
@@ -196,58 +209,38 @@ void require_classes(const Division& division, std::span<const int> labels, cons
   }
 }
 
-TrainedModel train_model(const DatasetReader& data, const Scenario& scenario, const fs::path& model_directory,
-                         int threads, const StopFlag* stop, const std::function<void(const Shard&)>& use,
-                         StudyScope scope) {
-  require_own_directory(model_directory);
-  LearningData learning;
-  read_data(learning, data, scenario, stop, use);
-  require_learnable(learning.table, data.directory().string());
-  divide_rows(learning, scenario);
-  return train_on(learning, scenario, model_directory, threads, stop, scope);
-}
-
-TrainedModel train_model(const std::vector<fs::path>& data_sets, const fs::path& model_directory,
-                         const std::vector<Override>& overrides, const DivisionOptions& division, int threads,
-                         const StopFlag* stop) {
+TrainedModel train_model(const TrainRequest& request) {
+  const std::vector<fs::path>& data_sets = request.data_sets;
   SEAGLINT_CHECK(!data_sets.empty(), "no data set");
-  require_own_directory(model_directory);
-  Scenario scenario = read_scenario(data_sets.front() / kScenarioFile, overrides);
+  require_own_directory(request.model_directory);
+  // A directory that is no data set is refused before its scenario is read.
+  [[maybe_unused]] const DatasetReader is_data_set(data_sets.front());
+  Scenario scenario = request.scenario != nullptr ? *request.scenario
+                                                  : read_scenario(data_sets.front() / kScenarioFile, request.overrides);
   SplitSpec& split = scenario.learning.split;
-  if (division.by) split.by = *division.by;
-  if (!division.hold_out.empty()) split.hold_out = division.hold_out;
+  if (request.division.by) split.by = *request.division.by;
+  if (!request.division.hold_out.empty()) split.hold_out = request.division.hold_out;
   LearningData learning;
+  std::vector<std::string> warnings;
   std::map<std::string, fs::path> scenarios;
   for (const fs::path& data_set : data_sets) {
     const DatasetReader reader(data_set);
-    warn(data_set_warnings(reader));
+    std::ranges::move(data_set_warnings(reader), std::back_inserter(warnings));
     const auto [first, is_new] = scenarios.try_emplace(reader.manifest().scenario_sha256, data_set);
     if (!is_new) {
       throw InputError(
           fmt::format("{}: the same maps as {}: of one scenario", data_set.string(), first->second.string()));
     }
-    const Scenario own = read_scenario(data_set / kScenarioFile);
-    const std::string classes = classes_difference(own.dataset.classes, scenario.dataset.classes);
-    if (!classes.empty()) {
-      throw InputError(
-          fmt::format("{}: other classes than {}: {}", data_set.string(), data_sets.front().string(), classes));
-    }
-    const std::string other = settings_difference(settings_of(own), settings_of(scenario));
-    if (!other.empty())
-      throw InputError(
-          fmt::format("{}: other settings than {}: {}", data_set.string(), data_sets.front().string(), other));
-    read_data(learning, reader, scenario, stop, {});
+    if (data_sets.size() > 1) require_same_settings(data_set, data_sets.front(), scenario);
+    read_data(learning, reader, scenario, request.stop, request.use);
   }
   LearningTable& table = learning.table;
   require_learnable(table, joined(data_sets));
   if (data_sets.size() > 1) table.groups = common_seas(table.maps, table.groups);
   divide_rows(learning, scenario);
-  return train_on(learning, scenario, model_directory, threads, stop);
-}
-
-TrainedModel train_model(const fs::path& data_set, const fs::path& model_directory,
-                         const std::vector<Override>& overrides, int threads, const StopFlag* stop) {
-  return train_model(std::vector{data_set}, model_directory, overrides, DivisionOptions{}, threads, stop);
+  TrainedModel model = train_on(learning, scenario, request);
+  model.warnings = std::move(warnings);
+  return model;
 }
 
 }  // namespace seaglint

@@ -7,7 +7,6 @@
 
 #include <filesystem>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <string>
@@ -24,36 +23,35 @@ namespace seaglint {
 inline constexpr const char* kMetricsFile = "metrics.json";
 inline constexpr const char* kEmbeddingsFile = "embeddings.csv";
 
-struct TrainedModel {
-  Study study;
-  nlohmann::ordered_json metrics;  // the content of metrics.json
-};
-
 // Options in place of learning.split of the scenario.
 struct DivisionOptions {
   std::optional<std::string> by;
   std::vector<HoldOutSpec> hold_out;  // empty: those of the scenario
 };
 
-// Trains and evaluates with the learning section of the data set's scenario; every shard is read once and passed to
-// `use` if given. `scope`: StudyScope. The model directory is created; an earlier model there is replaced only when all
-// is computed. Throws InputError for an invalid data set, a directory with other content, or a division that leaves
-// nothing, or one class only, to train or to test on, WorkError when a file cannot be written, Interrupted when *stop
+struct TrainRequest {
+  std::vector<std::filesystem::path> data_sets;
+  std::filesystem::path model_directory;  // created; an earlier model there is replaced only when all is computed
+  std::vector<Override> overrides = {};   // of the scenario of the first data set: learning, split and seed
+  DivisionOptions division = {};
+  const Scenario* scenario = nullptr;  // in place of that scenario
+  int threads = 0;                     // 0 = all processors
+  const StopFlag* stop = nullptr;
+  std::function<void(const Shard&)> use = {};  // is passed every shard, which is read once
+  StudyScope scope = StudyScope::kFull;
+};
+
+struct TrainedModel {
+  Study study;
+  std::string metrics;                // the content of metrics.json
+  std::vector<std::string> warnings;  // data_set_warnings()
+};
+
+// Trains and evaluates. Throws InputError for an invalid data set, for several of which maps, features or classes have
+// different settings or two are of one scenario, for a directory with other content, and for a division that leaves
+// nothing, or one class only, to train or to test on; WorkError when a file cannot be written, Interrupted when *stop
 // becomes true.
-TrainedModel train_model(const DatasetReader& data, const Scenario& scenario,
-                         const std::filesystem::path& model_directory, int threads, const StopFlag* stop = nullptr,
-                         const std::function<void(const Shard&)>& use = {}, StudyScope scope = StudyScope::kFull);
-
-// The same with several data sets. Learning, split and seed are those of the scenario of the first data set, changed by
-// `overrides` and `division`. Prints data_set_warnings(). Throws InputError also when maps or features of the data sets
-// have different settings, or two data sets are of one scenario.
-TrainedModel train_model(const std::vector<std::filesystem::path>& data_sets,
-                         const std::filesystem::path& model_directory, const std::vector<Override>& overrides,
-                         const DivisionOptions& division, int threads, const StopFlag* stop = nullptr);
-
-// The same with one data set, divided as its scenario states.
-TrainedModel train_model(const std::filesystem::path& data_set, const std::filesystem::path& model_directory,
-                         const std::vector<Override>& overrides, int threads, const StopFlag* stop = nullptr);
+TrainedModel train_model(const TrainRequest& request);
 
 // Throws InputError when a side of the group protocol is empty or of one class only, or no map of a class is trained
 // on, in any repeat.

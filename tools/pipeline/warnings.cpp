@@ -2,6 +2,7 @@
 #include "tools/pipeline/warnings.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,14 +11,15 @@
 
 #include "classify/dataset/directory/export.h"
 #include "radar/rvmap/rv_map.h"
-#include "radar/waveform/pulse_train.h"
 #include "sim/core/numbers/constants.h"
+#include "sim/core/process/error.h"
 #include "sim/core/process/printable.h"
+#include "sim/motion/statistics.h"
 #include "sim/motion/target_motion.h"
 #include "sim/scattering/observation/observation.h"
-#include "sim/scenario/files/scatter_diagram.h"
+#include "sim/scenario/files/scenario_document.h"
+#include "sim/scenario/files/tables.h"
 #include "sim/sea/realisation.h"
-#include "tools/pipeline/pipeline.h"
 
 namespace seaglint {
 
@@ -68,51 +70,14 @@ void add_waterline_warning(std::vector<std::string>& lines, const Target& target
                               cut > 1 ? "at most " : "", cut_sentence(deepest)));
 }
 
-}  // namespace
-
-std::vector<std::string> mesh_warnings(const Pipeline& pipeline) {
-  std::vector<std::string> lines;
-  // no companions
-  for (const Target& target : std::span(pipeline.targets()).first(pipeline.scenario().targets.size())) {
-    add_mesh_warnings(lines, target);
-    add_waterline_warning(lines, target);
-    std::string hovering;  // of the first such body
-    for (const auto& model : target.models) {
-      const std::string line = hovering_warning(target.spec, bounds(model->prepared->mesh));
-      if (hovering.empty()) hovering = line;
-    }
-    if (!hovering.empty()) lines.push_back(hovering);
-  }
-  return lines;
+// Those of the scenario, without companions.
+std::span<const Target> own_targets(const Pipeline& pipeline) {
+  return std::span(pipeline.targets()).first(pipeline.scenario().targets.size());
 }
 
-std::vector<std::string> motion_warnings(const Pipeline& pipeline) {
-  std::vector<std::string> lines;
-  for (const Target& target : std::span(pipeline.targets()).first(pipeline.scenario().targets.size())) {
-    const auto* series =
-        target.models.empty() ? nullptr : std::get_if<AttitudeSeries>(&target.models.front()->motion->model);
-    if (!target.models.empty()) {
-      const std::string finding = hull_warning(target.spec, *target.models.front()->motion);
-      if (!finding.empty()) lines.push_back(finding);
-    }
-    if (series == nullptr || series->grid != TimeGrid::kIrregular) continue;
-    lines.push_back(fmt::format("targets.{}.motion.file: the times of {} are not uniform: resampled by a spline",
-                                target.spec.name, series->source));
-  }
-  return lines;
-}
+void print_note(const std::string& note) { print_error(on_one_line(note) + "\n"); }
 
-std::string motion_file_note(const TargetSpec& target, const Body& body) {
-  const std::string reading = motion_file_reading(body);
-  return reading.empty() ? reading : fmt::format("targets.{}.motion.file: {}", target.name, reading);
-}
-
-std::string hull_warning(const TargetSpec& target, const Body& body) {
-  if (target.motion.model != MotionModel::kShip && target.motion.model != MotionModel::kRao) return "";
-  const std::string finding = orientation_finding(body.shape);
-  return finding.empty() ? finding : fmt::format("targets.{}.mesh: {}", target.name, finding);
-}
-
+// Why a body of the target with this box hovers; empty where it does not.
 std::string hovering_warning(const TargetSpec& target, const Bounds& box) {
   const bool is_ship = target.motion.model == MotionModel::kShip || target.motion.model == MotionModel::kRao;
   if (!is_ship && target.motion.model != MotionModel::kFloat) return "";
@@ -124,35 +89,97 @@ std::string hovering_warning(const TargetSpec& target, const Bounds& box) {
   if (gap <= (is_drawn_to_waterline ? rounding : box.upper.z() - box.lower.z())) return "";
   return fmt::format(
       "targets.{}.mesh: its lowest point is {:.3g} m above the water, where nothing carries it: is its waterline at z "
-      "= "
-      "{:.6g} m? {}",
+      "= {:.6g} m? {}",
       target.name, gap, 0.0 - rest_height_m(target),
       is_ship ? "offset_m lowers it" : "motion.origin_above_waterline_m or offset_m lowers it");
 }
 
-void report_motion(const TargetSpec& target, const Body& body) {
-  const std::string note = motion_file_note(target, body);
-  if (!note.empty()) print_error(on_one_line(note) + "\n");
-  for (const std::string& finding : {hull_warning(target, body), hovering_warning(target, body.shape.box)})
-    if (!finding.empty()) warn(std::vector{finding});
+}  // namespace
+
+void warn(std::span<const std::string> sentences) {
+  for (const std::string& sentence : sentences)
+    print_error(fmt::format("seaglint: warning: {}\n", on_one_line(sentence)));
 }
 
-void report_spectrum_table(const Scenario& scenario) {
-  if (scenario.sea.table_values == nullptr) return;
-  const SpectrumTable& table = *scenario.sea.table_values;
-  print_error(
-      on_one_line(fmt::format("sea.table: {}: {}; {} frequencies, {:.4g} to {:.4g} rad/s, Hs {:.4g} m, Tp {:.4g} s",
-                              scenario.sea.table, table.reading, table.omega.size(), table.omega.front(),
-                              table.omega.back(), 4 * std::sqrt(table.energy()), 2 * kPi / table.peak_omega())) +
-      "\n");
+void report_scenario(const Pipeline& pipeline, const ReportScope& scope) {
+  const Scenario& scenario = pipeline.scenario();
+  for (const std::string& note : motion_file_notes(own_targets(pipeline))) print_note(note);
+  if (scope.rest) report_rest(scenario, target_motions(pipeline));
+  warn(mesh_warnings(pipeline));
+  warn(motion_warnings(own_targets(pipeline)));
+  report_sea(scenario, pipeline.plan().sea_states());
+  if (scope.bands) warn(band_warnings(pipeline));
+  if (scope.coverage) warn(map_coverage_warnings(pipeline));
 }
 
-void report_motion_files(const Pipeline& pipeline) {
-  for (const Target& target : std::span(pipeline.targets()).first(pipeline.scenario().targets.size())) {
-    if (target.models.empty()) continue;
-    const std::string note = motion_file_note(target.spec, *target.models.front()->motion);
-    if (!note.empty()) print_error(on_one_line(note) + "\n");
+void report_sea(const Scenario& scenario, std::span<const SeaState> states) {
+  if (scenario.sea.table_values != nullptr) {
+    const SpectrumTable& table = *scenario.sea.table_values;
+    print_note(fmt::format("sea.table: {}: {}; {} frequencies, {:.4g} to {:.4g} rad/s, Hs {:.4g} m, Tp {:.4g} s",
+                           scenario.sea.table, table.reading, table.omega.size(), table.omega.front(),
+                           table.omega.back(), 4 * std::sqrt(table.energy()), 2 * kPi / table.peak_omega()));
   }
+  warn(sea_warnings(scenario, states));
+}
+
+std::vector<std::string> motion_file_notes(std::span<const Target> targets) {
+  std::vector<std::string> notes;
+  for (const Target& target : targets) {
+    const std::string reading = target.models.empty() ? "" : motion_file_reading(*target.models.front()->motion);
+    if (!reading.empty()) notes.push_back(fmt::format("targets.{}.motion.file: {}", target.spec.name, reading));
+  }
+  return notes;
+}
+
+void report_motion(std::span<const Target> targets) {
+  for (const std::string& note : motion_file_notes(targets)) print_note(note);
+  warn(motion_warnings(targets));
+}
+
+std::vector<std::string> mesh_warnings(const Pipeline& pipeline) {
+  std::vector<std::string> lines;
+  for (const Target& target : own_targets(pipeline)) {
+    add_mesh_warnings(lines, target);
+    add_waterline_warning(lines, target);
+  }
+  return lines;
+}
+
+std::vector<std::string> motion_warnings(std::span<const Target> targets) {
+  std::vector<std::string> lines;
+  for (const Target& target : targets) {
+    if (target.models.empty()) continue;
+    const Body& body = *target.models.front()->motion;
+    const MotionModel model = target.spec.motion.model;
+    if (model == MotionModel::kShip || model == MotionModel::kRao) {
+      const std::string finding = orientation_finding(body.shape);
+      if (!finding.empty()) lines.push_back(fmt::format("targets.{}.mesh: {}", target.spec.name, finding));
+    }
+    const auto* series = std::get_if<AttitudeSeries>(&body.model);
+    if (series != nullptr && series->grid == TimeGrid::kIrregular) {
+      lines.push_back(fmt::format("targets.{}.motion.file: the times of {} are not uniform: resampled by a spline",
+                                  target.spec.name, series->source));
+    }
+    for (const auto& one : target.models) {
+      const std::string hovering = hovering_warning(target.spec, one->box);
+      if (hovering.empty()) continue;
+      lines.push_back(hovering);
+      break;
+    }
+  }
+  return lines;
+}
+
+std::vector<std::string> uncovered_waves(std::span<const Target> targets, const WaveField& sea) {
+  std::vector<std::string> sentences;
+  for (const Target& target : targets) {
+    const auto* table =
+        target.rest_positions.empty() ? nullptr : std::get_if<RaoTable>(&target.models.front()->motion->model);
+    if (table == nullptr) continue;
+    sentences.push_back(fmt::format("{}: {:.3g} % of the waves' variance lies outside of its frequencies",
+                                    table->source(), 100 * table->uncovered_variance_fraction(sea)));
+  }
+  return sentences;
 }
 
 std::vector<std::string> sea_warnings(const Scenario& scenario, std::span<const SeaState> states) {
@@ -176,21 +203,9 @@ std::vector<std::string> sea_warnings(const Scenario& scenario, std::span<const 
 }
 
 std::vector<std::string> band_warnings(const Pipeline& pipeline) {
-  const Scenario& scenario = pipeline.scenario();
-  const std::string gaps = band_gap_warning(make_pulse_train(scenario.radar, pipeline.window_m(), scenario.seed, 0));
+  const std::string gaps = band_gap_warning(pipeline.nominal_train());
   if (gaps.empty()) return {};
   return {fmt::format("radar.bandwidth_mhz: {}", gaps)};
-}
-
-std::vector<std::string> data_set_warnings(const DatasetReader& reader) {
-  std::vector<std::string> lines;
-  if (const auto sentence = merged_file_of_another_manifest(reader)) lines.push_back(*sentence);
-  return lines;
-}
-
-void warn(std::span<const std::string> sentences) {
-  for (const std::string& sentence : sentences)
-    print_error(fmt::format("seaglint: warning: {}\n", on_one_line(sentence)));
 }
 
 namespace {
@@ -275,7 +290,7 @@ void extend(Reach& reach, const Target& target, const Vec3& r_hat, const Duratio
 std::vector<std::string> map_coverage_warnings(const Pipeline& pipeline) {
   const Scenario& scenario = pipeline.scenario();
   const std::vector<Target>& targets = pipeline.targets();
-  const PulseTrain train = make_pulse_train(scenario.radar, pipeline.window_m(), scenario.seed, 0);
+  const PulseTrain train = pipeline.nominal_train();
   const MapGrid grid = map_grid(train, scenario.map);
   const PlatformSpec& platform = scenario.radar.platform;
   const double interval_s = train.time_s.back();
@@ -318,6 +333,115 @@ std::vector<std::string> map_coverage_warnings(const Pipeline& pipeline) {
   }
   if (more > 0) lines.push_back(fmt::format("and {} more like these", more));
   return lines;
+}
+
+std::vector<std::string> data_set_warnings(const DatasetReader& reader) {
+  std::vector<std::string> lines;
+  if (const auto sentence = merged_file_of_another_manifest(reader)) lines.push_back(*sentence);
+  return lines;
+}
+
+namespace {
+
+constexpr double kDuration_s = 100;
+
+// Motion of a body at the origin over 100 s, or over the scenario's intervals where its series ends before that.
+Trajectory trial_motion(const Pipeline& pipeline, const Target& target, const WaveField& sea, std::uint64_t key) {
+  const Scenario& scenario = pipeline.scenario();
+  const auto simulated = [&](double duration_s) {
+    return simulate_motion(*target.models.front()->motion, Vec3::Zero(), sea, duration_s, scenario.seed,
+                           body_index(key, target.first_body));
+  };
+  try {
+    return simulated(kDuration_s);
+  } catch (const InputError&) {
+    return simulated(pipeline.plan().last_start_s() + scenario.radar.pulses * scenario.radar.pri_us * 1e-6);
+  }
+}
+
+// Why degree of freedom i of a moving target is 0.
+std::string rest_reason(const TargetSpec& target, std::size_t i) {
+  const MotionSpec& motion = target.motion;
+  const std::string path = fmt::format("targets.{}.motion", target.name);
+  if (i >= 3 && !motion.translations) return fmt::format("without {}.translations: true", path);
+  if (motion.model == MotionModel::kSeries) return fmt::format("in its file ({}.file)", path);
+  if (i == 2 && motion.model == MotionModel::kFloat && motion.yaw_rate_std_deg_s == 0)
+    return fmt::format("without {}.yaw_rate_std_deg_s", path);
+  if (motion.model == MotionModel::kRao)
+    return fmt::format("in its table or in these waves ({}.file, sea.propagation_deg)", path);
+  return "in these waves (sea.significant_wave_height_m, sea.propagation_deg, sea.spreading)";
+}
+
+// Whether the scenario has a section `motion` of the target.
+bool has_motion_section(const Scenario& scenario, const TargetSpec& target) {
+  const YamlNode* node = scenario.document ? &scenario.document->root : nullptr;
+  for (const std::string& key : {std::string("targets"), target.name, std::string("motion")})
+    node = node == nullptr ? nullptr : node->find(key);
+  return node != nullptr;
+}
+
+}  // namespace
+
+std::vector<TargetMotion> target_motions(const Pipeline& pipeline) {
+  const Scenario& scenario = pipeline.scenario();
+  const std::vector<SeaState>& states = pipeline.plan().sea_states();
+  const auto highest = std::ranges::max_element(states, {}, total_wave_height);
+  const std::uint64_t key = sea_key(static_cast<std::size_t>(highest - states.begin()), 0);
+  const WaveField sea = realise_sea(*highest, scenario.seed, key);
+  std::vector<TargetMotion> motions;
+  for (std::size_t t = 0; t < scenario.targets.size(); ++t) {
+    const Target& target = pipeline.targets()[t];
+    if (target.models.empty()) continue;
+    try {
+      motions.push_back({&scenario.targets[t], motion_rms(trial_motion(pipeline, target, sea, key), kDuration_s)});
+    } catch (const InputError&) {
+      continue;  // its responses do not cover this sea
+    }
+  }
+  return motions;
+}
+
+std::string motion_text(const TargetMotion& motion) {
+  std::string text;
+  for (const bool angles : {true, false}) {
+    std::vector<std::string> parts;
+    for (std::size_t i = angles ? 0 : 3; i < (angles ? 3u : 6u); ++i) {
+      if (motion.rms[i] > 0)
+        parts.push_back(
+            fmt::format("{} {:.3g}", kDegreesOfFreedom[i], angles ? degrees(motion.rms[i]) : motion.rms[i]));
+    }
+    if (parts.empty()) continue;
+    if (!text.empty()) text += "; ";
+    text += fmt::format("{} {} rms", fmt::join(parts, ", "), angles ? "deg" : "m");
+  }
+  return text;
+}
+
+std::string rest_text(const TargetMotion& motion) {
+  const TargetSpec& target = *motion.target;
+  if (target.motion.model == MotionModel::kFixed)
+    return fmt::format("does not move: targets.{0}.motion.model is fixed", target.name);
+  std::vector<std::pair<std::string, std::vector<std::string>>> by_reason;
+  for (std::size_t i = 0; i < motion.rms.size(); ++i) {
+    if (motion.rms[i] > 0) continue;
+    const std::string reason = rest_reason(target, i);
+    auto known = std::ranges::find(by_reason, reason, &decltype(by_reason)::value_type::first);
+    if (known == by_reason.end()) known = by_reason.insert(by_reason.end(), {reason, {}});
+    known->second.emplace_back(kDegreesOfFreedom[i]);
+  }
+  std::string text;
+  for (const auto& [reason, names] : by_reason)
+    text += fmt::format("{}{} {} 0 {}", text.empty() ? "" : "; ", fmt::join(names, ", "),
+                        names.size() == 1 ? "is" : "are", reason);
+  return text;
+}
+
+void report_rest(const Scenario& scenario, const std::vector<TargetMotion>& motions) {
+  for (const TargetMotion& motion : motions) {
+    if (motion.target->motion.model == MotionModel::kFixed && has_motion_section(scenario, *motion.target)) continue;
+    const std::string text = rest_text(motion);
+    if (!text.empty()) warn(std::array{fmt::format("targets.{}: {}", motion.target->name, text)});
+  }
 }
 
 }  // namespace seaglint

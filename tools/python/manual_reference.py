@@ -14,6 +14,10 @@ def anchor(words):
     return re.sub(r"[^a-z0-9]+", "-", words.lower()).strip("-")
 
 
+def drawn(per):
+    return f" May be drawn, once per {per}." if per else ""
+
+
 def keys_page(program):
     """Every key of a scenario with default, allowed values and meaning, by sections: (title, HTML, [(heading, anchor)])."""
     sections, headings = {}, []
@@ -22,12 +26,12 @@ def keys_page(program):
         depth = 3 if words[0] == "targets" and len(words) > 3 else 1
         sections.setdefault(".".join(words[:depth]) if len(words) > 1 else "", []).append(entry)
     parts = ["<h1>Keys of a scenario</h1>",
-             "<p>As <code>seaglint keys --json</code> lists them; units stand in the keys. <code>NAME</code> is the name of a target, <code>N</code> an index. "
+             "<p>As <code>seaglint keys --json</code> lists them. <code>NAME</code> is the name of a target, <code>N</code> an index. "
              '<a href="sim_scenario.html">Scenario</a> describes sweeps, files and overrides.</p>']
     for section, entries in sections.items():
         title = section or "Top level"
         rows = "".join(f'<tr id="{anchor(e["key"])}"><td><code>{html.escape(e["key"][len(section) + 1 if section else 0:])}</code></td><td>{html.escape(e["default"]) or "–"}</td>'
-                       f'<td>{html.escape(e["allowed"])}</td><td>{html.escape(e["meaning"])}</td></tr>\n' for e in entries)
+                       f'<td>{html.escape(e["allowed"])}</td><td>{html.escape(e["meaning"] + drawn(e["drawn_per"]))}</td></tr>\n' for e in entries)
         parts.append(f'<h2 id="section-{anchor(title)}">{html.escape(title)}</h2>\n<div class="scroll"><table class="keys"><thead><tr><th>key</th><th>default</th><th>allowed</th><th>meaning</th></tr></thead><tbody>\n{rows}</tbody></table></div>')
         headings += [(title, "section-" + anchor(title)), *((e["key"], anchor(e["key"])) for e in entries)]
     return "Keys of a scenario", "\n".join(parts), headings

@@ -53,7 +53,7 @@ def top_hat(radius, height=0.4, reach=2, strips=48):
 
 
 def top_hat_table(radius, height=0.4, elevation_deg=40, frequency_hz=8e9):
-    """sigma = 4 pi (2 h sqrt(k R cos(el) / 4 pi))^2, as top_hat_test.cpp derives it."""
+    """sigma = 4 pi (2 h sqrt(k R cos(el) / 4 pi))^2, as curved_surface_test.cpp derives it."""
     amplitude2 = 4 * height**2 * (2 * math.pi * frequency_hz / C) * radius * math.cos(math.radians(elevation_deg)) / (4 * math.pi)
     level = 10 * math.log10(4 * math.pi * amplitude2)
     rows = [f"{frequency_hz:.9g},{azimuth},{elevation_deg},{level:.9g},{level:.9g}" for azimuth in range(0, 91, 3)]

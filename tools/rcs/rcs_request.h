@@ -17,7 +17,7 @@
 
 #include "sim/cavity/cavity_scattering.h"
 #include "sim/core/numbers/linear.h"
-#include "sim/field_tables/column_tables.h"
+#include "sim/field_tables/field_table.h"
 #include "sim/geometry/mesh/triangle_mesh.h"
 #include "sim/scattering/scatterer/prepare_target.h"
 #include "sim/scattering/tracing/tracing_settings.h"
@@ -27,6 +27,9 @@
 namespace seaglint {
 
 inline constexpr double kMinPrinted_m2 = 1e-30;  // floor of printed levels, -300 dBsm
+
+inline constexpr std::array<std::size_t, 2> kCoPolar{0, 3};  // of a matrix: hh, vv
+inline constexpr std::array<const char*, 2> kCoPolarNames{"hh", "vv"};
 
 // Estimates of one view at one frequency (sim/scattering/sums/view_estimate.h) for hh and vv, and the indices of
 // the parts that contribute most to each.

@@ -16,6 +16,10 @@
 
 namespace seaglint {
 
+namespace {
+
+// Indices of the requested parts. Throws InputError for a part that does not exist or is no perfect conductor, and for
+// a selection by anything but parts.
 std::vector<int> cavity_parts(const CavityRequest& request, const TriangleMesh& mesh,
                               const std::vector<MaterialSpec>& materials, const ContributionFilter& selection) {
   std::vector<int> indices;
@@ -41,6 +45,8 @@ std::vector<int> cavity_parts(const CavityRequest& request, const TriangleMesh& 
   return indices;
 }
 
+// Makes cavities of these parts. Throws InputError for a part that is no open cavity at the lowest or the highest
+// frequency.
 std::vector<NamedCavity> make_cavities(const CavityRequest& request, const TriangleMesh& mesh,
                                        const std::vector<int>& parts, const Scatterer& whole, double lowest_hz,
                                        double highest_hz) {
@@ -60,8 +66,6 @@ std::vector<NamedCavity> make_cavities(const CavityRequest& request, const Trian
   }
   return cavities;
 }
-
-namespace {
 
 void require_above_water(const SeaUnderTarget& sea, const TriangleMesh& mesh) {
   const double top_m = bounds(mesh).upper.z();

@@ -26,17 +26,6 @@ struct NamedCavity {
   CavitySize size;  // at the highest frequency
 };
 
-// Indices of the requested parts. Throws InputError for a part that does not exist or is no perfect conductor, and for
-// a selection by anything but parts.
-std::vector<int> cavity_parts(const CavityRequest& request, const TriangleMesh& mesh,
-                              const std::vector<MaterialSpec>& materials, const ContributionFilter& selection);
-
-// Makes cavities of these parts. Throws InputError for a part that is no open cavity at the lowest or the highest
-// frequency.
-std::vector<NamedCavity> make_cavities(const CavityRequest& request, const TriangleMesh& mesh,
-                                       const std::vector<int>& parts, const Scatterer& whole, double lowest_hz,
-                                       double highest_hz);
-
 // Prepared target of a request.
 struct RcsTarget {
   PreparedTarget prepared;

@@ -11,12 +11,12 @@
 #include <utility>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/core/numbers/dbsm.h"
 #include "sim/core/numbers/random.h"
+#include "sim/core/numbers/real_functions.h"
 #include "sim/core/numbers/rotation.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/progress.h"
-#include "sim/geometry/mesh/mesh_builder.h"
+#include "sim/geometry/mesh/triangle_mesh.h"
 #include "sim/scattering/solver/solve.h"
 #include "sim/scattering/tracing/tracing_settings.h"
 #include "tools/figure/figure.h"
@@ -31,11 +31,9 @@ constexpr double kLargeDifference_db = 1;
 constexpr double kLargeShare = 0.25;  // of the echo: 2 dB
 constexpr double kNegligible_db = 30;
 constexpr double kLargestPrinted_db = 60, kLargestPrintedShare = 1000;
-constexpr std::array<std::size_t, 2> kElement{0, 3};  // of a matrix: hh, vv
-constexpr std::array<const char*, 2> kName{"hh", "vv"};
 
 Complex echo(const RcsSweep& sweep, std::size_t view, std::size_t element) {
-  return sweep.models.back().matrices[view][sweep.estimated][kElement[element]];
+  return sweep.models.back().matrices[view][sweep.estimated][kCoPolar[element]];
 }
 
 double ratio_db(const Complex& flat, const Complex& smooth) {
@@ -77,7 +75,7 @@ Exceeded exceeding(const RcsSweep& sweep, double limit, const std::function<doub
 
 std::string place_of(const RcsSweep& sweep, const Exceeded& found) {
   return fmt::format("azimuth {:.6g}, elevation {:.6g} deg, {}", sweep.azimuth_of(found.worst_view),
-                     sweep.elevation_of(found.worst_view), kName[found.worst_element]);
+                     sweep.elevation_of(found.worst_view), kCoPolarNames[found.worst_element]);
 }
 
 std::string count_of(const RcsSweep& sweep, const Exceeded& found) {
@@ -188,8 +186,8 @@ LinePlot plot_of(const RcsSweep& sweep, const Cut& cut, std::size_t element) {
   band.style = SeriesStyle::kBand;
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const auto& [view, q] : cut.places) {
-    const double smooth = dbsm(sweep.models.back().matrices[view][q][kElement[element]]),
-                 flat = dbsm(sweep.flat->matrices[view][q][kElement[element]]);
+    const double smooth = dbsm(sweep.models.back().matrices[view][q][kCoPolar[element]]),
+                 flat = dbsm(sweep.flat->matrices[view][q][kCoPolar[element]]);
     line.y.push_back(smooth);
     band.interval.push_back({std::min(smooth, flat), std::max(smooth, flat)});
     low = std::min(low, band.interval.back()[0]);
@@ -198,7 +196,7 @@ LinePlot plot_of(const RcsSweep& sweep, const Cut& cut, std::size_t element) {
   band.y = line.y;
   constexpr double kMargin_db = 3, kHighest_db = 60;
   LinePlot plot;
-  plot.title = kName[element];
+  plot.title = kCoPolarNames[element];
   if (sweep.views() > 1) plot.title += fmt::format(", {:g} GHz", 1e-9 * sweep.frequency_hz[sweep.estimated]);
   const auto [first, last] = std::ranges::minmax(cut.x);
   plot.x = {cut.label, AxisRange{first, last}, false};
@@ -220,13 +218,10 @@ bool draw_uncertainty(const RcsSweep& sweep, const std::string& title, const std
 
 namespace {
 
-constexpr std::array<std::size_t, 2> kElements{0, 3};  // hh, vv of a matrix
-constexpr const char* kElementNames[2] = {"hh", "vv"};
 constexpr double kFloorDb = 60;  // of levels below the highest of their element
-constexpr double kMostDb = 60;   // printed
 
 double level(const RcsSweep::Model& model, std::size_t view, std::size_t frequency, std::size_t element) {
-  return dbsm(model.matrices[view][frequency][kElements[element]], kMinPrinted_m2);
+  return dbsm(model.matrices[view][frequency][kCoPolar[element]], kMinPrinted_m2);
 }
 
 // What is halved for a method.
@@ -264,7 +259,7 @@ std::string line_of(const ConvergenceStep& step, const RcsSweep& sweep, SolverMe
   const LevelChange& change = step.change;
   return fmt::format(
       "{}, change of mean {:.4f} dB, largest {:+.4f} dB ({}, {:.6g} GHz, azimuth {:g} deg, elevation {:g} deg)\n",
-      traced, change.mean_db, change.largest_db, kElementNames[change.element],
+      traced, change.mean_db, change.largest_db, kCoPolarNames[change.element],
       1e-9 * sweep.frequency_hz[change.frequency], sweep.azimuth_of(change.view), sweep.elevation_of(change.view));
 }
 
@@ -273,7 +268,7 @@ std::string line_of(const ConvergenceStep& step, const RcsSweep& sweep, SolverMe
 LevelChange level_change(const RcsSweep& sweep, const RcsSweep::Model& fine, const RcsSweep::Model& coarse) {
   LevelChange change;
   const std::size_t frequencies = sweep.frequency_hz.size();
-  for (std::size_t element = 0; element < kElements.size(); ++element) {
+  for (std::size_t element = 0; element < kCoPolar.size(); ++element) {
     double highest = -1e300;
     for (std::size_t row = 0; row < sweep.rows(); ++row)
       highest = std::max(highest, level(fine, row / frequencies, row % frequencies, element));
@@ -282,7 +277,7 @@ LevelChange level_change(const RcsSweep& sweep, const RcsSweep::Model& fine, con
       const std::size_t view = row / frequencies, q = row % frequencies;
       const double difference =
           std::max(level(fine, view, q, element), floor) - std::max(level(coarse, view, q, element), floor);
-      change.mean_db += std::abs(difference) / static_cast<double>(kElements.size() * sweep.rows());
+      change.mean_db += std::abs(difference) / static_cast<double>(kCoPolar.size() * sweep.rows());
       if (std::abs(difference) <= std::abs(change.largest_db)) continue;
       change.largest_db = difference;
       change.view = view;
@@ -349,10 +344,10 @@ std::string convergence_header(SolverMethod method) {
 
 std::string convergence_cells(const RcsSweep& sweep, std::size_t view, std::size_t frequency) {
   std::string cells;
-  for (std::size_t element = 0; element < kElements.size(); ++element) {
+  for (std::size_t element = 0; element < kCoPolar.size(); ++element) {
     const double difference =
         level(sweep.models.back(), view, frequency, element) - level(*sweep.coarser, view, frequency, element);
-    cells += fmt::format(",{:.4f}", std::clamp(difference, -kMostDb, kMostDb));
+    cells += fmt::format(",{:.4f}", std::clamp(difference, -kLargestPrinted_db, kLargestPrinted_db));
   }
   return cells;
 }

@@ -2,28 +2,27 @@
 #include "tools/report/explorer.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
-#include <nlohmann/json.hpp>
+#include <ranges>
 #include <tuple>
 #include <unordered_map>
 
-#include "classify/dataset/format/layout.h"
+#include "classify/dataset/format/shard.h"
 #include "sim/core/numbers/constants.h"
-#include "sim/core/numbers/dbsm.h"
+#include "sim/core/numbers/real_functions.h"
 #include "sim/field_tables/field_table.h"
 #include "sim/scattering/observation/observation.h"
 #include "sim/scattering/solver/solve.h"
 #include "tools/page/html.h"
-#include "tools/rcs/view_export.h"
+#include "tools/rcs/rcs_table.h"
 
 namespace seaglint {
 
 namespace {
-
-using nlohmann::ordered_json;
 
 constexpr int kColumnDigits = 12;           // binary digits of a real column: 1.2e-4 relative
 constexpr double kLargestExact = 16777216;  // integers up to here are exact in single precision
@@ -54,23 +53,20 @@ int digits_of(const SampleColumn& column) {
   return integer || std::ranges::find(kOfTitles, column.name) != std::end(kOfTitles) ? 24 : kColumnDigits;
 }
 
-ordered_json column_json(const std::string& name, const std::string& unit, const std::vector<double>& values,
-                         int digits) {
+std::string column_json(const std::string& name, const std::string& unit, const std::vector<double>& values,
+                        int digits) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const double value : values) {
     if (std::isnan(value)) continue;
     low = std::min(low, value);
     high = std::max(high, value);
   }
-  return {{"name", name},
-          {"unit", unit},
-          {"feature", is_feature(name)},
-          {"varies", low < high},
-          {"packed", packed_floats(values, digits)}};
+  return fmt::format(R"({{"name":{},"unit":{},"feature":{},"varies":{},"packed":"{}"}})", json_string(name),
+                     json_string(unit), is_feature(name), low < high, packed_floats(values, digits));
 }
 
-ordered_json columns_of(std::span<const SampleRecord> records) {
-  ordered_json list = ordered_json::array();
+std::vector<std::string> columns_of(std::span<const SampleRecord> records) {
+  std::vector<std::string> list;
   for (const SampleColumn& column : sample_columns()) {
     const std::vector<double> values = numbers_of(column, records);
     if (!values.empty()) list.push_back(column_json(column.name, column.unit, values, digits_of(column)));
@@ -94,14 +90,18 @@ std::vector<std::size_t> bin_of_row(std::span<const ColumnBin> bins, std::size_t
   return numbers;
 }
 
-// The bins of a quantity by which maps are chosen: their texts, the bin of every row, the one shown first.
-ordered_json choices(std::span<const ColumnBin> bins, std::size_t rows, std::size_t first) {
-  ordered_json json{{"texts", ordered_json::array()}, {"first", first}};
-  for (const ColumnBin& bin : bins) json["texts"].push_back(bin.text);
+// The bins of a quantity by which maps are chosen: their texts, the one shown first, the bin of every row.
+std::string choices(std::span<const ColumnBin> bins, std::size_t rows, std::size_t first) {
+  std::vector<std::string> texts;
+  for (const ColumnBin& bin : bins) texts.push_back(json_string(bin.text));
   std::vector<std::uint8_t> numbers;
   for (const std::size_t bin : bin_of_row(bins, rows)) numbers.push_back(static_cast<std::uint8_t>(bin));
-  json["bins"] = packed(numbers);
-  return json;
+  return fmt::format(R"({{"texts":[{}],"first":{},"bins":"{}"}})", fmt::join(texts, ","), first, packed(numbers));
+}
+
+std::string axis_json(const ReducedAxis& axis) {
+  return fmt::format(R"({{"first":{},"step":{},"count":{},"cells":{}}})", json_number(axis.first, 17),
+                     json_number(axis.step, 17), axis.count, axis.cells);
 }
 
 }  // namespace
@@ -150,39 +150,33 @@ std::vector<std::size_t> explorer_order(std::span<const SampleRecord> records, s
 
 std::string explorer_json(const ExplorerData& data) {
   const auto& [records, maps, axes, heights, azimuths, height, azimuth] = data;
-  ordered_json json;
-  std::map<std::int64_t, std::string> names;
-  for (const SampleRecord& record : records) names[record.target] = record.target_name;
-  json["targets"] = ordered_json::object();
-  for (const auto& [target, name] : names) json["targets"][std::to_string(target)] = name;
-  for (const auto& [name, axis] : {std::pair{"range", reduced_axis(axes.range_m, kExplorerCells[1])},
-                                   {"velocity", reduced_axis(axes.velocity_mps, kExplorerCells[0])}})
-    json[name] = {{"first", axis.first}, {"step", axis.step}, {"count", axis.count}, {"cells", axis.cells}};
-  json["floor_db"] = kMapFloorDb;
-  json["step_db"] = 1;
-  json["heights"] = choices(heights, records.size(), height);
-  json["azimuths"] = choices(azimuths, records.size(), azimuth);
-  json["columns"] = columns_of(records);
-  json["maps"] = ordered_json::array();
+  std::map<std::int64_t, std::string> targets;
+  for (const SampleRecord& record : records)
+    targets.try_emplace(record.target, fmt::format("\"{}\":{}", record.target, json_string(record.target_name)));
   std::unordered_map<std::int64_t, const ExplorerMap*> of_sample;
   for (const ExplorerMap& map : maps) of_sample[map.sample] = &map;
+  std::vector<std::string> shown;
   std::size_t bytes = 0;
   for (const std::size_t row : explorer_order(records, heights, azimuths)) {
     const auto found = of_sample.find(records[row].sample);
     if (found == of_sample.end()) continue;
-    ordered_json centres = ordered_json::array();
+    std::vector<std::string> centres;
     for (const StoredCentre& c : found->second->centres)
-      centres.push_back({std::round(100 * c[0]) / 100, std::round(1000 * c[1]) / 1000, std::round(10 * c[2]) / 10});
-    bytes += found->second->packed.size() + centres.dump().size();
+      centres.push_back(fmt::format("[{:.2f},{:.3f},{:.1f}]", c[0], c[1], c[2]));
+    const std::string list = fmt::format("[{}]", fmt::join(centres, ","));
+    bytes += found->second->packed.size() + list.size();
     if (bytes > kExplorerBytes) break;
-    json["maps"].push_back({{"row", row}, {"packed", found->second->packed}, {"centres", centres}});
+    shown.push_back(fmt::format(R"({{"row":{},"packed":"{}","centres":{}}})", row, found->second->packed, list));
   }
-  return script_json(json.dump());
+  return fmt::format(
+      R"({{"targets":{{{}}},"range":{},"velocity":{},"floor_db":{},"step_db":1,"heights":{},"azimuths":{},"columns":[{}],"maps":[{}]}})",
+      fmt::join(std::views::values(targets), ","), axis_json(reduced_axis(axes.range_m, kExplorerCells[1])),
+      axis_json(reduced_axis(axes.velocity_mps, kExplorerCells[0])), kMapFloorDb,
+      choices(heights, records.size(), height), choices(azimuths, records.size(), azimuth),
+      fmt::join(columns_of(records), ","), fmt::join(shown, ","));
 }
 
 namespace {
-
-using nlohmann::ordered_json;
 
 constexpr double kRangeDb = 50;      // of the colours
 constexpr int kPositionDigits = 16;  // binary digits of a coordinate: 2 mm of a 144 m ship
@@ -212,8 +206,8 @@ std::string packed_triangles(const TriangleMesh& mesh) {
   return packed(bytes);
 }
 
-ordered_json json_of(const Target& target, const Scenario& scenario, const std::vector<View>& views, int threads,
-                     const StopFlag* stop) {
+std::string json_of(const Target& target, const Scenario& scenario, const std::vector<View>& views, int threads,
+                    const StopFlag* stop) {
   const Scatterer& scatterer = *target.models.front()->prepared->scatterer;
   const double wavelength = kSpeedOfLight / (1e9 * centre_ghz(scenario.radar)), k = 2 * kPi / wavelength;
   const SolverSpec& solver = target.spec.solver;
@@ -236,21 +230,17 @@ ordered_json json_of(const Target& target, const Scenario& scenario, const std::
   const TriangleMesh mesh = welded(mesh_of_facets(scatterer));
   std::vector<double> coordinates;
   for (const Vec3& vertex : mesh.vertices) coordinates.insert(coordinates.end(), vertex.begin(), vertex.end());
-  ordered_json json{{"name", target.spec.name},
-                    {"vertices", packed_floats(coordinates, kPositionDigits)},
-                    {"triangles", packed_triangles(mesh)},
-                    {"top_dbsm", top},
-                    {"views", ordered_json::array()}};
+  std::vector<std::string> shown;
   for (std::size_t v = 0; v < views.size(); ++v) {
     std::vector<std::uint8_t> steps;  // 0: kRangeDb below the top, or less
     for (const double level : levels[v].dbsm)
       steps.push_back(static_cast<std::uint8_t>(std::lround(std::clamp(level - top + kRangeDb, 0.0, kRangeDb))));
-    json["views"].push_back({{"azimuth_deg", views[v].azimuth_deg},
-                             {"elevation_deg", views[v].elevation_deg},
-                             {"total_dbsm", std::round(100 * total_dbsm[v]) / 100},
-                             {"levels", packed(steps)}});
+    shown.push_back(fmt::format(R"({{"azimuth_deg":{},"elevation_deg":{},"total_dbsm":{:.2f},"levels":"{}"}})",
+                                views[v].azimuth_deg, views[v].elevation_deg, total_dbsm[v], packed(steps)));
   }
-  return json;
+  return fmt::format(R"({{"name":{},"vertices":"{}","triangles":"{}","top_dbsm":{},"views":[{}]}})",
+                     json_string(target.spec.name), packed_floats(coordinates, kPositionDigits), packed_triangles(mesh),
+                     top, fmt::join(shown, ","));
 }
 
 }  // namespace
@@ -258,7 +248,7 @@ ordered_json json_of(const Target& target, const Scenario& scenario, const std::
 HotSpots hot_spots(const Scenario& scenario, const SamplePlan& plan, const std::vector<Target>& targets, int threads,
                    const StopFlag* stop) {
   const std::vector<View> views = views_shown(plan.views());
-  ordered_json list = ordered_json::array();
+  std::vector<std::string> list;
   std::string left_out;
   std::size_t facets = 0;
   for (std::size_t t = 0; t < std::min(targets.size(), scenario.targets.size()); ++t) {  // no companions
@@ -278,7 +268,7 @@ HotSpots hot_spots(const Scenario& scenario, const SamplePlan& plan, const std::
   if (list.empty()) return {"", left_out};
   const char* element = kPolarisationNames[static_cast<int>(scenario.radar.polarisation)];
   return {
-      script_json(ordered_json{{"range_db", kRangeDb}, {"step_db", 1}, {"targets", list}}.dump()),
+      fmt::format(R"({{"range_db":{},"step_db":1,"targets":[{}]}})", kRangeDb, fmt::join(list, ",")),
       fmt::format("Level of each facet’s contribution at {:g} GHz, {}, for one body at rest without the sea; facets of "
                   "one plane have the level of their sum. Multiple bounces count for the facet that they leave "
                   "last.{}{}",

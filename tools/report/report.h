@@ -1,32 +1,50 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The report of a run: one self-contained HTML page, and its figures as PNG and SVG files in the same directory.
+// The report of a run: one self-contained HTML page, and its figures as PNG and SVG files in the same directory; tables
+// and sentences from the numbers of the run, in the places of report.html.
 
+#include <cstddef>
 #include <filesystem>
-#include <nlohmann/json.hpp>
+#include <string>
 #include <vector>
 
+#include "classify/model/study.h"
 #include "sim/core/process/parallel.h"
-#include "sim/scenario/sample_plan.h"
-#include "tools/pipeline/scene.h"
+#include "sim/scenario/scenario.h"
+#include "tools/report/explorer.h"
+#include "tools/report/metrics.h"
 #include "tools/report/report_data.h"
+#include "tools/report/report_figures.h"
 
 namespace seaglint {
 
 inline constexpr const char* kReportFile = "report.html";
 
-// Results of a run that its report uses.
-struct RunResults {
-  ReportData data;
-  nlohmann::ordered_json metrics;  // of the model, with the member `run`
+// The quantities that could reveal the class with their accuracies, and what these say, as HTML. Accuracies are
+// compatible with guessing under all protocols that the study has, or tell. Of a probe that is random by construction
+// and so independent from map to map: 99 % binomial interval of one split's rows (repeats reuse the same maps). Of any
+// other: its bootstrap interval over seas; below guessing it does not tell either. Guessing: from the class frequencies
+// of the tested rows, in proportion to them to always naming the largest class.
+std::string probes_table(const Study& study, const Scenario& scenario);
+
+// Accuracies of baselines and floor, in total and by wave height, and claims, as HTML; with a link to the benchmark's
+// own report where its folder's name is an address.
+std::string benchmark_section(const StoredBenchmark& benchmark);
+
+// Everything on a page beside the numbers of the run.
+struct PageParts {
+  std::vector<ReportFigure> figures;
+  HotSpots hot_spots;
+  std::string missing;  // why no targets are drawn; empty: they are
+  std::vector<StoredBenchmark> benchmarks;
 };
 
-// Draws the figures, adds the numbers that only the report uses to metrics.json (member `report`), and writes
-// report.html last; returns the elapsed seconds. `targets` are those of the scenario.
-double write_report(const std::filesystem::path& directory, const Scenario& scenario, const SamplePlan& plan,
-                    const std::vector<Target>& targets, RunResults results, int threads,
-                    const StopFlag* stop = nullptr);
+// report.html with its text, without the page around it.
+std::string report_body(const RunResults& results, const Scenario& scenario, const PageParts& parts);
+
+// Writes metrics.json, draws the figures, and writes report.html last.
+void write_report(const ReportRequest& request);
 
 // The same from DIR/metrics.json, DIR/data and DIR/model of a finished run. `scenario` is that of the run; its targets
 // are drawn if their files are found, else a warning gives the reason. Throws InputError for a directory that is no

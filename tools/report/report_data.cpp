@@ -2,17 +2,17 @@
 #include "tools/report/report_data.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <set>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
-#include "sim/core/text/json.h"
 #include "tools/pipeline/train.h"
 #include "tools/pipeline/warnings.h"
 
@@ -134,37 +134,11 @@ ReportData load_report_data(const fs::path& directory, const Scenario& scenario,
 
 namespace {
 
-using nlohmann::ordered_json;
-
-ordered_json to_object(const Quartiles& q) {
-  return {{"lower", number_or_null(q.lower)}, {"median", number_or_null(q.median)}, {"upper", number_or_null(q.upper)}};
-}
-
 bool holds(const RowFilter& filter, std::size_t row, const SampleRecord& record) {
   const auto is_in = [row](const ColumnBin* bin) {
     return bin == nullptr || std::ranges::binary_search(bin->rows, row);
   };
   return (!filter.label || *filter.label == record.label) && is_in(filter.height) && is_in(filter.azimuth);
-}
-
-struct NamedValue {
-  const char* name;
-  double (*value)(const ReportRow&);
-};
-
-constexpr NamedValue kValues[] = {
-    {"mwr", [](const ReportRow& row) { return row.record.mwr; }},
-    {"ccf", [](const ReportRow& row) { return row.record.ccf; }},
-    {"sigma_r_m", [](const ReportRow& row) { return row.record.sigma_r_m; }},
-    {"sigma_v_mps", [](const ReportRow& row) { return row.record.sigma_v_mps; }},
-    {"centres", [](const ReportRow& row) { return static_cast<double>(row.record.centres); }},
-    {"line_explained", [](const ReportRow& row) { return row.line.explained; }},
-    {"scr_per_pulse_db", [](const ReportRow& row) { return row.record.scr_per_pulse_db; }},
-};
-
-// Members of a bin of a quantity: its mean under `name`, its text, its ends.
-ordered_json to_object(const char* name, const ColumnBin& bin) {
-  return {{name, bin.mean}, {"bin", bin.text}, {"lowest", bin.lowest}, {"highest", bin.highest}};
 }
 
 }  // namespace
@@ -178,50 +152,35 @@ Quartiles quartiles_of(const ReportData& data, const RowFilter& filter,
   return quartiles(std::move(values));
 }
 
-ordered_json report_numbers(const ReportData& data) {
-  ordered_json json;
-  json["features_by_wave_height"] = ordered_json::array();
-  for (const ColumnBin& height : data.heights.bins) {
-    for (int label = data.classes - 1; label >= 0; --label) {
-      ordered_json entry = to_object(kWaveHeightColumn, height);
-      entry["label"] = label;
-      for (const NamedValue& v : kValues) entry[v.name] = to_object(quartiles_of(data, {label, &height}, v.value));
-      json["features_by_wave_height"].push_back(entry);
-    }
+DivisionWords division_words(const SplitSpec& split, const std::string& division) {
+  DivisionWords words;
+  words.by_sea = split.by == "sea";
+  words.by = "by " + split.by;
+  words.unseen = words.by_sea ? "unseen seas" : fmt::format("values of {} that were not trained on", split.by);
+  words.heading = words.by_sea ? "Split by sea realisation (no test sea was seen in training)"
+                               : fmt::format("Split by {0} (no value of {0} is trained and tested on)", split.by);
+  // Text of Division: "tested on layout=ring only; split by ..."
+  constexpr std::string_view kTested = "tested on ", kOnly = " only; split by ";
+  const std::size_t end = division.rfind(kOnly);
+  if (!division.starts_with(kTested) || end == std::string::npos) return words;
+  const std::string held = division.substr(kTested.size(), end - kTested.size());
+  words.unseen = fmt::format("held-out maps ({}) of {}", held, words.unseen);
+  words.heading += fmt::format(", tested on {} only", held);
+  return words;
+}
+
+ClassNames class_names(const Scenario& scenario) {
+  constexpr std::size_t kMostNames = 3;
+  if (scenario.dataset.classes != default_classes()) return scenario.dataset.classes;
+  ClassNames classes;
+  for (const int label : {0, 1}) {
+    std::vector<std::string> names;
+    for (const TargetSpec& target : scenario.targets)
+      if (target.role == TargetRole::kClass && target.label == label) names.push_back(target.name);
+    classes.push_back(names.empty() || names.size() > kMostNames ? fmt::format("label {}", label)
+                                                                 : fmt::format("{}", fmt::join(names, ", ")));
   }
-  json["features_by_azimuth"] = ordered_json::array();
-  const ColumnBin* height = data.heights.bins.empty() ? nullptr : &data.heights.bins[data.shown_height];
-  for (const ColumnBin& azimuth : data.azimuths.bins) {
-    for (int label = data.classes - 1; label >= 0; --label) {
-      ordered_json entry = to_object("azimuth_deg", azimuth);
-      entry[kWaveHeightColumn] = height->text;
-      entry["label"] = label;
-      for (const NamedValue& v : kValues)
-        entry[v.name] = to_object(quartiles_of(data, {label, height, &azimuth}, v.value));
-      json["features_by_azimuth"].push_back(entry);
-    }
-  }
-  json["maps_shown"] = ordered_json::array();
-  for (const ShownMap& shown : data.shown) {
-    const SampleRecord& record = shown.sample.record;
-    const LineFit line = fit_line(shown.sample.centre_list);
-    json["maps_shown"].push_back({{"sample", record.sample},
-                                  {"target", record.target_name},
-                                  {"label", record.label},
-                                  {"azimuth_deg", record.azimuth_deg},
-                                  {"significant_wave_height_m", record.significant_wave_height_m},
-                                  {"peak_m", record.peak_m},
-                                  {"centres", record.centres},
-                                  {"mwr", record.mwr},
-                                  {"ccf", record.ccf},
-                                  {"sigma_r_m", record.sigma_r_m},
-                                  {"sigma_v_mps", record.sigma_v_mps},
-                                  {"line_slope_per_s", number_or_null(line.slope)},
-                                  {"line_explained", number_or_null(line.explained)},
-                                  {"scr_per_pulse_db", number_or_null(record.scr_per_pulse_db)},
-                                  {"scr_peak_cell_db", number_or_null(record.scr_peak_cell_db)}});
-  }
-  return json;
+  return classes;
 }
 
 }  // namespace seaglint

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Data of the report: the samples of a run without their maps, the few maps that it shows, quartiles of the features.
+// Data of the report: the samples of a run without their maps, the few maps that it shows, quartiles of the features;
+// the names of the classes and of the split.
 
 #include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,9 +16,10 @@
 #include "classify/dataset/directory/dataset_reader.h"
 #include "classify/model/classifiers.h"
 #include "classify/model/data_rows.h"
-#include "sim/core/numbers/quantile.h"
+#include "sim/core/numbers/real_functions.h"
 #include "sim/core/process/parallel.h"
 #include "sim/scenario/sample_plan.h"
+#include "sim/scenario/scenario.h"
 #include "tools/report/explorer.h"
 
 namespace seaglint {
@@ -52,6 +53,9 @@ struct ReportData {
   StoredAxes axes;                // of all maps
   FeatureMatrix handmade;         // of all rows
   FeatureMatrix fused;            // the same plus the network's embeddings
+
+  // Bin of the wave heights that the figures by aspect have; null without rows.
+  const ColumnBin* height_shown() const { return heights.bins.empty() ? nullptr : &heights.bins[shown_height]; }
 };
 
 // Collects the data of the report from shards, in their order. Maps shown: one of each class at the aspects nearest 80
@@ -87,19 +91,46 @@ class ReportCollector {
 ReportData load_report_data(const std::filesystem::path& directory, const Scenario& scenario, const SamplePlan& plan,
                             const StopFlag* stop);
 
-// Quartiles of the features by class, wave height and aspect, for the report's text and figures.
+// Quartiles of the features by class, wave height and aspect.
 
 // Selects rows; an absent member selects all. Bins are those of `heights` and `azimuths` of the data.
 struct RowFilter {
-  std::optional<int> label;
+  std::optional<int> label = {};
   const ColumnBin* height = nullptr;
   const ColumnBin* azimuth = nullptr;
+};
+
+// Numbers of a row whose quartiles are in metrics.json.
+struct ReportQuantity {
+  const char* name;
+  double (*value)(const ReportRow&);
+};
+inline constexpr ReportQuantity kReportQuantities[] = {
+    {"mwr", [](const ReportRow& row) { return row.record.mwr; }},
+    {"ccf", [](const ReportRow& row) { return row.record.ccf; }},
+    {"sigma_r_m", [](const ReportRow& row) { return row.record.sigma_r_m; }},
+    {"sigma_v_mps", [](const ReportRow& row) { return row.record.sigma_v_mps; }},
+    {"centres", [](const ReportRow& row) { return static_cast<double>(row.record.centres); }},
+    {"line_explained", [](const ReportRow& row) { return row.line.explained; }},
+    {"scr_per_pulse_db", [](const ReportRow& row) { return row.record.scr_per_pulse_db; }},
 };
 
 Quartiles quartiles_of(const ReportData& data, const RowFilter& filter,
                        const std::function<double(const ReportRow&)>& value);
 
-// Numbers of the report beyond the study: features by class and wave height, line fit by aspect, maps shown.
-nlohmann::ordered_json report_numbers(const ReportData& data);
+// The group protocol in words, plain text.
+struct DivisionWords {
+  bool by_sea = true;   // whole seas on one side
+  std::string by;       // "by sea", "by azimuth_deg"
+  std::string unseen;   // what is tested: "unseen seas", "values of azimuth_deg that were not trained on"
+  std::string heading;  // "Split by sea realisation (no test sea was seen in training)"
+};
+// `division`: Study::division.
+DivisionWords division_words(const SplitSpec& split, const std::string& division);
+
+// Names by label: dataset.classes where the scenario names them; else the names of the targets of each label in the
+// scenario's order, "a, b"; of more than three "label 0" or "label 1". Plain text.
+using ClassNames = std::vector<std::string>;
+ClassNames class_names(const Scenario& scenario);
 
 }  // namespace seaglint

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 
@@ -23,7 +22,6 @@
 #include "tools/pipeline/scene.h"
 #include "tools/report/explorer.h"
 #include "tools/report/report_data.h"
-#include "tools/report/report_text.h"
 
 namespace seaglint {
 
@@ -31,18 +29,22 @@ namespace {
 
 constexpr std::size_t kMostDrawnPlots = 12;  // of one report; metrics.json has the others, too
 
-constexpr std::pair<const char*, const char*> kGroups[3] = {
+constexpr std::pair<const char*, const char*> kGroupLabels[3] = {
     {"handmade", "hand-made"}, {"cnn", "CNN"}, {"fused", "fused"}};
 
-std::string split_name(const nlohmann::ordered_json& metrics, const std::string& protocol) {
-  if (protocol == "random") return "random split of the maps";
-  const DivisionWords division = division_words(metrics);
-  return division.by_sea ? "split by sea realisation" : "split " + division.by;
+std::string split_name(const SplitSpec& split, Protocol protocol) {
+  if (protocol == Protocol::kRandom) return "random split of the maps";
+  return split.by == "sea" ? "split by sea realisation" : "split by " + split.by;
 }
 
-void add_curve(Series& series, const nlohmann::ordered_json& curve) {
-  for (const double x : curve.at("false_alarms")) series.x.push_back(100 * x);
-  for (const double y : curve.at("detections")) series.y.push_back(100 * y);
+Series curve_of(std::string name, const std::vector<RocPoint>& points) {
+  Series series;
+  series.name = std::move(name);
+  for (const RocPoint& point : points) {
+    series.x.push_back(100 * point.false_alarms);
+    series.y.push_back(100 * point.detections);
+  }
+  return series;
 }
 
 // Of two classes, without curves.
@@ -56,44 +58,27 @@ LinePlot empty_roc_plot(std::string title) {
 
 Series chance() { return {"chance", {0, 100}, {0, 100}, {}, SeriesStyle::kLines}; }
 
-// Of more than two classes: each against the rest, by the fused features.
-LinePlot rest_roc_plot(const nlohmann::ordered_json& curves, const std::string& split) {
-  LinePlot plot;
-  plot.title = "ROC of each class against the rest, fused, " + split;
-  plot.x = {"false alarms: others declared the class (%)", AxisRange{0, 100}, false};
-  plot.y = {"detections of the class (%)", AxisRange{0, 102}, false};
-  for (const auto& [name, curve] : curves.items()) {
-    Series series;
-    series.name = name;
-    add_curve(series, curve);
-    plot.series.push_back(std::move(series));
-  }
-  plot.series.push_back(chance());
-  return plot;
-}
-
-// Accuracy of each group of features over the values `x` of the bins of bins_of(group).
-template <class BinsOf>
-LinePlot binned_accuracy_plot(std::string title, FigureAxis axis, const char* x, BinsOf bins_of) {
+// Accuracy of each group of features, %, with 95 % intervals, over the means of the bins of bins_of(group).
+LinePlot binned_accuracy_plot(std::string title, FigureAxis axis,
+                              const std::function<const std::vector<BinnedScores>&(const char* group)>& bins_of) {
   LinePlot plot;
   plot.title = std::move(title);
   plot.x = std::move(axis);
   double least = std::numeric_limits<double>::infinity(), most = -least, lowest = 50;
-  for (const auto& row : bins_of(kGroups[0].first)) {
-    least = std::min(least, value_or_nan(row.at(x)));
-    most = std::max(most, value_or_nan(row.at(x)));
+  for (const BinnedScores& bin : bins_of(kGroupLabels[0].first)) {
+    least = std::min(least, bin.mean);
+    most = std::max(most, bin.mean);
   }
   const double span = most > least ? most - least : std::max(most, 0.0);
   double shift = -0.012 * span;  // offset, so that the error bars do not overlap
-  for (const auto& [group, label] : kGroups) {
+  for (const auto& [group, label] : kGroupLabels) {
     Series series;
     series.name = label;
     series.style = SeriesStyle::kLinesPoints;
-    for (const auto& row : bins_of(group)) {
-      const double accuracy = 100 * value_or_nan(row.at("accuracy"));
-      const double low = 100 * value_or_nan(row.at("accuracy_95").at(0)),
-                   high = 100 * value_or_nan(row.at("accuracy_95").at(1));
-      series.x.push_back(value_or_nan(row.at(x)) + shift);
+    for (const BinnedScores& bin : bins_of(group)) {
+      const double accuracy = 100 * bin.scores.accuracy, low = 100 * bin.scores.accuracy_95.low,
+                   high = 100 * bin.scores.accuracy_95.high;
+      series.x.push_back(bin.mean + shift);
       series.y.push_back(accuracy);
       series.interval.push_back({std::isfinite(low) ? low : accuracy, std::isfinite(high) ? high : accuracy});
       lowest = std::min(lowest, series.interval.back()[0]);
@@ -105,61 +90,61 @@ LinePlot binned_accuracy_plot(std::string title, FigureAxis axis, const char* x,
   return plot;
 }
 
-}  // namespace
-
-LinePlot accuracy_plot(const nlohmann::ordered_json& metrics, const std::string& protocol) {
+LinePlot accuracy_plot(const Study& study, const SplitSpec& split, Protocol protocol) {
   return binned_accuracy_plot(
-      "Accuracy, " + split_name(metrics, protocol), {"significant wave height (m)", {}, false},
-      kWaveHeightColumn, [&](const char* group) -> const auto& {
-        return metrics.at(group).at(protocol).at("by_wave_height");
+      "Accuracy, " + split_name(split, protocol),
+      {"significant wave height (m)", {}, false}, [&](const char* group) -> const auto& {
+        return outcome_of(study, group, protocol).primary.by_wave_height;
       });
 }
 
-std::vector<std::pair<std::string, LinePlot>> drawn_accuracy_plots(const nlohmann::ordered_json& metrics) {
+// The same under the group protocol over the drawn keys of numbers, by key: over the means of their bins.
+std::vector<std::pair<std::string, LinePlot>> drawn_accuracy_plots(const Study& study, const SplitSpec& split) {
   std::vector<std::pair<std::string, LinePlot>> plots;
-  const auto& handmade = metrics.at("handmade").at("group");
-  if (!handmade.contains("by_drawn")) return plots;
-  for (std::size_t i = 0; i < handmade.at("by_drawn").size() && plots.size() < kMostDrawnPlots; ++i) {
-    const auto& condition = handmade.at("by_drawn").at(i);
-    const std::string key = condition.at("column"), units = condition.at("units");
-    const auto& bins = condition.at("bins");
-    if (bins.size() < 2 || !bins.front().at("mean").is_number()) continue;  // words and single values have no axis
-    plots.emplace_back(key, binned_accuracy_plot(
-                                "Accuracy, " + split_name(metrics, "group"),
-                                {units == "1" ? key : fmt::format("{} ({})", key, units), {}, false},
-                                "mean", [&](const char* group) -> const auto& {
-                                  return metrics.at(group).at("group").at("by_drawn").at(i).at("bins");
-                                }));
+  const std::vector<ConditionScores>& drawn = outcome_of(study, "handmade").by_drawn;
+  for (std::size_t i = 0; i < drawn.size() && plots.size() < kMostDrawnPlots; ++i) {
+    const auto& [key, units, bins] = drawn[i];
+    if (bins.size() < 2 || !std::isfinite(bins.front().mean)) continue;  // words and single values have no axis
+    plots.emplace_back(
+        key, binned_accuracy_plot(
+                 "Accuracy, " + split_name(split, Protocol::kGroup),
+                 {units == "1" ? key : fmt::format("{} ({})", key, units), {}, false},
+                 [&](const char* group) -> const auto& { return outcome_of(study, group).by_drawn[i].bins; }));
   }
   return plots;
 }
 
-std::optional<LinePlot> roc_by_wave_height_plot(const nlohmann::ordered_json& metrics) {
-  LinePlot plot = empty_roc_plot("ROC by wave height, fused, " + split_name(metrics, "group"));
-  for (const auto& row : metrics.at("fused").at("group").at("by_wave_height")) {
-    const auto& roc = row.at("roc");
-    if (!roc.contains("detections")) return std::nullopt;  // more than two classes
-    if (roc.at("detections").empty()) continue;            // maps of one class only
-    Series series;
-    series.name = fmt::format("{} m, AUC {:.3f}", row.at("bin").get<std::string>(), value_or_nan(row.at("auc")));
-    add_curve(series, roc);
-    plot.series.push_back(std::move(series));
+// Detections over false alarms of the fused features under the group protocol, a curve for each bin of the wave
+// height; none of more than two classes, and with one bin.
+std::optional<LinePlot> roc_by_wave_height_plot(const Study& study, const SplitSpec& split) {
+  LinePlot plot = empty_roc_plot("ROC by wave height, fused, " + split_name(split, Protocol::kGroup));
+  for (const BinnedScores& bin : outcome_of(study, "fused").primary.by_wave_height) {
+    if (bin.roc.size() != 1) return std::nullopt;  // more than two classes
+    if (bin.roc.front().empty()) continue;         // maps of one class only
+    plot.series.push_back(curve_of(fmt::format("{} m, AUC {:.3f}", bin.text, bin.scores.auc), bin.roc.front()));
   }
   if (plot.series.size() < 2) return std::nullopt;
   plot.series.push_back(chance());
   return plot;
 }
 
-LinePlot roc_plot(const nlohmann::ordered_json& metrics, const std::string& protocol) {
-  const auto& fused = metrics.at("fused").at(protocol).at("roc");
-  if (!fused.contains("detections")) return rest_roc_plot(fused, split_name(metrics, protocol));
-  LinePlot plot = empty_roc_plot("ROC, " + split_name(metrics, protocol));
-  for (const auto& [group, label] : kGroups) {
-    const auto& scores = metrics.at(group).at(protocol);
-    Series series;
-    series.name = fmt::format("{}, AUC {:.3f}", label, value_or_nan(scores.at("auc")));
-    add_curve(series, scores.at("roc"));
-    plot.series.push_back(std::move(series));
+}  // namespace
+
+LinePlot roc_plot(const Study& study, const SplitSpec& split, Protocol protocol) {
+  LinePlot plot = empty_roc_plot("ROC, " + split_name(split, protocol));
+  const std::vector<std::vector<RocPoint>>& fused = outcome_of(study, "fused", protocol).roc;
+  if (fused.size() > 1) {
+    plot.title = "ROC of each class against the rest, fused, " + split_name(split, protocol);
+    plot.x.label = "false alarms: others declared the class (%)";
+    plot.y.label = "detections of the class (%)";
+    for (std::size_t label = 0; label < fused.size(); ++label)
+      plot.series.push_back(curve_of(study.classes[label], fused[label]));
+  } else {
+    for (const auto& [group, label] : kGroupLabels) {
+      const Outcome& outcome = outcome_of(study, group, protocol);
+      plot.series.push_back(
+          curve_of(fmt::format("{}, AUC {:.3f}", label, outcome.primary.scores.auc), outcome.roc.front()));
+    }
   }
   plot.series.push_back(chance());
   return plot;
@@ -277,21 +262,20 @@ void add_maps(FigureList& list, const ReportData& data) {
   }
 }
 
-void add_scores(FigureList& list, const nlohmann::ordered_json& metrics) {
-  const DivisionWords division = division_words(metrics);
-  const std::string unseen = escape_html(division.unseen);
-  const bool has_random = metrics.at("handmade").contains("random");
-  for (const char* protocol : {"random", "group"}) {
-    if (!metrics.at("handmade").contains(protocol)) continue;
-    list.add("accuracy", fmt::format("accuracy_{}", protocol), accuracy_plot(metrics, protocol), {640, 400},
-             protocol == std::string("random") ? "Random split: the paper's protocol. Maps of the same sea lie on both "
-                                                 "sides. Bars: 95 % bootstrap over seas."
-                                               : fmt::format("Split {}: tested on {}. No bar where a height has one "
-                                                             "test sea only.",
-                                                             division.by, unseen),
-             fmt::format("Accuracy against wave height, {} split", protocol));
+void add_scores(FigureList& list, const Study& study, const SplitSpec& split) {
+  const DivisionWords division = division_words(split, study.division);
+  const std::string unseen = escape_html(division.unseen), by = escape_html(division.by);
+  const std::vector<Outcome>& outcomes = study.groups.front().outcomes;
+  for (const Outcome& outcome : outcomes) {
+    const bool random = outcome.protocol == Protocol::kRandom;
+    list.add("accuracy", fmt::format("accuracy_{}", name(outcome.protocol)),
+             accuracy_plot(study, split, outcome.protocol), {640, 400},
+             random ? "Random split: the paper's protocol. Maps of the same sea lie on both sides. Bars: 95 % "
+                      "bootstrap over seas."
+                    : fmt::format("Split {}: tested on {}. No bar where a height has one test sea only.", by, unseen),
+             fmt::format("Accuracy against wave height, {} split", name(outcome.protocol)));
   }
-  for (auto& [key, plot] : drawn_accuracy_plots(metrics)) {
+  for (auto& [key, plot] : drawn_accuracy_plots(study, split)) {
     list.add(
         "accuracy", "accuracy_by_" + file_word(key), std::move(plot), {640, 400},
         fmt::format("The same for {} by <code>{}</code>, which is drawn: at most {} bins of equal numbers of maps, "
@@ -299,17 +283,17 @@ void add_scores(FigureList& list, const nlohmann::ordered_json& metrics) {
                     unseen, escape_html(key), kMostBins),
         "Accuracy against " + key);
   }
-  for (const char* protocol : {"random", "group"}) {
-    if (!metrics.at("handmade").contains(protocol)) continue;
-    list.add("accuracy", fmt::format("roc_{}", protocol), roc_plot(metrics, protocol), {640, 400},
-             protocol == std::string("random")
+  for (const Outcome& outcome : outcomes) {
+    list.add("accuracy", fmt::format("roc_{}", name(outcome.protocol)), roc_plot(study, split, outcome.protocol),
+             {640, 400},
+             outcome.protocol == Protocol::kRandom
                  ? "Receiver operating characteristic over the threshold of the trees' probability, all test "
                    "predictions of the random split."
                  : fmt::format("{} for {}. Maps of one sea are not independent.",
-                               has_random ? "The same" : "Receiver operating characteristic", unseen),
-             fmt::format("ROC, {} split", protocol));
+                               outcomes.size() > 1 ? "The same" : "Receiver operating characteristic", unseen),
+             fmt::format("ROC, {} split", name(outcome.protocol)));
   }
-  if (std::optional<LinePlot> plot = roc_by_wave_height_plot(metrics))
+  if (std::optional<LinePlot> plot = roc_by_wave_height_plot(study, split))
     list.add("accuracy", "roc_by_wave_height", std::move(*plot), {640, 400},
              fmt::format("The same of the fused features by wave height, {}.", unseen), "ROC by wave height");
 }
@@ -457,8 +441,9 @@ LinePlot angle_plot(const std::string& title, const Trajectory& body, const std:
 void add_sea(FigureList& list, const Scenario& scenario, const SamplePlan& plan, const std::vector<Target>& targets,
              const SampleRecord& record) {
   constexpr double kExcerptS = 60;
-  const int state = static_cast<int>(record.sea_state), realisation = static_cast<int>(record.realisation);
-  const Scene scene = make_scene(scenario, plan, targets, state, realisation, kExcerptS);
+  const SeaChoice choice{static_cast<std::size_t>(record.sea_state), static_cast<std::size_t>(record.realisation)};
+  const Scene scene =
+      make_scene({.scenario = scenario, .targets = targets, .sea = choice, .plan = &plan, .at_least_s = kExcerptS});
   std::vector<double> times;
   for (int i = 0; i <= 600; ++i) times.push_back(0.1 * i);
 
@@ -471,7 +456,7 @@ void add_sea(FigureList& list, const Scenario& scenario, const SamplePlan& plan,
   for (const double t : times) full.y.push_back(scene.sea.surface(0, 0, t).elevation);
   waves.series.push_back(std::move(full));
   list.add("sea", "sea_surface", std::move(waves), {640, 330},
-           fmt::format("One minute of sea realisation {}, common to all targets and aspects.", realisation + 1),
+           fmt::format("One minute of sea realisation {}, common to all targets and aspects.", choice.realisation + 1),
            "Elevation of the sea against time");
   for (std::size_t t = 0; t < targets.size(); ++t) {
     if (scene.bodies[t].empty()) continue;
@@ -505,19 +490,18 @@ void add_targets(FigureList& list, const std::vector<Target>& targets) {
 
 }  // namespace
 
-std::vector<ReportFigure> draw_report_figures(const fs::path& directory, const Scenario& scenario,
-                                              const SamplePlan& plan, const std::vector<Target>& targets,
-                                              const ReportData& data, const nlohmann::ordered_json& metrics,
-                                              int threads, const StopFlag* stop) {
-  FigureList list(directory);
+std::vector<ReportFigure> draw_report_figures(const ReportRequest& request) {
+  const auto& [data, numbers] = request.results;
+  const Scenario& scenario = request.scenario;
+  FigureList list(request.directory);
   const ClassNames classes = class_names(scenario);
   add_maps(list, data);
-  add_scores(list, metrics);
+  add_scores(list, numbers.study, scenario.learning.split);
   add_features(list, data, classes, scenario.seed);
   add_aspects(list, data, classes);
-  if (!data.shown.empty()) add_sea(list, scenario, plan, targets, data.shown.front().sample.record);
-  add_targets(list, targets);
-  return list.draw(threads, stop);
+  if (!data.shown.empty()) add_sea(list, scenario, request.plan, request.targets, data.shown.front().sample.record);
+  add_targets(list, request.targets);
+  return list.draw(thread_count(request.threads), request.stop);
 }
 
 }  // namespace seaglint

@@ -5,34 +5,24 @@
 // maps, features, aspects, sea, targets.
 
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "sim/core/process/parallel.h"
+#include "sim/scenario/sample_plan.h"
 #include "sim/scenario/scenario.h"
 #include "tools/figure/figure.h"
 #include "tools/pipeline/scene.h"
+#include "tools/report/metrics.h"
 #include "tools/report/report_data.h"
 
 namespace seaglint {
 
-// Accuracy over wave height and receiver operating characteristics, from metrics.json.
-
-// Accuracy of the three groups of features under a protocol (random, group), %, with 95 % intervals.
-LinePlot accuracy_plot(const nlohmann::ordered_json& metrics, const std::string& protocol);
-
-// The same under the group protocol over the drawn keys of numbers, by key: over the means of their bins.
-std::vector<std::pair<std::string, LinePlot>> drawn_accuracy_plots(const nlohmann::ordered_json& metrics);
-
-// Detections over false alarms of the fused features under the group protocol, %, a curve for each bin of the wave
-// height; none of more than two classes, and with one bin.
-std::optional<LinePlot> roc_by_wave_height_plot(const nlohmann::ordered_json& metrics);
-
-// Detections over false alarms, %.
-LinePlot roc_plot(const nlohmann::ordered_json& metrics, const std::string& protocol);
+// Detections over false alarms, %: of two classes a curve of each group of features, of more a curve of each class
+// against the rest by the fused features.
+LinePlot roc_plot(const Study& study, const SplitSpec& split, Protocol protocol);
 
 // A figure of the report; both files show the same picture; `svg` is empty for mesh pictures and maps.
 struct ReportFigure {
@@ -44,11 +34,18 @@ struct ReportFigure {
   std::string plot;         // plot_json(); empty: the picture alone
 };
 
-// Draws all figures into the run's directory, on `threads` threads; the list has the order of the page. `targets` are
-// those of the scenario; if empty, neither targets nor motion are drawn.
-std::vector<ReportFigure> draw_report_figures(const std::filesystem::path& directory, const Scenario& scenario,
-                                              const SamplePlan& plan, const std::vector<Target>& targets,
-                                              const ReportData& data, const nlohmann::ordered_json& metrics,
-                                              int threads, const StopFlag* stop);
+// A report to be written.
+struct ReportRequest {
+  const std::filesystem::path& directory;
+  const Scenario& scenario;
+  const SamplePlan& plan;
+  const std::vector<Target>& targets;  // of the scenario; if empty, neither targets nor motion are drawn
+  RunResults& results;                 // gets the seconds of the stage `report`
+  int threads = 0;                     // 0 = all processors
+  const StopFlag* stop = nullptr;
+};
+
+// Draws all figures into the run's directory; the list has the order of the page.
+std::vector<ReportFigure> draw_report_figures(const ReportRequest& request);
 
 }  // namespace seaglint

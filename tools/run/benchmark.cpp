@@ -4,14 +4,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/core/text/names.h"
 #include "sim/scenario/sample_plan.h"
 #include "tools/evaluate/claims.h"
-#include "tools/report/report_text.h"
+#include "tools/report/metrics.h"
 
 namespace seaglint {
 
@@ -79,19 +78,10 @@ std::string run_benchmark(const Scenario& scenario, bool small, const fs::path& 
   const RunResult run = run_scenario(scenario, directory, {resume, threads, StudyScope::kPrimary}, stop);
   const SamplePlan plan(scenario);
   const std::size_t seas = plan.sea_states().size() * static_cast<std::size_t>(scenario.dataset.realisations_per_case);
-  nlohmann::ordered_json json{{"benchmark", scenario.name},
-                              {"small", small},
-                              {"program_version", run.metrics.at("version")},
-                              {"seed", scenario.seed},
-                              {"maps", plan.size()},
-                              {"seas", seas},
-                              {"division", run.study.division},
-                              {"split_repeats", scenario.learning.split_repeats}};
-  json.update(benchmark_json(run.study));
-  write_file(directory / kBenchmarkFile, json.dump(2) + "\n");
-  return fmt::format("{}\n{}\n{}\nFigures: {}\n", benchmark_text(run.study),
-                     benchmark_row(scenario.name, plan.size(), seas, run.study), run.times,
-                     (directory / kBenchmarkFile).string());
+  const BenchmarkRecord record{scenario.name, small, scenario.seed, plan.size(), seas, scenario.learning.split_repeats};
+  write_file(directory / kBenchmarkFile, benchmark_json(record, run.study));
+  return fmt::format("{}\n{}\n{}\nFigures: {}\n", benchmark_text(run.study), benchmark_row(record, run.study),
+                     run.times, (directory / kBenchmarkFile).string());
 }
 
 }  // namespace seaglint

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <chrono>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -13,10 +12,11 @@
 #include "classify/dataset/directory/dataset_writer.h"
 #include "classify/model/division.h"
 #include "classify/model/study.h"
+#include "seaglint_version.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/scenario/sample_plan.h"
-#include "sim/scenario/writer.h"
+#include "sim/scenario/scenario.h"
 #include "tools/figure/figure.h"
 #include "tools/pipeline/generate.h"
 #include "tools/pipeline/train.h"
@@ -157,30 +157,34 @@ RunResult run_scenario(const Scenario& scenario, const fs::path& directory, cons
   });
   ReportCollector collector(scenario, plan);
   TrainedModel model = clock.time("learning", [&] {
-    const DatasetReader data(directory / "data");
-    warn(data_set_warnings(data));
-    return train_model(
-        data, scenario, directory / "model", options.threads, stop, [&](const Shard& shard) { collector.add(shard); },
-        options.scope);
+    return train_model({.data_sets = {directory / "data"},
+                        .model_directory = directory / "model",
+                        .scenario = &scenario,
+                        .threads = options.threads,
+                        .stop = stop,
+                        .use = [&](const Shard& shard) { collector.add(shard); },
+                        .scope = options.scope});
   });
+  warn(model.warnings);
 
-  // metrics.json of the run contains the model's numbers and the times of this run; `report` reads it.
-  nlohmann::ordered_json& metrics = model.metrics;
-  metrics["run"]["threads"] = thread_count(options.threads);
-  metrics["run"]["maps_made"] = made.made;
-  metrics["run"]["maps_kept"] = made.kept;
-  for (const auto& [stage, seconds] : clock.seconds()) metrics["run"]["seconds"][stage] = seconds;
-  write_file(directory / kMetricsFile, metrics.dump(2) + "\n");
   write_file(directory / "scenario.yaml", effective_yaml(scenario));
-  clock.add("report",
-            write_report(directory, scenario, plan, pipeline->targets(),
-                         {collector.with_embeddings(model.study.embeddings), metrics}, options.threads, stop));
+  const Manifest manifest = DatasetReader(directory / "data").manifest();
+  NetworkRecord network = record_of(*model.study.network);
+  RunResults results{collector.with_embeddings(model.study.embeddings),
+                     {std::move(model.study),
+                      std::move(network),
+                      {thread_count(options.threads), made.made, made.kept, clock.seconds()},
+                      kVersion,
+                      manifest.processors,
+                      manifest.scenario_sha256}};
+  write_report({directory, scenario, plan, pipeline->targets(), results, options.threads, stop});
 
   std::string text;
-  for (const auto& [stage, seconds] : clock.seconds()) text += fmt::format("{:<10}{:8.1f} s\n", stage, seconds);
+  for (const auto& [stage, seconds] : results.numbers.run.seconds)
+    text += fmt::format("{:<10}{:8.1f} s\n", stage, seconds);
   if (made.kept > 0) text += fmt::format("{} of {} maps were there already\n", made.kept, made.kept + made.made);
   text += fmt::format("\nReport: {}\n", (directory / kReportFile).string());
-  return {std::move(model.study), std::move(metrics), std::move(text)};
+  return {std::move(results.numbers.study), std::move(text)};
 }
 
 }  // namespace seaglint

@@ -5,7 +5,6 @@
 // reject, before any map is made.
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "classify/model/study.h"
@@ -36,8 +35,7 @@ struct RunOptions {
 
 struct RunResult {
   Study study;
-  nlohmann::ordered_json metrics;  // as in metrics.json
-  std::string times;               // seconds per stage, maps that were there already, path of the report
+  std::string times;  // seconds per stage, maps that were there already, path of the report
 };
 
 // Without `resume` the directory must be new or empty.

@@ -10,7 +10,6 @@
 #include <set>
 #include <string_view>
 
-#include "classify/dataset/directory/croissant_audit.h"
 #include "classify/dataset/directory/dataset_reader.h"
 #include "classify/dataset/directory/dataset_writer.h"
 #include "classify/dataset/directory/export.h"
@@ -115,8 +114,6 @@ class Auditor {
     result_.groups = seas_of_group_.size();
     for (const MergedFileVerifier& merged : merged_)
       result_.faults.insert(result_.faults.end(), merged.faults().begin(), merged.faults().end());
-    const std::vector<std::string> of_croissant = croissant_faults(reader_.directory(), manifest());
-    result_.faults.insert(result_.faults.end(), of_croissant.begin(), of_croissant.end());
     if (planned_ < plan_.size())
       fault("data set", fmt::format("{} of {} samples are missing", plan_.size() - planned_, plan_.size()));
   }

@@ -34,7 +34,6 @@ struct Audit {
 //   other magnitude; columns and scattering centres that are not finite;
 // - hop codes beyond the scenario's carriers; axes that differ between shards;
 // - a merged file in the directory that is damaged, of another manifest or different from the shards;
-// - a croissant.json whose files are others (croissant_audit.h);
 // - a sea realisation in two groups or two in one group: splits by group would leak.
 // Throws InputError when manifest or scenario cannot be read, Interrupted when *stop becomes true.
 Audit audit(const std::filesystem::path& directory, const StopFlag* stop = nullptr);

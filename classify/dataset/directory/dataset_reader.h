@@ -18,7 +18,8 @@ inline constexpr const char* kScenarioFile = "scenario.yaml";
 inline constexpr const char* kInputsFile = "inputs.sha256";
 inline constexpr const char* kManifestFile = "manifest.json";
 inline constexpr const char* kDataCardFile = "README.md";
-inline constexpr const char* kCroissantFile = "croissant.json";  // by `seaglint card`, as is the next
+inline constexpr const char* kCroissantFile =
+    "croissant.json";  // by Dataset.card() of the Python package, as is the next
 inline constexpr const char* kColumnsFile = "columns.csv";
 inline constexpr const char* kSingleFiles[] = {kScenarioFile, kInputsFile,    kManifestFile,
                                                kDataCardFile, kCroissantFile, kColumnsFile};

@@ -15,16 +15,12 @@
 #include <vector>
 
 #include "classify/dataset/directory/dataset_reader.h"
-#include "classify/dataset/format/layout.h"
 #include "classify/dataset/format/manifest.h"
 #include "classify/dataset/format/sample.h"
 #include "classify/dataset/format/shard.h"
 #include "sim/scenario/sample_plan.h"
 
 namespace seaglint {
-
-// Keys that a scenario draws, in the order of their columns.
-DrawnKeys drawn_keys(const Scenario& scenario);
 
 // The part of a sample's row that the scenario determines: sea, view, target, interval, keys and label. Fills the
 // columns `sample` to `radar_key`; measured columns are zero. sample < plan.size(); plan of the same scenario.

@@ -12,7 +12,6 @@
 #include "classify/dataset/directory/dataset_reader.h"
 #include "classify/dataset/directory/dataset_writer.h"
 #include "classify/dataset/format/hdf5_file.h"
-#include "classify/dataset/format/layout.h"
 #include "classify/dataset/format/manifest.h"
 #include "classify/dataset/format/npz.h"
 #include "sim/core/process/error.h"
@@ -95,26 +94,6 @@ void require_same(const fs::path& file, const Shard& shard, const StoredAxes& ax
       throw InputError(fmt::format("{}: foreign: other drawn keys than the first shard", file.string()));
 }
 
-void write_columns(Hdf5Writer& merged, std::uint64_t first, const std::vector<Sample>& samples) {
-  for (const SampleColumn& column : sample_columns()) {
-    std::visit(
-        [&](auto member) {
-          using T = typename MemberType<decltype(member)>::Type;
-          std::vector<T> values;
-          for (const Sample& sample : samples) values.push_back(sample.record.*member);
-          if constexpr (std::is_same_v<T, std::string>) {
-            merged.write_names(column_path(column), first, values);
-          } else {
-            merged.write<T>(column_path(column), first, values);
-          }
-        },
-        column.member);
-  }
-  std::vector<const SampleRecord*> records;
-  for (const Sample& sample : samples) records.push_back(&sample.record);
-  write_drawn(merged, first, records);
-}
-
 void write_merged(const DatasetReader& reader, const fs::path& temporary, const fs::path& file, const StopFlag* stop) {
   const Manifest& manifest = reader.manifest();
   Hdf5Writer merged(temporary, Hdf5Version::k110);
@@ -122,15 +101,7 @@ void write_merged(const DatasetReader& reader, const fs::path& temporary, const 
   merged.attribute("manifest_sha256", sha256_file(reader.directory() / kManifestFile));
 
   merged.group("/samples");
-  const Dimensions size{manifest.samples}, chunk{std::min(manifest.samples, kColumnChunk)};
-  for (const SampleColumn& column : sample_columns()) {
-    std::visit(
-        [&](auto member) {
-          merged.array(column_path(column), array_type_of<typename MemberType<decltype(member)>::Type>(), size, chunk,
-                       column_text(column, manifest.classes));
-        },
-        column.member);
-  }
+  const std::uint64_t chunk = std::min(manifest.samples, kColumnChunk);
   StoredAxes axes;
   DrawnKeys keys;
   bool complex_maps = false;
@@ -140,12 +111,17 @@ void write_merged(const DatasetReader& reader, const fs::path& temporary, const 
     const Shard shard = reader.shard(i);
     if (i == 0) {
       keys = drawn_keys(shard.samples.front().record);
-      create_drawn(merged, keys, manifest.samples, chunk[0]);
       axes = shard.axes;
       complex_maps = !shard.samples.front().complex_values.empty();
     }
     require_same(reader.directory() / manifest.shards[i].file, shard, axes, complex_maps, keys);
-    write_columns(merged, manifest.shards[i].first_sample, shard.samples);
+    const StoredColumns table = stored_columns(shard.rows(), manifest.classes);
+    if (i == 0) {
+      for (const StoredColumn& column : table.samples) create_column(merged, column, manifest.samples, chunk);
+      create_drawn(merged, table, manifest.samples, chunk);
+    }
+    for (const auto* columns : {&table.samples, &table.drawn})
+      for (const StoredColumn& column : *columns) write_column(merged, column, manifest.shards[i].first_sample);
     progress.advance();
   }
 
@@ -254,32 +230,10 @@ void MergedFileVerifier::compare(std::size_t index, const Shard& shard) {
   if (!content_) return;
   try {
     const std::uint64_t first_row = reader_->manifest().shards[index].first_sample, count = shard.samples.size();
-    for (const SampleColumn& column : sample_columns()) {
-      std::visit(
-          [&](auto member) {
-            using T = typename MemberType<decltype(member)>::Type;
-            std::vector<T> stored;
-            if constexpr (std::is_same_v<T, std::string>) {
-              stored = content_->names(column_path(column), first_row, count);
-            } else {
-              stored = content_->rows<T>(column_path(column), first_row, count);
-            }
-            for (std::size_t i = 0; i < count; ++i) {
-              const T& there = shard.samples[i].record.*member;
-              // Rows without clutter contain NaN, which is not equal to itself.
-              if (!(stored[i] == there || (stored[i] != stored[i] && there != there)))
-                throw WorkError(fmt::format("{} of sample {} is not the shard's", column_path(column), first_row + i));
-            }
-          },
-          column.member);
-    }
-    std::vector<SampleRecord> drawn(count);
-    std::vector<SampleRecord*> rows;
-    for (SampleRecord& record : drawn) rows.push_back(&record);
-    read_drawn(*content_, first_row, rows);
+    const std::vector<SampleRecord> stored = read_rows(*content_, first_row, count);
     for (std::size_t i = 0; i < count; ++i) {
-      if (!same_drawn(drawn[i], shard.samples[i].record))
-        throw WorkError(fmt::format("a drawn value of sample {} is not the shard's", first_row + i));
+      if (const std::string column = differing_column(stored[i], shard.samples[i].record); !column.empty())
+        throw WorkError(fmt::format("{} of sample {} is not the shard's", column, first_row + i));
     }
     if (content_->read<double>(kRangeAxis.path, 1).values != shard.axes.range_m ||
         content_->read<double>(kVelocityAxis.path, 1).values != shard.axes.velocity_mps)
@@ -324,17 +278,6 @@ NpzArray streamed(const Range& range, const StoredArray& array, const char* type
   return {name_of(array.path), type, std::move(shape), next};
 }
 
-template <class T>
-std::string column_bytes(const std::vector<SampleRecord>& rows, T SampleRecord::*member) {
-  std::vector<T> values;
-  for (const SampleRecord& row : rows) values.push_back(row.*member);
-  if constexpr (std::is_same_v<T, std::string>) {
-    return packed_names(values);
-  } else {
-    return bytes_of_values(std::span<const T>(values));
-  }
-}
-
 // Manifest checksum of the data set that an archive was exported from; empty if it is no export.
 std::string exported_manifest(const fs::path& file) {
   try {
@@ -348,7 +291,7 @@ std::string exported_manifest(const fs::path& file) {
 
 // Content of description.json: the attributes of the HDF5 files.
 std::string description(const Range& range, const std::set<std::string>& processors, bool complex_maps,
-                        const DrawnKeys& keys) {
+                        const StoredColumns& table) {
   ordered_json json;
   json["format"] = "seaglint npz 1";
   json["program_version"] = range.reader.manifest().program_version;
@@ -362,13 +305,26 @@ std::string description(const Range& range, const std::set<std::string>& process
   for (const StoredArray& array : {kRangeAxis, kVelocityAxis, kMaps, kHopCodes, kCentres})
     add(array.path, array.text());
   if (complex_maps) add(kComplexMaps.path, {kComplexMaps.units, "RV, [sample][velocity][range]"});
-  for (const SampleColumn& column : sample_columns()) add(column_path(column), column_text(column, classes));
-  for (const std::string& key : keys.numbers) add(drawn_path(key), drawn_text(key));
-  for (const std::string& key : keys.words) add(drawn_path(key), drawn_text(key));
+  for (const auto* columns : {&table.samples, &table.drawn})
+    for (const StoredColumn& column : *columns) add(column.path, column.text);
   return json.dump(2) + "\n";
 }
 
 }  // namespace
+
+NpzArray npz_column(const StoredColumn& column, Dimensions shape) {
+  return std::visit(
+      [&]<class T>(const std::vector<T>& values) {
+        std::string bytes;
+        if constexpr (std::is_same_v<T, std::string>) {
+          bytes = packed_names(values);
+        } else {
+          bytes = bytes_of_values(std::span<const T>(values));
+        }
+        return npz_array(name_of(column.path), numpy_type(array_type_of<T>()), std::move(shape), std::move(bytes));
+      },
+      column.values);
+}
 
 void export_shards(const DatasetReader& reader, std::size_t first, std::size_t count, const fs::path& file,
                    const StopFlag* stop) {
@@ -398,37 +354,18 @@ void export_shards(const DatasetReader& reader, std::size_t first, std::size_t c
   const Hdf5Reader shard(load_shard(range.file(0)).image);
   arrays.push_back(streamed<std::uint16_t>(range, kHopCodes, "<u2", {n, shard.size(kHopCodes.path).at(1)}));
   arrays.push_back(streamed<float>(range, kCentres, "<f4", {n, shard.size(kCentres.path).at(1), 3}));
-  for (const SampleColumn& column : sample_columns()) {
-    std::visit(
-        [&](auto member) {
-          using T = typename MemberType<decltype(member)>::Type;
-          arrays.push_back(
-              npz_array(name_of(column_path(column)), numpy_type(array_type_of<T>()), {n}, column_bytes(rows, member)));
-        },
-        column.member);
-  }
   const DrawnKeys keys = drawn_keys(rows.front());
   for (const SampleRecord& row : rows) {
     if (drawn_keys(row) != keys)
       throw InputError(fmt::format("{}: the shards have different drawn keys", reader.directory().string()));
   }
-  for (std::size_t i = 0; i < keys.numbers.size(); ++i) {
-    std::vector<double> values;
-    for (const SampleRecord& row : rows) values.push_back(row.drawn_numbers[i].value);
-    arrays.push_back(
-        npz_array(name_of(drawn_path(keys.numbers[i])), "<f8", {n}, bytes_of_values(std::span<const double>(values))));
-  }
-  for (std::size_t i = 0; i < keys.words.size(); ++i) {
-    std::vector<std::string> values;
-    for (const SampleRecord& row : rows) values.push_back(row.drawn_words[i].value);
-    arrays.push_back(
-        npz_array(name_of(drawn_path(keys.words[i])), numpy_type(ArrayType::kName), {n}, packed_names(values)));
-  }
-  write_npz(file, arrays, {{kDescription, description(range, processors, complex_maps, keys)}});
+  const StoredColumns table = stored_columns(rows, reader.manifest().classes);
+  for (const auto* columns : {&table.samples, &table.drawn})
+    for (const StoredColumn& column : *columns) arrays.push_back(npz_column(column, {n}));
+  write_npz(file, arrays, {{kDescription, description(range, processors, complex_maps, table)}});
 }
 
-void require_export_directory(const DatasetReader& reader, const fs::path& directory, const ExportedName& is_name,
-                              const ExportedName& is_of_this_set) {
+void require_npz_directory(const DatasetReader& reader, const fs::path& directory) {
   if (!is_there(directory)) return;
   std::error_code error;
   if (!fs::is_directory(directory, error))
@@ -436,28 +373,21 @@ void require_export_directory(const DatasetReader& reader, const fs::path& direc
   if (fs::equivalent(directory, reader.directory(), error))
     throw InputError(fmt::format("{}: is the data set itself; export it into another directory", directory.string()));
 
-  std::set<std::string> there;
+  std::set<std::string> ours, there;
+  for (const ManifestShard& shard : reader.manifest().shards)
+    ours.insert(fs::path(shard.file).replace_extension(".npz"));
+  const std::string manifest = sha256_file(reader.directory() / kManifestFile);
   for (fs::directory_iterator it(directory, error), end; !error && it != end; it.increment(error))
     there.insert(it->path().filename());
   if (error) throw WorkError(fmt::format("{}: {}", directory.string(), error.message()));
   for (const std::string& name : there) {
     // Network file systems keep a file under a hidden name if it was removed while another process had it open.
-    if (name.starts_with('.') || is_name(std::string(target_of_temporary(name)))) continue;
-    if (is_name(name) && is_of_this_set(name)) continue;
+    if (name.starts_with('.') || ours.contains(std::string(target_of_temporary(name)))) continue;
+    if (ours.contains(name) && exported_manifest(directory / name) == manifest) continue;
     throw InputError(
         fmt::format("{}: the directory contains {}, which is not of this data set's export; choose a new directory",
                     directory.string(), name));
   }
-}
-
-void require_npz_directory(const DatasetReader& reader, const fs::path& directory) {
-  std::set<std::string> ours;
-  for (const ManifestShard& shard : reader.manifest().shards)
-    ours.insert(fs::path(shard.file).replace_extension(".npz"));
-  const std::string manifest = sha256_file(reader.directory() / kManifestFile);
-  require_export_directory(
-      reader, directory, [&](const std::string& name) { return ours.contains(name); },
-      [&](const std::string& name) { return exported_manifest(directory / name) == manifest; });
 }
 
 }  // namespace seaglint

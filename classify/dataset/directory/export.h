@@ -4,13 +4,13 @@
 // All shards of a data set, or some of them, in one file: HDF5 over the shards, and NumPy's .npz.
 
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "classify/dataset/directory/dataset_reader.h"
 #include "classify/dataset/format/hdf5_file.h"
+#include "classify/dataset/format/npz.h"
 #include "sim/core/process/parallel.h"
 
 namespace seaglint {
@@ -71,14 +71,12 @@ class MergedFileVerifier {
 void export_shards(const DatasetReader& reader, std::size_t first, std::size_t count, const std::filesystem::path& file,
                    const StopFlag* stop = nullptr);
 
-// Checks a directory for an export of several files: it must be new or empty, or contain only files of an export of the
-// same data set, complete or incomplete: their names satisfy is_name(), their contents is_of_this_set(name). Throws
-// InputError naming the directory and its content; the data set's own directory is rejected too.
-using ExportedName = std::function<bool(const std::string& name)>;
-void require_export_directory(const DatasetReader& reader, const std::filesystem::path& directory,
-                              const ExportedName& is_name, const ExportedName& is_of_this_set);
+// A column as an array of .npz under its path without the leading slash; empty `shape`: a single value.
+NpzArray npz_column(const StoredColumn& column, Dimensions shape);
 
-// The same for one .npz per shard.
+// Checks a directory for an export of one .npz per shard: it must be new or empty, or contain only files of an export
+// of the same data set, complete or incomplete. Throws InputError naming the directory and its content; the data set's
+// own directory is rejected too.
 void require_npz_directory(const DatasetReader& reader, const std::filesystem::path& directory);
 
 }  // namespace seaglint

@@ -16,23 +16,65 @@
 #include <string_view>
 #include <utility>
 
-#include "classify/dataset/format/array_type.h"
+#include <cmath>
+#include <functional>
+#include <numeric>
 #include "sim/core/process/error.h"
 
 namespace seaglint {
+
+std::size_t element_bytes(ArrayType element) {
+  switch (element) {
+    case ArrayType::kFloat: return sizeof(float);
+    case ArrayType::kUint16: return sizeof(std::uint16_t);
+    case ArrayType::kName: return kNameBytes;
+    default: return sizeof(double);
+  }
+}
+
+std::uint64_t element_count(std::span<const std::uint64_t> size) {
+  return std::accumulate(size.begin(), size.end(), std::uint64_t{1}, std::multiplies<>());
+}
+
+double chunked_bytes(std::span<const std::uint64_t> size, std::span<const std::uint64_t> chunk, std::size_t element,
+                     std::size_t overhead) {
+  double chunks = 1, bytes = static_cast<double>(element);
+  for (std::size_t i = 0; i < size.size(); ++i) {
+    if (i >= chunk.size() || chunk[i] == 0) return std::numeric_limits<double>::infinity();
+    const auto length = static_cast<double>(chunk[i]);
+    chunks *= std::ceil(static_cast<double>(size[i]) / length);
+    bytes *= length;
+  }
+  return chunks * (bytes + static_cast<double>(overhead));
+}
+
+std::string packed_names(std::span<const std::string> names) {
+  std::string text(names.size() * kNameBytes, '\0');
+  for (std::size_t i = 0; i < names.size(); ++i)
+    std::memcpy(text.data() + i * kNameBytes, names[i].data(), std::min(names[i].size(), kNameBytes));
+  return text;
+}
+
+std::vector<std::string> unpacked_names(std::string_view text) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < text.size(); i += kNameBytes)
+    names.emplace_back(text.data() + i, strnlen(text.data() + i, kNameBytes));
+  return names;
+}
+
 namespace {
 
 // Superblock of version 2 or 3 (HDF5 File Format Specification 3.0, section II.A): signature, version in byte 8,
 // address of the end of the file in bytes 28 to 35, root group in 36 to 43, checksum in 44 to 47.
-constexpr std::size_t kVersion = 8, kEnd = 28, kRoot = 36, kChecksum = 44, kSuperblock = 48;
+constexpr std::size_t kVersionAt = 8, kEndAt = 28, kRootAt = 36, kChecksumAt = 44, kSuperblock = 48;
 
 }  // namespace
 
 std::optional<std::uint64_t> end_of_file(const Hdf5Image& image) {
   const std::string& bytes = image.bytes;
-  if (bytes.size() < kSuperblock || !bytes.starts_with("\x89HDF") || bytes[kVersion] < 2) return std::nullopt;
+  if (bytes.size() < kSuperblock || !bytes.starts_with("\x89HDF") || bytes[kVersionAt] < 2) return std::nullopt;
   std::uint64_t end = 0;
-  std::memcpy(&end, bytes.data() + kEnd, sizeof end);
+  std::memcpy(&end, bytes.data() + kEndAt, sizeof end);
   return end;
 }
 
@@ -41,7 +83,7 @@ bool has_bytes_of(const Hdf5Image& file, const Hdf5Image& written) {
   const auto equal = [&](std::size_t first, std::size_t end) {
     return std::equal(file.bytes.begin() + first, file.bytes.begin() + end, written.bytes.begin() + first);
   };
-  return equal(0, kEnd) && equal(kRoot, kChecksum) && equal(kSuperblock, file.bytes.size());
+  return equal(0, kEndAt) && equal(kRootAt, kChecksumAt) && equal(kSuperblock, file.bytes.size());
 }
 
 namespace {
@@ -464,13 +506,6 @@ void Hdf5Reader::read_bytes(const std::string& path, ArrayType element, std::uin
   extent[0] = count;
   const Handle memory_space = space_of(extent, what), type = type_of(element, false);
   require(H5Dread(set, type, memory_space, file_space, H5P_DEFAULT, values), what);
-}
-
-std::vector<std::string> Hdf5Reader::names(const std::string& path, std::uint64_t first, std::uint64_t count) const {
-  checked_rows(path, ArrayType::kName, first, count);
-  std::string text(count * kNameBytes, '\0');
-  read_bytes(path, ArrayType::kName, first, count, text.data());
-  return unpacked_names(text);
 }
 
 }  // namespace seaglint

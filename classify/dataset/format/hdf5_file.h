@@ -14,11 +14,43 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
+#include <type_traits>
 #include <vector>
 
-#include "classify/dataset/format/array_type.h"
-
 namespace seaglint {
+
+// Element types, sizes and stored names of arrays.
+
+inline constexpr std::size_t kNameBytes = 64;  // of a string in an array, UTF-8, zero-padded
+
+// Element type of an array; kName is kNameBytes characters.
+enum class ArrayType { kFloat, kDouble, kInt64, kUint16, kName };
+
+template <class T>
+constexpr ArrayType array_type_of() {
+  if constexpr (std::is_same_v<T, float>) return ArrayType::kFloat;
+  if constexpr (std::is_same_v<T, double>) return ArrayType::kDouble;
+  if constexpr (std::is_same_v<T, std::int64_t>) return ArrayType::kInt64;
+  if constexpr (std::is_same_v<T, std::uint16_t>) return ArrayType::kUint16;
+  if constexpr (std::is_same_v<T, std::string>) return ArrayType::kName;
+}
+
+std::size_t element_bytes(ArrayType element);
+
+using Dimensions = std::vector<std::uint64_t>;
+
+// Number of elements; of sizes that a file merely claims use the other function, which cannot overflow.
+std::uint64_t element_count(std::span<const std::uint64_t> size);
+
+// Bytes of an array of elements of `element` bytes that is divided into chunks, with `overhead` bytes for each; the
+// last chunk of a dimension is stored whole. Infinite for chunks of length 0.
+double chunked_bytes(std::span<const std::uint64_t> size, std::span<const std::uint64_t> chunk, std::size_t element,
+                     std::size_t overhead);
+
+// Names in stored form, kNameBytes each, and back.
+std::string packed_names(std::span<const std::string> names);
+std::vector<std::string> unpacked_names(std::string_view text);
 
 // The bytes of a whole HDF5 file.
 struct Hdf5Image {
@@ -78,10 +110,11 @@ class Hdf5Writer {
   // Writes rows from `first` on; `values` contains complete rows.
   template <class T>
   void write(const std::string& path, std::uint64_t first, std::span<const T> values) {
-    write_bytes(path, array_type_of<T>(), first, values.data(), values.size());
-  }
-  void write_names(const std::string& path, std::uint64_t first, std::span<const std::string> names) {
-    write_bytes(path, ArrayType::kName, first, packed_names(names).data(), names.size());
+    if constexpr (std::is_same_v<T, std::string>) {
+      write_bytes(path, ArrayType::kName, first, packed_names(values).data(), values.size());
+    } else {
+      write_bytes(path, array_type_of<T>(), first, values.data(), values.size());
+    }
   }
 
   void close();  // must be called: reports late write errors
@@ -136,14 +169,16 @@ class Hdf5Reader {
   template <class T>
   std::vector<T> rows(const std::string& path, std::uint64_t first, std::uint64_t count) const {
     checked_rows(path, array_type_of<T>(), first, count);
-    std::vector<T> values(count);
-    read_bytes(path, array_type_of<T>(), first, count, values.data());
-    return values;
+    if constexpr (std::is_same_v<T, std::string>) {
+      std::string text(count * kNameBytes, '\0');
+      read_bytes(path, ArrayType::kName, first, count, text.data());
+      return unpacked_names(text);
+    } else {
+      std::vector<T> values(count);
+      read_bytes(path, array_type_of<T>(), first, count, values.data());
+      return values;
+    }
   }
-  std::vector<std::string> names(const std::string& path) const {
-    return names(path, 0, checked_count(path, ArrayType::kName, 1));
-  }
-  std::vector<std::string> names(const std::string& path, std::uint64_t first, std::uint64_t count) const;
 
  private:
   void require_type(const std::string& path, ArrayType element) const;

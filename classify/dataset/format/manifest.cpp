@@ -59,7 +59,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr const char* kFormat = "seaglint data set 4";
+constexpr const char* kManifestFormat = "seaglint data set 4";
 
 // Upper limits of a scenario: dataset.maps_per_shard, and all maps of its sweeps.
 constexpr std::uint64_t kMaxShardSamples = 10000;
@@ -69,7 +69,7 @@ constexpr std::uint64_t kMaxSamples = 1000000000;
 
 std::string to_json(const Manifest& manifest) {
   ordered_json json;
-  json["format"] = kFormat;
+  json["format"] = kManifestFormat;
   json["scenario"] = manifest.scenario;
   json["scenario_sha256"] = manifest.scenario_sha256;
   json["program_version"] = manifest.program_version;
@@ -98,9 +98,9 @@ Manifest read_manifest(const std::filesystem::path& file) {
   check_json(text, file.string(), kMaxOrderedKeys);
   try {
     const ordered_json json = ordered_json::parse(text);
-    if (json.at("format") != kFormat) {
+    if (json.at("format") != kManifestFormat) {
       throw InputError(fmt::format("{}: format {}; this program reads \"{}\"", file.string(),
-                                   shown(json.at("format").dump()), kFormat));
+                                   shown(json.at("format").dump()), kManifestFormat));
     }
     Manifest manifest;
     manifest.scenario = json.at("scenario").get<std::string>();

@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-#include "classify/dataset/format/array_type.h"
+#include "classify/dataset/format/hdf5_file.h"
 
 namespace seaglint {
 
@@ -44,12 +44,6 @@ std::uint64_t npy_data_bytes(const std::string& type, std::span<const std::uint6
 template <class T>
 std::string bytes_of_values(std::span<const T> values) {
   return {reinterpret_cast<const char*>(values.data()), values.size_bytes()};
-}
-
-// A whole .npy file; `values` has as many values as `shape`.
-template <class T>
-std::string npy_file(std::span<const std::uint64_t> shape, std::span<const T> values, const std::string& type) {
-  return npy_header(type, shape) + bytes_of_values(values);
 }
 
 // Returns the next block of an array's bytes in C order, little-endian; empty at the end.

@@ -16,6 +16,10 @@ namespace {
 constexpr const char* kLabelOfDefault = "1 = ship, 0 = corner-reflector array";
 }
 
+bool same_drawn(const SampleRecord& a, const SampleRecord& b) {
+  return a.drawn_numbers == b.drawn_numbers && a.drawn_words == b.drawn_words;
+}
+
 std::span<const SampleColumn> sample_columns() {
   using R = SampleRecord;
   static const SampleColumn columns[] = {

@@ -13,7 +13,7 @@
 
 namespace seaglint {
 
-// A value that the scenario draws for a sample (layout.h).
+// A value that the scenario draws for a sample (/drawn of shard.h).
 template <class T>
 struct DrawnValue {
   std::string key;  // its path in the scenario, "sea.peak_period_s"
@@ -74,6 +74,9 @@ struct SampleRecord {
   std::vector<DrawnValue<double>> drawn_numbers = {};  // by their keys
   std::vector<DrawnValue<std::string>> drawn_words = {};
 };
+
+// True if two samples have the same drawn keys and values.
+bool same_drawn(const SampleRecord& a, const SampleRecord& b);
 
 struct SampleColumn {
   const char* name;

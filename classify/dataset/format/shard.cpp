@@ -5,10 +5,12 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <sstream>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 
 #include "classify/dataset/format/hdf5_file.h"
-#include "classify/dataset/format/layout.h"
 #include "classify/dataset/format/manifest.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
@@ -17,17 +19,36 @@ namespace seaglint {
 
 namespace {
 
-constexpr const char* kFormat = "seaglint shard 5";
+constexpr const char* kShardFormat = "seaglint shard 5";
 constexpr const char* kClasses = "classes";
 constexpr std::string_view kBetween = ", ";
 constexpr std::size_t kMaxBytes = std::size_t{64} << 30;  // a limit beyond every scenario's
 
-// The values of a column, one per sample.
-template <class T>
-std::vector<T> column_values(const std::vector<Sample>& samples, T SampleRecord::*member) {
-  std::vector<T> values;
-  for (const Sample& sample : samples) values.push_back(sample.record.*member);
-  return values;
+constexpr const char* kNumbers = "drawn_numbers";
+constexpr const char* kWords = "drawn_words";
+constexpr std::string_view kDrawn = "/drawn/";
+
+std::string drawn_path(const std::string& key) { return std::string(kDrawn) + key; }
+
+// Ends of keys with their units, longer ones first where one ends with another.
+constexpr std::pair<std::string_view, const char*> kUnits[] = {
+    {"_deg_s", "deg/s"}, {"_mps", "m/s"}, {"_deg", "deg"},   {"_db", "dB"},   {"_mm", "mm"},
+    {"_km", "km"},       {"_us", "us"},   {"_m2", "m2"},     {"_m3", "m3"},   {"_kg", "kg"},
+    {"_m", "m"},         {"_s", "s"},     {"_c", "Celsius"}, {"_psu", "psu"},
+};
+
+std::vector<std::string> keys_of(const Hdf5Reader& file, const char* attribute) {
+  std::vector<std::string> keys;
+  std::istringstream list(file.attribute(attribute));
+  for (std::string key; list >> key;) {
+    const bool is_key = std::all_of(key.begin(), key.end(), [](unsigned char c) {
+      return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' ||
+             c == '.';
+    });
+    if (!is_key || key.front() == '.') throw WorkError(fmt::format("attribute {}: a name is no key", attribute));
+    keys.push_back(std::move(key));
+  }
+  return keys;
 }
 
 void check_shapes(const Shard& shard, int max_centres) {
@@ -53,29 +74,114 @@ void write_values(Hdf5Writer& file, const StoredArray& array, const Dimensions& 
   file.write<T>(array.path, 0, values);
 }
 
-void write_columns(Hdf5Writer& file, const std::vector<Sample>& samples, const std::vector<std::string>& classes) {
-  const Dimensions size{samples.size()};
+}  // namespace
+
+DrawnKeys drawn_keys(const SampleRecord& record) {
+  DrawnKeys keys;
+  for (const auto& drawn : record.drawn_numbers) keys.numbers.push_back(drawn.key);
+  for (const auto& drawn : record.drawn_words) keys.words.push_back(drawn.key);
+  return keys;
+}
+
+DrawnKeys read_drawn_keys(const Hdf5Reader& file) { return {keys_of(file, kNumbers), keys_of(file, kWords)}; }
+
+ArrayText drawn_text(const std::string& key) {
+  const auto unit = std::find_if(std::begin(kUnits), std::end(kUnits),
+                                 [&](const auto& entry) { return std::string_view(key).ends_with(entry.first); });
+  return {unit == std::end(kUnits) ? "1" : unit->second, "drawn value of the scenario's key " + key};
+}
+
+StoredColumns stored_columns(std::span<const SampleRecord> rows, std::span<const std::string> classes) {
+  StoredColumns columns;
   for (const SampleColumn& column : sample_columns()) {
     std::visit(
         [&](auto member) {
-          using T = typename MemberType<decltype(member)>::Type;
-          const std::string path = column_path(column);
-          file.array(path, array_type_of<T>(), size, size, column_text(column, classes));
-          const std::vector<T> values = column_values(samples, member);
-          if constexpr (std::is_same_v<T, std::string>) {
-            file.write_names(path, 0, values);
-          } else {
-            file.write<T>(path, 0, values);
-          }
+          std::vector<std::decay_t<decltype(rows.front().*member)>> values;
+          for (const SampleRecord& row : rows) values.push_back(row.*member);
+          columns.samples.push_back({column_path(column), column_text(column, classes), std::move(values)});
         },
         column.member);
   }
+  const DrawnKeys keys = drawn_keys(rows.front());
+  for (const SampleRecord& row : rows) SEAGLINT_CHECK(drawn_keys(row) == keys, "all samples have the same drawn keys");
+  const auto add = [&](const std::vector<std::string>& names, auto drawn) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      std::vector<std::decay_t<decltype((rows.front().*drawn)[i].value)>> values;
+      for (const SampleRecord& row : rows) values.push_back((row.*drawn)[i].value);
+      columns.drawn.push_back({drawn_path(names[i]), drawn_text(names[i]), std::move(values)});
+    }
+  };
+  add(keys.numbers, &SampleRecord::drawn_numbers);
+  add(keys.words, &SampleRecord::drawn_words);
+  return columns;
 }
 
-constexpr Hdf5Version kVersion = Hdf5Version::k18;
+void create_column(Hdf5Writer& file, const StoredColumn& column, std::uint64_t rows, std::uint64_t chunk) {
+  std::visit([&]<class T>(
+                 const std::vector<T>&) { file.array(column.path, array_type_of<T>(), {rows}, {chunk}, column.text); },
+             column.values);
+}
+
+void create_drawn(Hdf5Writer& file, const StoredColumns& columns, std::uint64_t rows, std::uint64_t chunk) {
+  if (columns.drawn.empty()) return;
+  std::vector<std::string> numbers, words;
+  for (const StoredColumn& column : columns.drawn)
+    (column.values.index() == 1 ? numbers : words).push_back(column.path.substr(kDrawn.size()));
+  if (!numbers.empty()) file.attribute(kNumbers, fmt::format("{}", fmt::join(numbers, " ")));
+  if (!words.empty()) file.attribute(kWords, fmt::format("{}", fmt::join(words, " ")));
+  file.group("/drawn");
+  for (const StoredColumn& column : columns.drawn) create_column(file, column, rows, chunk);
+}
+
+void write_column(Hdf5Writer& file, const StoredColumn& column, std::uint64_t first) {
+  std::visit([&]<class T>(const std::vector<T>& values) { file.write<T>(column.path, first, values); }, column.values);
+}
+
+std::vector<SampleRecord> read_rows(const Hdf5Reader& file, std::uint64_t first, std::uint64_t count) {
+  std::vector<SampleRecord> rows(count);
+  for (const SampleColumn& column : sample_columns()) {
+    std::visit(
+        [&]<class T>(T SampleRecord::*member) {
+          std::vector<T> values = file.rows<T>(column_path(column), first, count);
+          for (std::size_t i = 0; i < rows.size(); ++i) rows[i].*member = std::move(values[i]);
+        },
+        column.member);
+  }
+  const DrawnKeys keys = read_drawn_keys(file);
+  const auto read = [&]<class T>(const std::vector<std::string>& names,
+                                 std::vector<DrawnValue<T>> SampleRecord::*drawn) {
+    for (const std::string& key : names) {
+      std::vector<T> values = file.rows<T>(drawn_path(key), first, count);
+      for (std::size_t i = 0; i < rows.size(); ++i) (rows[i].*drawn).push_back({key, std::move(values[i])});
+    }
+  };
+  read(keys.numbers, &SampleRecord::drawn_numbers);
+  read(keys.words, &SampleRecord::drawn_words);
+  return rows;
+}
+
+std::string differing_column(const SampleRecord& a, const SampleRecord& b) {
+  for (const SampleColumn& column : sample_columns()) {
+    const bool same = std::visit(
+        [&](auto member) { return a.*member == b.*member || (a.*member != a.*member && b.*member != b.*member); },
+        column.member);
+    if (!same) return column_path(column);
+  }
+  return same_drawn(a, b) ? "" : "a drawn value";
+}
+
+std::vector<SampleRecord> Shard::rows() const {
+  std::vector<SampleRecord> rows;
+  for (const Sample& sample : samples) rows.push_back(sample.record);
+  return rows;
+}
+
+namespace {
+
+constexpr Hdf5Version kFileVersion = Hdf5Version::k18;
 
 void write_content(Hdf5Writer& file, const Shard& shard, int max_centres) {
-  file.attribute("format", kFormat);
+  file.attribute("format", kShardFormat);
   file.attribute("program_version", shard.origin.program_version);
   file.attribute("processor", shard.origin.processor);
   if (shard.classes != default_classes())
@@ -114,33 +220,17 @@ void write_content(Hdf5Writer& file, const Shard& shard, int max_centres) {
   write_values(file, kHopCodes, {n, pulses}, {1, pulses}, codes);
   write_values(file, kCentres, {n, centres, 3}, {1, centres, 3}, centre_table);
   file.group("/samples");
-  write_columns(file, shard.samples, shard.classes);
-  create_drawn(file, drawn_keys(shard.samples.front().record), n, n);
-  std::vector<const SampleRecord*> records;
-  for (const Sample& sample : shard.samples) records.push_back(&sample.record);
-  write_drawn(file, 0, records);
+  const StoredColumns table = stored_columns(shard.rows(), shard.classes);
+  for (const StoredColumn& column : table.samples) {
+    create_column(file, column, n, n);
+    write_column(file, column, 0);
+  }
+  create_drawn(file, table, n, n);
+  for (const StoredColumn& column : table.drawn) write_column(file, column, 0);
 }
 
 void expect(bool condition, const std::string& what) {
   if (!condition) throw WorkError(what);
-}
-
-void read_columns(const Hdf5Reader& file, std::vector<Sample>& samples) {
-  for (const SampleColumn& column : sample_columns()) {
-    std::visit(
-        [&](auto member) {
-          using T = typename MemberType<decltype(member)>::Type;
-          std::vector<T> values;
-          if constexpr (std::is_same_v<T, std::string>) {
-            values = file.names(column_path(column));
-          } else {
-            values = file.read<T>(column_path(column), 1).values;
-          }
-          expect(values.size() == samples.size(), fmt::format("{} does not fit /maps", column_path(column)));
-          for (std::size_t i = 0; i < samples.size(); ++i) samples[i].record.*member = values[i];
-        },
-        column.member);
-  }
 }
 
 // "decoys, ship" as two names, which contain no comma.
@@ -158,9 +248,9 @@ Shard read_content(const ShardFile& loaded) {
   const Hdf5Reader file(loaded.image);
   const std::string format = file.attribute("format");
   expect(!format.empty(), "the attribute format is missing");
-  if (format != kFormat) {
+  if (format != kShardFormat) {
     throw UnsupportedFormat(
-        fmt::format("{}: format \"{}\"; this program reads \"{}\"", loaded.path.string(), format, kFormat));
+        fmt::format("{}: format \"{}\"; this program reads \"{}\"", loaded.path.string(), format, kShardFormat));
   }
   Shard shard;
   shard.origin = {file.attribute("program_version"), file.attribute("processor")};
@@ -197,11 +287,11 @@ Shard read_content(const ShardFile& loaded) {
   expect(centres.size[0] == n && centres.size[2] == 3, "/centres does not fit /maps");
   const std::size_t max_centres = centres.size[1];
 
-  read_columns(file, shard.samples);
-  std::vector<SampleRecord*> records;
-  for (Sample& sample : shard.samples) records.push_back(&sample.record);
-  read_drawn(file, 0, records);
+  for (const SampleColumn& column : sample_columns())
+    expect(file.size(column_path(column)) == Dimensions{n}, fmt::format("{} does not fit /maps", column_path(column)));
+  std::vector<SampleRecord> rows = read_rows(file, 0, n);
   for (std::size_t i = 0; i < n; ++i) {
+    shard.samples[i].record = std::move(rows[i]);
     const std::int64_t count = shard.samples[i].record.centres;
     expect(count >= 0 && static_cast<std::size_t>(count) <= max_centres, "/samples/centres does not fit /centres");
     for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
@@ -227,7 +317,7 @@ std::string write_shard(const std::filesystem::path& file, const Shard& shard, i
   std::string written;
   write_file_with(file, [&](const std::filesystem::path& temporary) {
     try {
-      Hdf5Writer content(temporary, kVersion);
+      Hdf5Writer content(temporary, kFileVersion);
       write_content(content, shard, max_centres);
       content.close();
       written = sha256_file(temporary);
@@ -256,7 +346,7 @@ Shard read_shard(const ShardFile& file) {
 Shard read_shard(const std::filesystem::path& file) { return read_shard(load_shard(file)); }
 
 bool is_as_written(const ShardFile& file, const Shard& content, int max_centres) {
-  Hdf5Writer again(kVersion);
+  Hdf5Writer again(kFileVersion);
   write_content(again, content, max_centres);
   return has_bytes_of(file.image, again.image());
 }

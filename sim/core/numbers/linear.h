@@ -16,6 +16,7 @@
 namespace seaglint {
 
 using Complex = std::complex<double>;
+inline constexpr Complex kJ{0, 1};
 
 struct Vec2 {
   constexpr Vec2() = default;

@@ -7,7 +7,10 @@
 // operations only.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 namespace seaglint {
 
@@ -61,6 +64,13 @@ class Random {
   std::array<std::uint32_t, 4> block_{};
   int used_ = 4;  // words of block_ already used
 };
+
+// Puts the values into a random order (Fisher and Yates); fewer than 2^32.
+template <class T>
+void shuffle(std::vector<T>& values, Random& random) {
+  for (std::size_t i = values.size(); i > 1; --i)
+    std::swap(values[i - 1], values[random.below(static_cast<std::uint32_t>(i))]);
+}
 
 // Quantile of the normal distribution, |error| < 1e-15 relative (Wichura 1988, AS 241, PPND16); p in (0, 1).
 double normal_quantile(double p);

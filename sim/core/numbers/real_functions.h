@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Functions of one real number: integrals of smooth functions, sin(x/2)/(x/2), transitions between two values.
+// Functions of real numbers: integrals of smooth functions, sin(x/2)/(x/2), transitions between two values; levels in
+// dBsm; quantiles of samples.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <span>
+#include <vector>
+
+#include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/linear.h"
 
 namespace seaglint {
 
@@ -44,5 +50,32 @@ template <typename T>
 T interpolate(const std::array<T, 2>& ends, double fraction) {
   return ends[0] + fraction * (ends[1] - ends[0]);
 }
+
+inline constexpr double kMinArea_m2 = 1e-100;  // floor for an exact zero, -1000 dBsm
+
+// Level of a radar cross-section in m^2, dBsm; at least that of min_m2.
+inline double dbsm_of_area(double area_m2, double min_m2 = kMinArea_m2) {
+  return 10 * std::log10(std::max(area_m2, min_m2));
+}
+
+// Level of a scattering amplitude s in metres, 4 pi |s|^2, dBsm; at least that of min_m2.
+inline double dbsm(const Complex& s, double min_m2 = kMinArea_m2) {
+  return dbsm_of_area(4 * kPi * std::norm(s), min_m2);
+}
+
+// Magnitude in metres of an amplitude of this level in dBsm.
+inline double amplitude_of_dbsm(double level_dbsm) { return std::sqrt(std::pow(10.0, level_dbsm / 10) / (4 * kPi)); }
+
+// Quantile of ascending values at probability p, 0 <= p <= 1, linearly interpolated between the ranks p (n - 1)
+// (Hyndman and Fan, The American Statistician 50 (1996) 361, type 7); NaN without values.
+double quantile(std::span<const double> ascending, double p);
+
+// Lower quartile, median and upper quartile of the finite values; NaN without any.
+struct Quartiles {
+  double lower = 0;
+  double median = 0;
+  double upper = 0;
+};
+Quartiles quartiles(std::vector<double> values);
 
 }  // namespace seaglint

@@ -308,11 +308,6 @@ void write_file(const fs::path& path, std::string_view content) {
   }
 }
 
-void write_blocks(const fs::path& path, const std::function<void(const AppendText&)>& write) {
-  if (is_stream(path)) throw WorkError(fmt::format("{}: cannot write: is not a regular file", path.string()));
-  replace_file(path, [&](TemporaryFile& temporary) { write([&](std::string_view part) { temporary.write(part); }); });
-}
-
 void require_writable(const fs::path& path) {
   if (path.empty() || is_stream(path)) return;
   const fs::path folder = path.parent_path().empty() ? fs::path(".") : path.parent_path();

@@ -26,11 +26,6 @@ void read_blocks(const std::filesystem::path& path, const std::function<void(std
 // Throws WorkError (with the system error) when writing fails; no partial file remains.
 void write_file(const std::filesystem::path& path, std::string_view content);
 
-// Writes a file of any size: calls write(append), which passes the content to append() in parts. The errors of
-// write_file(); an exception of write() leaves no file.
-using AppendText = std::function<void(std::string_view)>;
-void write_blocks(const std::filesystem::path& path, const std::function<void(const AppendText&)>& write);
-
 // Throws the WorkError of write_file() when the directory of the file is missing or not writable; called before long
 // work. An empty path is accepted.
 void require_writable(const std::filesystem::path& path);

@@ -26,12 +26,6 @@ class SharedResults {
     return slot->value;
   }
 
-  // The result of a key is not kept, also if it is being computed; threads that wait for it get it.
-  void forget(const Key& key) {
-    const std::lock_guard lock(mutex_);
-    std::erase_if(slots_, [&](const auto& slot) { return slot->key == key; });
-  }
-
  private:
   struct Slot {
     explicit Slot(const Key& of) : key(of) {}

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <unordered_set>
 #include <utility>
@@ -71,6 +72,24 @@ void check_json(std::string_view json, const std::string& name, std::size_t max_
   KeyCheck check(max_keys);
   nlohmann::json::sax_parse(json.begin(), json.end(), &check);
   if (!check.fault.empty()) throw InputError(fmt::format("{}: {}", name, check.fault));
+}
+
+nlohmann::ordered_json number_or_null(double value) {
+  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+}
+
+std::uint64_t whole_number(const nlohmann::ordered_json& object, const char* key, const std::string& name) {
+  const nlohmann::ordered_json& value = object.at(key);
+  if (value.is_number_unsigned()) return value.get<std::uint64_t>();
+  throw InputError(fmt::format("{}: {}: {}: must be a whole number", name, key, shown(value.dump())));
+}
+
+std::string json_problem(const std::exception& error) {
+  if (const auto* broken = dynamic_cast<const nlohmann::json::parse_error*>(&error))
+    return fmt::format("no valid JSON from byte {} on", broken->byte);
+  const std::string text = error.what();
+  const std::size_t end = text.find("] ");
+  return end == std::string::npos ? text : text.substr(end + 2);
 }
 
 }  // namespace seaglint

@@ -3,18 +3,13 @@
 
 // JSON of untrusted files: keys that stand twice, numbers, errors of the library in one line.
 
-#include <fmt/format.h>
-
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <limits>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
-
-#include "sim/core/process/error.h"
-#include "sim/core/process/printable.h"
 
 namespace seaglint {
 
@@ -29,27 +24,15 @@ void check_json(std::string_view json, const std::string& name,
 inline constexpr std::size_t kMaxOrderedKeys = 1000;
 
 // A number in JSON, which has no NaN and no infinity: null where it is not finite.
-inline nlohmann::ordered_json number_or_null(double value) {
-  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
-}
+nlohmann::ordered_json number_or_null(double value);
 
 // The member `key` of an object, which the library would read of -1 as a huge number and of 4.7 as 4. Throws InputError
 // "NAME: key: 4.7: must be a whole number" for those and what else is none from 0 on; the library's exception when the
 // member is missing.
-inline std::uint64_t whole_number(const nlohmann::ordered_json& object, const char* key, const std::string& name) {
-  const nlohmann::ordered_json& value = object.at(key);
-  if (value.is_number_unsigned()) return value.get<std::uint64_t>();
-  throw InputError(fmt::format("{}: {}: {}: must be a whole number", name, key, shown(value.dump())));
-}
+std::uint64_t whole_number(const nlohmann::ordered_json& object, const char* key, const std::string& name);
 
-// Error of a JSON text in one line for users: the position of a syntax error, without a copy of the text there
-// (possibly megabytes), or what was expected, without the error numbers of the library.
-inline std::string json_problem(const nlohmann::json::exception& error) {
-  if (const auto* broken = dynamic_cast<const nlohmann::json::parse_error*>(&error))
-    return fmt::format("no valid JSON from byte {} on", broken->byte);
-  const std::string text = error.what();
-  const std::size_t end = text.find("] ");
-  return end == std::string::npos ? text : text.substr(end + 2);
-}
+// Error of a JSON text (nlohmann::json::exception) in one line for users: the position of a syntax error, without a
+// copy of the text there (possibly megabytes), or what was expected, without the error numbers of the library.
+std::string json_problem(const std::exception& error);
 
 }  // namespace seaglint

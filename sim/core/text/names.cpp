@@ -15,24 +15,22 @@
 
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
+#include "sim/core/text/words.h"
 
 namespace seaglint {
 
 namespace {
 
 // Edit distance with transpositions of adjacent characters (Damerau 1964, optimal string alignment), ignoring case.
-std::size_t distance(std::string_view a, std::string_view b) {
-  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
-  std::vector<std::size_t> before_last(b.size() + 1);
-  std::vector<std::size_t> last(b.size() + 1);
-  std::vector<std::size_t> row(b.size() + 1);
+std::size_t distance(std::string_view one, std::string_view other) {
+  const std::string a = lower_case(one), b = lower_case(other);
+  std::vector<std::size_t> before_last(b.size() + 1), last = before_last, row = before_last;
   std::iota(last.begin(), last.end(), std::size_t{0});
   for (std::size_t i = 1; i <= a.size(); ++i) {
     row[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      const bool same = lower(a[i - 1]) == lower(b[j - 1]);
-      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (same ? 0 : 1)});
-      const bool swapped = i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1]);
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
       if (swapped) row[j] = std::min(row[j], before_last[j - 2] + 1);
     }
     std::swap(before_last, last);
@@ -45,13 +43,13 @@ constexpr std::size_t kLongest = 100;  // longer words get no suggestion
 
 std::size_t near_distance(std::string_view misspelt) { return std::max<std::size_t>(1, misspelt.size() / 3); }
 
-constexpr std::array<std::string_view, 30> kUnits{
+constexpr std::array<std::string_view, 30> kUnitEndings{
     "m",    "mm",  "cm",  "km",  "ft", "in",    "s",  "ms", "us", "ns", "hz",  "khz",   "mhz",   "ghz",   "db",
     "dbsm", "deg", "rad", "mps", "kn", "knots", "kw", "w",  "c",  "k",  "psu", "rad_s", "deg_s", "hours", "min"};
 
 // A name without the unit at its end: "bandwidth" of "bandwidth_mhz", "--frequency" of "--frequency-ghz".
 std::string_view without_unit(std::string_view name) {
-  for (const std::string_view unit : kUnits) {
+  for (const std::string_view unit : kUnitEndings) {
     if (name.size() < unit.size() + 2 || distance(name.substr(name.size() - unit.size()), unit) != 0) continue;
     const char before = name[name.size() - unit.size() - 1];
     if (before == '_' || before == '-') return name.substr(0, name.size() - unit.size() - 1);
@@ -178,8 +176,6 @@ std::string places_text(const fs::path& folder) {
     places.push_back(place.empty() ? "in the working directory" : "in " + place.string());
   return places.size() == 1 ? "not " + places[0] : fmt::format("neither {}", fmt::join(places, " nor "));
 }
-
-namespace fs = std::filesystem;
 
 namespace {
 

@@ -29,11 +29,12 @@ constexpr std::string_view kUsualUnits[] = {"s",        "ms",    "min",  "h",   
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'); }
 
 // Lower case; everything that is no letter or digit becomes one underscore between them.
-std::string spelt(std::string_view text) {
+std::string spelt(std::string_view written) {
   constexpr std::pair<std::string_view, std::string_view> kSigns[] = {
       {"\xc2\xb2", "2"}, {"\xc2\xb3", "3"}, {"\xc2\xb0", "_deg"}, {"\xcf\x89", "omega"}, {"**", ""}, {"^", ""}};
+  const std::string lower = lower_case(written);
   std::string key;
-  while (!text.empty()) {
+  for (std::string_view text = lower; !text.empty();) {
     const auto sign = std::find_if(std::begin(kSigns), std::end(kSigns),
                                    [&](const auto& known) { return text.starts_with(known.first); });
     if (sign != std::end(kSigns)) {
@@ -42,10 +43,8 @@ std::string spelt(std::string_view text) {
       text.remove_prefix(sign->first.size());
       continue;
     }
-    const char c =
-        text.front() >= 'A' && text.front() <= 'Z' ? static_cast<char>(text.front() - 'A' + 'a') : text.front();
-    if (is_letter(c)) {
-      key += c;
+    if (is_letter(text.front())) {
+      key += text.front();
     } else if (!key.empty() && key.back() != '_') {
       key += '_';
     }

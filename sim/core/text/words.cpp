@@ -41,6 +41,12 @@ std::string_view next_word(std::string_view& text) {
   return word;
 }
 
+std::vector<std::string_view> words_of(std::string_view text) {
+  std::vector<std::string_view> words;
+  for (std::string_view word = next_word(text); !word.empty(); word = next_word(text)) words.push_back(word);
+  return words;
+}
+
 std::string_view next_line(std::string_view& text) {
   const std::size_t end = text.find('\n');
   std::string_view line = text.substr(0, end);
@@ -56,6 +62,12 @@ std::string_view trimmed(std::string_view text) {
   while (end > begin && is_blank(text[end - 1])) --end;
   if (begin == end) return text.substr(0, 0);
   return text.substr(begin, end - begin);
+}
+
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return lower;
 }
 
 namespace {

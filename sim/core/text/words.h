@@ -21,11 +21,17 @@ std::string plain_lines(std::string bytes);
 // The next word separated by spaces, tabs or line ends, removed from the front of `text`; empty at the end.
 std::string_view next_word(std::string_view& text);
 
+// All words of a text.
+std::vector<std::string_view> words_of(std::string_view text);
+
 // The next line without its line end (\n or \r\n), removed from the front of `text`.
 std::string_view next_line(std::string_view& text);
 
 // The text without spaces, tabs and \r at its ends.
 std::string_view trimmed(std::string_view text);
+
+// The text with A to Z in lower case, the same without and with a locale.
+std::string lower_case(std::string_view text);
 
 // A finite decimal number ("16", "-0.5", "+2.5e3"); nullopt also for hexadecimal, infinity and NaN.
 std::optional<double> parse_number(std::string_view text);

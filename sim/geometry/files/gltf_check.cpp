@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/geometry/files/gltf_check.h"
+#include "sim/geometry/files/mesh_formats.h"
 
 #include <fmt/format.h>
 
@@ -7,13 +7,13 @@
 #include <cctype>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "sim/core/process/error.h"
 #include "sim/core/process/printable.h"
 #include "sim/core/text/json.h"
+#include "sim/core/text/words.h"
 
 namespace seaglint {
 
@@ -21,17 +21,9 @@ namespace {
 
 constexpr std::uint32_t kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
 
-std::uint32_t word(std::string_view bytes, std::size_t at) {
-  std::uint32_t value = 0;
-  std::memcpy(&value, bytes.data() + at, 4);
-  return value;
-}
+std::uint32_t word(std::string_view bytes, std::size_t at) { return number_at<std::uint32_t>(bytes.data() + at); }
 
-void put_word(std::string& bytes, std::uint32_t value) {
-  char raw[4];
-  std::memcpy(raw, &value, 4);
-  bytes.append(raw, 4);
-}
+void put_word(std::string& bytes, std::size_t value) { append_number(bytes, static_cast<std::uint32_t>(value)); }
 
 std::size_t entries_of(const nlohmann::json& object, const char* list) {
   if (!object.is_object()) return 0;
@@ -57,11 +49,13 @@ constexpr std::string_view kHarmless[] = {
     "EXT_texture_",   "EXT_lights_",   "EXT_materials_",   "EXT_mesh_features", "EXT_structural_metadata",
     "MSFT_texture_",  "MSFT_packing_", "ADOBE_materials_", "NV_materials_",     "KHR_mesh_quantization"};
 
-}  // namespace
+struct GlbChunks {
+  std::string_view json;
+  std::string_view binary;  // empty: no binary chunk
+};
 
-bool is_glb(std::string_view bytes) { return bytes.substr(0, 4) == "glTF"; }
-
-// glTF 2.0, section 4.4: 12 bytes of header, then chunks of length, type, data.
+// The chunks of a .glb (glTF 2.0, section 4.4: 12 bytes of header, then chunks of length, type, data); any other text
+// is one JSON chunk.
 GlbChunks glb_chunks(std::string_view bytes, const std::string& file) {
   if (!is_glb(bytes)) return {bytes, {}};
   const auto fail = [&](const std::string& what) { throw InputError(fmt::format("{}: {}", file, what)); };
@@ -83,24 +77,27 @@ GlbChunks glb_chunks(std::string_view bytes, const std::string& file) {
   return chunks;
 }
 
+// A .glb of these chunks, each padded to a multiple of 4 bytes.
 std::string glb_of(std::string json, std::string_view binary_data) {
   json.resize((json.size() + 3) / 4 * 4, ' ');
   std::string binary(binary_data);
   binary.resize((binary.size() + 3) / 4 * 4, '\0');
   std::string file = "glTF";
   put_word(file, 2);
-  put_word(file, static_cast<std::uint32_t>(12 + 8 + json.size() + (binary.empty() ? 0 : 8 + binary.size())));
-  put_word(file, static_cast<std::uint32_t>(json.size()));
+  put_word(file, 12 + 8 + json.size() + (binary.empty() ? 0 : 8 + binary.size()));
+  put_word(file, json.size());
   put_word(file, kJsonChunk);
   file += json;
   if (!binary.empty()) {
-    put_word(file, static_cast<std::uint32_t>(binary.size()));
+    put_word(file, binary.size());
     put_word(file, kBinaryChunk);
     file += binary;
   }
   return file;
 }
 
+// Throws for a text that is no JSON, is nested too deeply, has a key twice in an object, or more entries of nodes,
+// meshes and accessors than a mesh of its size.
 nlohmann::json parsed_gltf(std::string_view text, const std::string& file) {
   check_json(text, file);
   try {
@@ -115,6 +112,8 @@ nlohmann::json parsed_gltf(std::string_view text, const std::string& file) {
   }
 }
 
+// Throws for a required extension on which the geometry depends and which is not read. Those of materials, textures,
+// lights and metadata are no part of the geometry; KHR_mesh_quantization is read.
 void refuse_required_extensions(const nlohmann::json& root, const std::string& file) {
   const auto fail = [&](const std::string& what) { throw InputError(fmt::format("{}: {}", file, what)); };
   const auto required = root.find("extensionsRequired");
@@ -131,12 +130,10 @@ void refuse_required_extensions(const nlohmann::json& root, const std::string& f
   }
 }
 
-namespace {
-
 using Json = nlohmann::json;
 
-constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 30;  // of one buffer
-constexpr std::uint64_t kMaxZeros = 1'000'000;               // elements of a sparse accessor without other data
+constexpr std::uint64_t kMaxBufferBytes = std::uint64_t{1} << 30;  // of one buffer
+constexpr std::uint64_t kMaxZeros = 1'000'000;                     // elements of a sparse accessor without other data
 
 // glTF 2.0, section 3.6.2.2: bytes of a component.
 std::uint64_t component_size(std::uint64_t type) {
@@ -153,11 +150,7 @@ std::uint64_t component_size(std::uint64_t type) {
 
 constexpr std::string_view kBase64Digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
-// Equality of texts but for upper and lower case.
-bool is_equal(std::string_view a, std::string_view b) {
-  return std::ranges::equal(
-      a, b, {}, [](unsigned char c) { return std::tolower(c); }, [](unsigned char c) { return std::tolower(c); });
-}
+bool is_equal(std::string_view a, std::string_view b) { return lower_case(a) == lower_case(b); }  // but for case
 
 bool is_data_uri(std::string_view uri) { return is_equal(uri.substr(0, 5), "data:"); }
 
@@ -291,7 +284,7 @@ class Checker {
   Json buffer(const Json& b, const std::string& at) const {
     const std::uint64_t size = whole(b, "byteLength", at, 0);
     if (size == 0) fail(at + " is empty");
-    if (size > kMaxBytes) fail(fmt::format("{}.byteLength = {} is above {}", at, size, kMaxBytes));
+    if (size > kMaxBufferBytes) fail(fmt::format("{}.byteLength = {} is above {}", at, size, kMaxBufferBytes));
     Json plain{{"byteLength", size}};
     const std::string uri = text(b, "uri");
     if (is_data_uri(uri)) {
@@ -378,7 +371,7 @@ class Checker {
     const Json& v = root_["bufferViews"][i];
     const std::uint64_t stride = std::max(element, whole(v, "byteStride", view_name, 0));
     const std::uint64_t available = whole(v, "byteLength", view_name, 0);
-    if (count > kMaxBytes || offset > available || (count - 1) * stride + element > available - offset) {
+    if (count > kMaxBufferBytes || offset > available || (count - 1) * stride + element > available - offset) {
       fail(fmt::format("{} wants {} elements of {} bytes from byte {} of {}, which has {}", at, count, stride, offset,
                        view_name, available));
     }
@@ -574,6 +567,8 @@ class Checker {
 };
 
 }  // namespace
+
+bool is_glb(std::string_view bytes) { return bytes.substr(0, 4) == "glTF"; }
 
 SanitisedGltf sanitised_gltf(std::string_view bytes, const std::string& file) {
   const GlbChunks chunks = glb_chunks(bytes, file);

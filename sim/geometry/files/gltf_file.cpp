@@ -1,22 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/geometry/files/gltf_file.h"
+#include "sim/geometry/files/mesh_formats.h"
 
 #include <fmt/format.h>
 #include <tiny_gltf.h>
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
+#include <limits>
+#include <map>
+#include <memory>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <system_error>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "sim/core/numbers/rotation.h"
 #include "sim/core/process/error.h"
-#include "sim/geometry/files/gltf_check.h"
-#include "sim/geometry/files/gltf_elements.h"
-#include "sim/geometry/mesh/mesh_builder.h"
+#include "sim/core/process/file.h"
 #include "sim/geometry/mesh/triangle_mesh.h"
 
 namespace seaglint {
@@ -24,7 +29,79 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMaxParts = 65000, kMaxMaterials = 65000;
+constexpr std::size_t kMaxMaterials = 65000;
+
+// Elements of an accessor: floats, quantised integers, replaced (sparse) values.
+struct GltfElements {
+  const unsigned char* first = nullptr;  // null: all are zero
+  std::size_t stride = 0, size = 0;      // bytes from one to the next, and of one
+  std::size_t count = 0;
+  int component = 0;                                        // componentType of glTF 2.0, section 3.6.2.2
+  bool normalised = false;                                  // integers stand for fractions of their largest value
+  std::shared_ptr<const std::vector<unsigned char>> own{};  // of replaced values: the memory
+};
+
+template <typename Number>
+double component_at(const unsigned char* first, int axis, bool normalised) {
+  Number value{};
+  std::memcpy(&value, first + static_cast<std::size_t>(axis) * sizeof value, sizeof value);
+  // glTF 2.0, section 3.6.2.2: fractions of the largest value, -1 at least.
+  const auto number = static_cast<double>(value);
+  return normalised ? std::max(number / static_cast<double>(std::numeric_limits<Number>::max()), -1.0) : number;
+}
+
+// Element i, of three components.
+Vec3 vector_at(const GltfElements& elements, std::size_t i) {
+  if (elements.first == nullptr) return Vec3::Zero();
+  const unsigned char* first = elements.first + i * elements.stride;
+  Vec3 x;
+  for (int axis = 0; axis < 3; ++axis) {
+    switch (elements.component) {
+      case 5120: x[axis] = component_at<std::int8_t>(first, axis, elements.normalised); break;
+      case 5121: x[axis] = component_at<std::uint8_t>(first, axis, elements.normalised); break;
+      case 5122: x[axis] = component_at<std::int16_t>(first, axis, elements.normalised); break;
+      case 5123: x[axis] = component_at<std::uint16_t>(first, axis, elements.normalised); break;
+      default: x[axis] = component_at<float>(first, axis, false);
+    }
+  }
+  return x;
+}
+
+// Restricts the files that tinygltf opens to the folder of the glTF; the user data of its callbacks.
+struct GltfFolder {
+  fs::path root;
+  std::vector<fs::path> opened;  // in order
+
+  // True for a name inside root, links resolved.
+  bool holds(const std::string& name) const {
+    std::error_code error;
+    const fs::path file = fs::weakly_canonical(name, error);
+    if (error) return false;
+    const auto [rest, unused] = std::mismatch(root.begin(), root.end(), file.begin(), file.end());
+    return rest == root.end();
+  }
+};
+
+// False with a message in *problem for a file that is outside the folder or cannot be read.
+bool read_in_folder(std::vector<unsigned char>* content, std::string* problem, const std::string& name, void* user) {
+  GltfFolder& folder = *static_cast<GltfFolder*>(user);
+  if (!folder.holds(name)) {
+    *problem += name + " is outside the file's folder";
+    return false;
+  }
+  try {
+    const std::string bytes = read_file(name);
+    content->assign(bytes.begin(), bytes.end());
+    folder.opened.emplace_back(name);
+    return true;
+  } catch (const InputError& error) {
+    *problem += error.what();
+    return false;
+  }
+}
+
+// Axes of glTF 2.0, section 3.4: +Y up, +Z forward, so +X is to port. Column i is glTF's axis i in the body frame.
+constexpr Mat3 kBodyFromGltf{Vec3::UnitY(), Vec3::UnitZ(), Vec3::UnitX()};
 
 // The message of the library on one line; a data URI ends behind its scheme.
 std::string one_line(std::string text) {
@@ -69,7 +146,12 @@ Loaded load(const std::string& bytes, const fs::path& path) {
   if (error) throw InputError(fmt::format("{}: {}", path.string(), error.message()));
 
   tinygltf::TinyGLTF loader;
-  loader.SetFsCallbacks({exists_in_folder, same_path, read_in_folder, write_nothing, &folder});
+  loader.SetFsCallbacks(
+      {[](const std::string& name, void* user) {
+         return static_cast<const GltfFolder*>(user)->holds(name) && is_there(name);
+       },
+       [](const std::string& name, void*) { return name; }, read_in_folder,
+       [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) { return false; }, &folder});
   tinygltf::Model model;
   std::string problem, warning;
   const auto size = static_cast<unsigned int>(plain.size());
@@ -210,9 +292,23 @@ class Reader {
                  accessor_index);
     const unsigned char* values = bytes_of(sparse.values.bufferView, static_cast<std::size_t>(sparse.values.byteOffset),
                                            count, elements.size, elements.size, accessor_index);
-    if (auto replaced = with_replaced(elements, count, indices, width, values)) return *replaced;
-    throw InputError(
-        fmt::format("{}: accessors[{}] replaces an element beyond its {}", file_, accessor_index, elements.count));
+    const auto own = std::make_shared<std::vector<unsigned char>>(elements.count * elements.size);
+    for (std::size_t i = 0; i < elements.count && elements.first != nullptr; ++i)
+      std::memcpy(own->data() + i * elements.size, elements.first + i * elements.stride, elements.size);
+    for (std::size_t i = 0; i < count; ++i) {
+      std::uint32_t index = 0;
+      std::memcpy(&index, indices + i * width, width);
+      if (index >= elements.count) {
+        throw InputError(
+            fmt::format("{}: accessors[{}] replaces an element beyond its {}", file_, accessor_index, elements.count));
+      }
+      std::memcpy(own->data() + index * elements.size, values + i * elements.size, elements.size);
+    }
+    GltfElements replaced = elements;
+    replaced.first = own->data();
+    replaced.stride = elements.size;
+    replaced.own = own;
+    return replaced;
   }
 
   std::vector<std::uint32_t> corners(const tinygltf::Primitive& primitive, std::size_t vertex_count) const {
@@ -265,7 +361,7 @@ class Reader {
     const auto base = static_cast<std::uint32_t>(builder_.vertices().size());
     for (const std::uint32_t v : used) {
       const Vec3 placed = world * vector_at(positions, v);
-      builder_.vertex(body_from_gltf() * placed);
+      builder_.vertex(kBodyFromGltf * placed);
     }
     const auto vertex = [&](std::uint32_t v) {
       return base + static_cast<std::uint32_t>(std::ranges::lower_bound(used, v) - used.begin());
@@ -277,7 +373,7 @@ class Reader {
       normals = data_of(found->second);
     const bool has_byte_normals =
         normals && model_.accessors[primitive.attributes.at("NORMAL")].componentType == TINYGLTF_COMPONENT_TYPE_BYTE;
-    const Mat3 turn = body_from_gltf() * world.linear.inverse().transpose();
+    const Mat3 turn = kBodyFromGltf * world.linear.inverse().transpose();
     const auto normal = [&](std::uint32_t v) -> Vec3 { return turn * vector_at(*normals, v); };
     const auto add = [&](std::size_t i, std::size_t j, std::size_t k) {
       if (is_mirrored) std::swap(j, k);
@@ -309,6 +405,65 @@ class Reader {
   MeshBuilder builder_;
   GltfFlatTriangles flat_;
 };
+
+// The triangles of one part and one material, with float32 vertices of their own in glTF axes, one for each position
+// and normal that occur together. Normals are written where any corner of the piece has one, as the format has it for
+// all vertices or none: a corner without takes that of its triangle.
+struct GltfPiece {
+  std::uint16_t part = 0, material = 0;
+  std::vector<float> positions, normals;  // normals: empty, or one per position
+  std::vector<std::uint32_t> indices;
+};
+
+bool has_normal(const TriangleMesh& mesh, std::size_t t) {
+  return !mesh.corner_normals.empty() &&
+         std::ranges::any_of(mesh.corner_normals[t], [](const Vec3& n) { return !n.isZero(0); });
+}
+
+// The corner's normal, or that of its triangle; of a degenerate triangle some unit vector, which the format requires.
+Vec3 normal_of(const TriangleMesh& mesh, std::size_t t, int corner) {
+  if (!mesh.corner_normals[t][corner].isZero(0)) return mesh.corner_normals[t][corner];
+  const Vec3 own = unit_normal(area_vector(mesh, t));
+  return own.isZero(0) ? Vec3(Vec3::UnitZ()) : own;
+}
+
+// In ascending order of part, then material.
+std::vector<GltfPiece> pieces_of(const TriangleMesh& mesh) {
+  std::vector<std::size_t> order(mesh.triangles.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto key = [&](std::size_t t) { return std::pair{mesh.triangle_part[t], mesh.triangle_material[t]}; };
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+
+  std::vector<GltfPiece> pieces;
+  std::map<std::tuple<std::uint32_t, float, float, float>, std::uint32_t> placed;  // of the current piece
+  const auto append = [](std::vector<float>& list, const Vec3& x) {
+    const Vec3 in_gltf = kBodyFromGltf.transpose() * x;
+    for (int i = 0; i < 3; ++i) list.push_back(static_cast<float>(in_gltf[i]) + 0.0f);
+  };
+  for (std::size_t first = 0; first < order.size();) {
+    std::size_t end = first;
+    bool has_normals = false;
+    for (; end < order.size() && key(order[end]) == key(order[first]); ++end)
+      has_normals = has_normals || has_normal(mesh, order[end]);
+    const auto [part, material] = key(order[first]);
+    GltfPiece& piece = pieces.emplace_back(GltfPiece{part, material, {}, {}, {}});
+    placed.clear();
+    for (; first < end; ++first) {
+      const std::size_t t = order[first];
+      for (int i = 0; i < 3; ++i) {
+        const std::uint32_t v = mesh.triangles[t][i];
+        const Vec3 normal = has_normals ? normal_of(mesh, t, i) : Vec3::Zero();
+        const auto [place, is_new] = placed.try_emplace(
+            {v, static_cast<float>(normal.x()), static_cast<float>(normal.y()), static_cast<float>(normal.z())},
+            static_cast<std::uint32_t>(piece.positions.size() / 3));
+        if (is_new) append(piece.positions, mesh.vertices[v]);
+        if (is_new && has_normals) append(piece.normals, normal);
+        piece.indices.push_back(place->second);
+      }
+    }
+  }
+  return pieces;
+}
 
 class Writer {
  public:

@@ -6,32 +6,24 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <string_view>
 #include <utility>
 
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
+#include "sim/core/process/printable.h"
 #include "sim/core/text/text_source.h"
-#include "sim/geometry/files/exchange/gmsh_file.h"
-#include "sim/geometry/files/exchange/nastran_file.h"
-#include "sim/geometry/files/exchange/unv_file.h"
-#include "sim/geometry/files/gltf_file.h"
-#include "sim/geometry/files/obj_file.h"
-#include "sim/geometry/files/ply_file.h"
-#include "sim/geometry/files/stl_file.h"
+#include "sim/core/text/words.h"
+#include "sim/geometry/files/mesh_formats.h"
+#include "sim/geometry/mesh/triangulate_polygon.h"
 
 namespace seaglint {
 namespace {
 
 constexpr std::size_t kMaxBytes = std::size_t{1} << 30;
-std::string ending_of(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
-}
+
+std::string ending_of(const std::filesystem::path& path) { return lower_case(path.extension().string()); }
 
 bool is_gltf(const std::string& ending) { return ending == ".glb" || ending == ".gltf"; }
 
@@ -168,6 +160,17 @@ void write_coloured_mesh(const std::filesystem::path& path, const TriangleMesh& 
   if (mesh.triangles.empty())
     throw InputError(fmt::format("{}: a mesh without triangles is not written", path.string()));
   write_file(path, gltf_bytes(mesh, ending_of(path) == ".glb", material_colours));
+}
+
+std::string name_in(std::string_view line, const char* without) {
+  std::string name;
+  for (const std::string_view word : words_of(line)) name += fmt::format("{}{}", name.empty() ? "" : " ", word);
+  return name.empty() ? without : utf8_of(name);
+}
+
+std::optional<double> coordinate_in(std::string_view word) {
+  const auto number = parse_any_number(word);
+  return number ? coordinate_of(*number) : std::nullopt;
 }
 
 }  // namespace seaglint

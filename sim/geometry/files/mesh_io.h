@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Mesh files: .glb and .gltf (tinygltf), .obj, .ply, .stl (binary: OpenMesh), and shells of solvers, which are read
-// only: NASTRAN (.nas .bdf .dat .fem), I-DEAS universal files (.unv), Gmsh (.msh). The file name extension selects the
-// format.
+// Mesh files: .glb and .gltf (tinygltf), .obj, .ply, .stl, and shells of solvers, which are read only: NASTRAN (.nas
+// .bdf .dat .fem), I-DEAS universal files (.unv), Gmsh (.msh). The file name extension selects the format.
 
 #include <array>
 #include <filesystem>
@@ -23,7 +22,7 @@ inline constexpr double kLargestCoordinate = 1e7;
 // type; float32 in glTF, whose nodes place them in double precision, and in binary STL.
 // Files are untrusted: every count, size and index is checked against the file before a library allocates. Throws
 // InputError with file and cause; also for a unit other than m, cm, mm, km, in, ft, a mesh without triangles, and
-// coordinates that are not finite or exceed 1e7 m. Not thread-safe for STL: OpenMesh's readers are global objects.
+// coordinates that are not finite or exceed 1e7 m.
 //   glTF is +Y up, +Z forward (glTF 2.0, section 3.4): x = Z, y = X, z = Y. Nodes are parts, named after node or mesh.
 // Normals of glTF (NORMAL), OBJ (vn) and PLY (nx, ny, nz) become corner normals; those that are no unit vectors are
 // normalised, invalid ones are none and refuse nothing. Facet normals of STL are ignored: they follow from the

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/geometry/files/obj_file.h"
+#include "sim/geometry/files/mesh_formats.h"
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@
 #include "sim/core/process/error.h"
 #include "sim/core/process/printable.h"
 #include "sim/core/text/words.h"
-#include "sim/geometry/mesh/mesh_builder.h"
+#include "sim/geometry/mesh/triangle_mesh.h"
 #include "sim/geometry/mesh/triangulate_polygon.h"
 
 namespace seaglint {
@@ -82,10 +82,7 @@ class ObjReader {
   }
 
   static bool has_comment(std::string_view line) {
-    for (std::string_view word = next_word(line); !word.empty(); word = next_word(line)) {
-      if (word.starts_with('#')) return true;
-    }
-    return false;
+    return std::ranges::any_of(words_of(line), [](std::string_view word) { return word.starts_with('#'); });
   }
 
   void statement(std::string_view line) {
@@ -93,8 +90,8 @@ class ObjReader {
     if (keyword == "v") vertex(line);
     if (keyword == "vn") normal(line);
     if (keyword == "f") face(line);
-    if (keyword == "g" || keyword == "o") groups_.begin(name_of(line, "default"));
-    if (keyword == "usemtl") materials_.begin(name_of(line, "default"));
+    if (keyword == "g" || keyword == "o") groups_.begin(name_in(line, "default"));
+    if (keyword == "usemtl") materials_.begin(name_in(line, "default"));
     if (groups_.names.size() > kMaxNames) fail(fmt::format("more than {} groups", kMaxNames));
     if (materials_.names.size() > kMaxNames) fail(fmt::format("more than {} materials", kMaxNames));
     if (is_free_form(keyword)) {
@@ -114,8 +111,7 @@ class ObjReader {
     Vec3 position;
     for (double& x : position) {
       const std::string_view word = next_word(line);
-      const auto number = parse_any_number(word);
-      const auto coordinate = number ? coordinate_of(*number) : std::nullopt;
+      const auto coordinate = coordinate_in(word);
       if (!coordinate) fail(fmt::format("\"{}\" is not a coordinate", shown(word)));
       x = *coordinate;
     }
@@ -187,15 +183,6 @@ class ObjReader {
         builder_.triangle(a, b, c, {at(i), at(j), at(k)});
       }
     }
-  }
-
-  static std::string name_of(std::string_view line, const char* without) {
-    std::string name;
-    for (std::string_view word = next_word(line); !word.empty(); word = next_word(line)) {
-      if (!name.empty()) name += ' ';
-      name += word;
-    }
-    return name.empty() ? without : utf8_of(name);
   }
 
   // Names in order of first appearance, those without faces included, and the one of the lines that follow.

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/geometry/files/ply_file.h"
+#include "sim/geometry/files/mesh_formats.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -17,6 +16,7 @@
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <type_traits>
 #include <unordered_set>
 #include <utility>
 #include <vector>
@@ -24,7 +24,6 @@
 #include "sim/core/process/error.h"
 #include "sim/core/process/printable.h"
 #include "sim/core/text/words.h"
-#include "sim/geometry/mesh/mesh_builder.h"
 #include "sim/geometry/mesh/triangle_mesh.h"
 #include "sim/geometry/mesh/triangulate_polygon.h"
 
@@ -32,91 +31,36 @@ namespace seaglint {
 
 namespace {
 
-// Types of numbers in PLY files.
+// Type of numbers in PLY files.
+struct PlyNumber {
+  std::string_view name, other_name;  // both spellings, "uchar" and "uint8"
+  std::size_t bytes;
+  double lowest, highest;                         // of an integer type; infinite for the others
+  double (*value_at)(const char* at, bool swap);  // swap: in the other byte order than the machine's
 
-enum class PlyNumber { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat, kDouble };
-
-// Smallest and largest value of an integer type; infinite for the others.
-std::pair<double, double> range_of(PlyNumber type) {
-  switch (type) {
-    case PlyNumber::kInt8: return {-128, 127};
-    case PlyNumber::kUint8: return {0, 255};
-    case PlyNumber::kInt16: return {-32768, 32767};
-    case PlyNumber::kUint16: return {0, 65535};
-    case PlyNumber::kInt32: return {-2147483648.0, 2147483647.0};
-    case PlyNumber::kUint32: return {0, 4294967295.0};
-    case PlyNumber::kFloat:
-    case PlyNumber::kDouble: break;
+  // Whether a number of a text can be of the type: whole and within its limits, or any for floating-point types.
+  bool holds(double value) const {
+    return std::isinf(highest) || (value >= lowest && value <= highest && value == std::floor(value));
   }
+};
+
+template <typename T>
+constexpr PlyNumber ply_number(std::string_view name, std::string_view other_name) {
+  using Limits = std::numeric_limits<std::conditional_t<std::is_integral_v<T>, T, double>>;
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  return {-kInfinity, kInfinity};
+  return {name,
+          other_name,
+          sizeof(T),
+          std::is_integral_v<T> ? static_cast<double>(Limits::min()) : -kInfinity,
+          std::is_integral_v<T> ? static_cast<double>(Limits::max()) : kInfinity,
+          [](const char* at, bool swap) -> double { return number_at<T>(at, swap); }};
 }
 
-// The type of this name, in either spelling ("uchar", "uint8").
-std::optional<PlyNumber> ply_number(std::string_view name) {
-  constexpr std::array<std::pair<std::string_view, PlyNumber>, 16> kNames{{{"char", PlyNumber::kInt8},
-                                                                           {"int8", PlyNumber::kInt8},
-                                                                           {"uchar", PlyNumber::kUint8},
-                                                                           {"uint8", PlyNumber::kUint8},
-                                                                           {"short", PlyNumber::kInt16},
-                                                                           {"int16", PlyNumber::kInt16},
-                                                                           {"ushort", PlyNumber::kUint16},
-                                                                           {"uint16", PlyNumber::kUint16},
-                                                                           {"int", PlyNumber::kInt32},
-                                                                           {"int32", PlyNumber::kInt32},
-                                                                           {"uint", PlyNumber::kUint32},
-                                                                           {"uint32", PlyNumber::kUint32},
-                                                                           {"float", PlyNumber::kFloat},
-                                                                           {"float32", PlyNumber::kFloat},
-                                                                           {"double", PlyNumber::kDouble},
-                                                                           {"float64", PlyNumber::kDouble}}};
-  for (const auto& [known, type] : kNames) {
-    if (name == known) return type;
-  }
-  return std::nullopt;
-}
-
-// Size in bytes.
-std::size_t size_of(PlyNumber type) {
-  switch (type) {
-    case PlyNumber::kInt8:
-    case PlyNumber::kUint8: return 1;
-    case PlyNumber::kInt16:
-    case PlyNumber::kUint16: return 2;
-    case PlyNumber::kInt32:
-    case PlyNumber::kUint32:
-    case PlyNumber::kFloat: return 4;
-    case PlyNumber::kDouble: return 8;
-  }
-  return 0;
-}
-
-// Whether a number of a text can be of the type: whole and within its limits, or any for floating-point types.
-bool holds(PlyNumber type, double value) {
-  const auto [lowest, highest] = range_of(type);
-  return std::isinf(highest) || (value >= lowest && value <= highest && value == std::floor(value));
-}
-
-// "a whole number within 0 and 255".
-std::string limits_of(PlyNumber type) {
-  const auto [lowest, highest] = range_of(type);
-  return fmt::format("a whole number within {} and {}", lowest, highest);
-}
-
-// The number whose bytes begin here; swap: in the other byte order than the machine's.
-double value_at(PlyNumber type, const char* bytes, bool swap) {
-  switch (type) {
-    case PlyNumber::kInt8: return number_at<std::int8_t>(bytes, swap);
-    case PlyNumber::kUint8: return number_at<std::uint8_t>(bytes, swap);
-    case PlyNumber::kInt16: return number_at<std::int16_t>(bytes, swap);
-    case PlyNumber::kUint16: return number_at<std::uint16_t>(bytes, swap);
-    case PlyNumber::kInt32: return number_at<std::int32_t>(bytes, swap);
-    case PlyNumber::kUint32: return number_at<std::uint32_t>(bytes, swap);
-    case PlyNumber::kFloat: return number_at<float>(bytes, swap);
-    case PlyNumber::kDouble: return number_at<double>(bytes, swap);
-  }
-  return 0;
-}
+constexpr std::array<PlyNumber, 8> kNumbers{
+    ply_number<std::int8_t>("char", "int8"),    ply_number<std::uint8_t>("uchar", "uint8"),
+    ply_number<std::int16_t>("short", "int16"), ply_number<std::uint16_t>("ushort", "uint16"),
+    ply_number<std::int32_t>("int", "int32"),   ply_number<std::uint32_t>("uint", "uint32"),
+    ply_number<float>("float", "float32"),      ply_number<double>("double", "float64")};
 
 // One vertex for each position and normal that occur together, as PLY has one normal per vertex. Welding restores the
 // mesh.
@@ -155,9 +99,10 @@ SplitVertices split_by_normal(const TriangleMesh& mesh) {
 
 struct Property {
   std::string name;
-  PlyNumber value = PlyNumber::kFloat;
-  bool is_list = false;
-  PlyNumber count = PlyNumber::kUint8;
+  const PlyNumber* value = nullptr;
+  const PlyNumber* count = nullptr;  // of a list; null: a single number
+
+  bool is_list() const { return count != nullptr; }
 };
 
 struct Element {
@@ -166,8 +111,6 @@ struct Element {
   std::vector<Property> properties;
 };
 
-// Parses a PLY. OpenMesh's own reader does not terminate at a missing end_header, does not check counts, and of binary
-// files reads only float coordinates and uchar list counts.
 class PlyReader {
  public:
   PlyReader(std::string_view bytes, const std::string& file) : bytes_(bytes), rest_(bytes), file_(file) {}
@@ -210,8 +153,10 @@ class PlyReader {
     throw InputError(fmt::format("{}:{}: {}", file_, std::max<std::ptrdiff_t>(line, 1), what));
   }
 
-  PlyNumber type_of(std::string_view name) const {
-    if (const std::optional<PlyNumber> type = ply_number(name)) return *type;
+  const PlyNumber* type_of(std::string_view name) const {
+    const auto known = std::ranges::find_if(
+        kNumbers, [&](const PlyNumber& type) { return name == type.name || name == type.other_name; });
+    if (known != kNumbers.end()) return &*known;
     fail(fmt::format("the PLY header has the unknown type \"{}\"", shown(name)));
   }
 
@@ -242,8 +187,7 @@ class PlyReader {
         if (elements_.empty()) fail("the PLY header has a property before any element");
         Property property;
         std::string_view word = next_word(line);
-        property.is_list = word == "list";
-        if (property.is_list) {
+        if (word == "list") {
           property.count = type_of(next_word(line));
           word = next_word(line);
         }
@@ -262,7 +206,7 @@ class PlyReader {
   void min_size(const Element& element) const {
     std::uint64_t min_bytes = 0;
     for (const Property& property : element.properties) {
-      min_bytes += is_ascii_ ? 2 : size_of(property.is_list ? property.count : property.value);
+      min_bytes += is_ascii_ ? 2 : (property.is_list() ? property.count : property.value)->bytes;
     }
     const std::uint64_t available = min_bytes == 0 ? 0 : (rest_.size() + 1) / min_bytes;
     if (element.count > available && !element.properties.empty()) {
@@ -270,24 +214,27 @@ class PlyReader {
     }
   }
 
-  double number(PlyNumber type) {
+  double number(const PlyNumber& type) {
     if (is_ascii_) {
       const std::string_view word = next_word(rest_);
       const auto number = parse_any_number(word);
       if (!number)
         fail(word.empty() ? std::string("ends before its last number")
                           : fmt::format("\"{}\" is not a number", shown(word)));
-      if (!holds(type, *number)) fail(fmt::format("\"{}\" where the header promises {}", shown(word), limits_of(type)));
+      if (!type.holds(*number)) {
+        fail(fmt::format("\"{}\" where the header promises a whole number within {} and {}", shown(word), type.lowest,
+                         type.highest));
+      }
       return *number;
     }
-    if (rest_.size() < size_of(type)) fail("ends before its last number");
-    const double value = value_at(type, rest_.data(), swap_);
-    rest_.remove_prefix(size_of(type));
+    if (rest_.size() < type.bytes) fail("ends before its last number");
+    const double value = type.value_at(rest_.data(), swap_);
+    rest_.remove_prefix(type.bytes);
     return value;
   }
 
   std::uint64_t read_count(const Property& property) {
-    const double count = number(property.count);
+    const double count = number(*property.count);
     if (!(count >= 0 && count <= static_cast<double>(rest_.size()) &&
           count == static_cast<double>(static_cast<std::uint64_t>(count)))) {
       fail(fmt::format("a list of {} entries with {} bytes left", count, rest_.size()));
@@ -296,40 +243,36 @@ class PlyReader {
   }
 
   void skip(const Property& property) {
-    const std::uint64_t count = property.is_list ? read_count(property) : 1;
-    for (std::uint64_t i = 0; i < count; ++i) number(property.value);
+    const std::uint64_t count = property.is_list() ? read_count(property) : 1;
+    for (std::uint64_t i = 0; i < count; ++i) number(*property.value);
   }
 
   void vertices(const Element& element) {
     for (const char* axis : {"x", "y", "z"}) {
       const auto count =
           std::count_if(element.properties.begin(), element.properties.end(),
-                        [&](const Property& property) { return !property.is_list && property.name == axis; });
+                        [&](const Property& property) { return !property.is_list() && property.name == axis; });
       if (count != 1)
         fail(fmt::format("its vertices have {} properties {}: must have x, y and z once each", count, axis));
     }
     vertex_count_ = element.count;
     if (vertex_count_ > 0x7fffffff) fail(fmt::format("{} vertices are too many", vertex_count_));
     const bool has_normals = std::ranges::any_of(
-        element.properties, [](const Property& property) { return !property.is_list && property.name == "nx"; });
+        element.properties, [](const Property& property) { return !property.is_list() && property.name == "nx"; });
     for (std::uint64_t i = 0; i < element.count; ++i) {
       Vec3 p = Vec3::Zero(), n = Vec3::Zero();
       for (const Property& property : element.properties) {
-        const int axis = property.is_list || property.name.size() != 1 ? -1 : property.name[0] - 'x';
-        if (axis < 0 || axis > 2) {
-          const bool is_normal = !property.is_list && property.name.size() == 2 && property.name[0] == 'n' &&
-                                 property.name[1] >= 'x' && property.name[1] <= 'z';
-          if (is_normal) {
-            n[property.name[1] - 'x'] = number(property.value);
-          } else {
-            skip(property);
-          }
+        const std::string_view name = property.is_list() ? std::string_view() : property.name;
+        const bool is_normal = name.size() == 2 && name[0] == 'n';
+        const char axis = is_normal ? name[1] : name.size() == 1 ? name[0] : '\0';
+        if (axis < 'x' || axis > 'z') {
+          skip(property);
           continue;
         }
-        const double value = number(property.value);
-        const auto coordinate = coordinate_of(value);
+        const double value = number(*property.value);
+        const std::optional<double> coordinate = is_normal ? value : coordinate_of(value);
         if (!coordinate) fail(fmt::format("vertex {} has the coordinate {}", i, value));
-        p[axis] = *coordinate;
+        (is_normal ? n : p)[axis - 'x'] = *coordinate;
       }
       builder_.vertex(p);
       if (has_normals) normals_.push_back(n);
@@ -337,7 +280,7 @@ class PlyReader {
   }
 
   static bool has_corners(const Property& property) {
-    return property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index");
+    return property.is_list() && (property.name == "vertex_indices" || property.name == "vertex_index");
   }
 
   // Calls use(index of the row, type of the list's values, their number) for every list of corners, of which it reads
@@ -350,7 +293,7 @@ class PlyReader {
     for (std::uint64_t i = 0; i < element.count; ++i) {
       for (const Property& property : element.properties) {
         if (has_corners(property))
-          use(i, property.value, read_count(property));
+          use(i, *property.value, read_count(property));
         else
           skip(property);
       }
@@ -358,7 +301,7 @@ class PlyReader {
   }
 
   void faces(const Element& element) {
-    corner_lists(element, "faces", [&](std::uint64_t i, PlyNumber type, std::uint64_t count) {
+    corner_lists(element, "faces", [&](std::uint64_t i, const PlyNumber& type, std::uint64_t count) {
       for (std::uint64_t k = 0; k < count; ++k) {
         const double index = number(type);
         corners_.push_back(corner(index, "face", i));
@@ -375,11 +318,11 @@ class PlyReader {
 
   // Triangle strips (Stanford's PLY): -1 ends a strip, every second triangle is turned.
   void strips(const Element& element) {
-    corner_lists(element, "triangle strips", [&](std::uint64_t i, PlyNumber type, std::uint64_t count) {
+    corner_lists(element, "triangle strips", [&](std::uint64_t i, const PlyNumber& type, std::uint64_t count) {
       std::vector<std::uint32_t> strip;
       for (std::uint64_t k = 0; k < count; ++k) {
         const double index = number(type);
-        if (index == -1 || (type == PlyNumber::kUint32 && index == 4294967295.0)) {
+        if (index == -1 || (type.highest == 4294967295.0 && index == type.highest)) {
           strip.clear();
           continue;
         }
@@ -424,12 +367,6 @@ class PlyReader {
   MeshBuilder builder_;
 };
 
-template <typename T>
-void append_raw(std::string& bytes, T value) {
-  const auto raw = std::bit_cast<std::array<char, sizeof(T)>>(value);
-  bytes.append(raw.data(), raw.size());
-}
-
 }  // namespace
 
 TriangleMesh read_ply(std::string bytes, const std::string& file) {
@@ -446,7 +383,6 @@ TriangleMesh read_ply(std::string bytes, const std::string& file) {
 }
 
 std::string ply_bytes(const TriangleMesh& mesh) {
-  static_assert(std::endian::native == std::endian::little);
   const SplitVertices split = split_by_normal(mesh);
   std::string bytes = fmt::format(
       "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty double x\nproperty double y\nproperty double "
@@ -454,15 +390,15 @@ std::string ply_bytes(const TriangleMesh& mesh) {
       split.vertex.size(), split.normal.empty() ? "" : "property double nx\nproperty double ny\nproperty double nz\n",
       mesh.triangles.size());
   const auto append = [&](const Vec3& x) {
-    for (const double value : x) append_raw(bytes, value + 0.0);  // turns -0 into +0
+    for (const double value : x) append_number(bytes, value + 0.0);  // turns -0 into +0
   };
   for (std::size_t i = 0; i < split.vertex.size(); ++i) {
     append(mesh.vertices[split.vertex[i]]);
     if (!split.normal.empty()) append(split.normal[i]);
   }
   for (const auto& triangle : split.triangles) {
-    append_raw(bytes, std::uint8_t{3});
-    for (const std::uint32_t v : triangle) append_raw(bytes, v);
+    append_number(bytes, std::uint8_t{3});
+    for (const std::uint32_t v : triangle) append_number(bytes, v);
   }
   return bytes;
 }

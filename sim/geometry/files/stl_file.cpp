@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/geometry/files/stl_file.h"
+#include "sim/geometry/files/mesh_formats.h"
 
 #include <fmt/format.h>
 
 #include <OpenMesh/Core/IO/MeshIO.hh>
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstdint>
 #include <cstring>
 #include <sstream>
@@ -16,7 +15,7 @@
 #include "sim/core/process/error.h"
 #include "sim/core/process/printable.h"
 #include "sim/core/text/words.h"
-#include "sim/geometry/mesh/mesh_builder.h"
+#include "sim/geometry/mesh/triangle_mesh.h"
 #include "sim/geometry/mesh/triangulate_polygon.h"
 
 namespace seaglint {
@@ -205,30 +204,11 @@ TriangleMesh read_stl_soup(const std::string& bytes, std::size_t triangle_count,
   return importer.take();
 }
 
-}  // namespace
-
-std::string stl_bytes(const TriangleMesh& mesh) {
-  const Silence silence;
-  SoupExporter exporter(mesh);
-  OpenMesh::IO::Options options = OpenMesh::IO::Options::Binary;
-  std::ostringstream stream;
-  if (!OpenMesh::IO::IOManager().write(stream, ".stl", exporter, options)) {
-    throw WorkError("OpenMesh could not write the mesh");
-  }
-  return stream.str();
-}
-
-namespace {
-
 constexpr std::size_t kHeader = 84,
                       kFacet = 50;  // bytes: 80 of comment and the count; normal, three vertices, attribute
 
-constexpr std::size_t kMaxSolids = 65000;
-
 std::uint32_t count_in(std::string_view bytes) {
-  std::uint32_t count = 0;
-  if (bytes.size() >= kHeader) std::memcpy(&count, bytes.data() + 80, 4);
-  return count;
+  return bytes.size() >= kHeader ? number_at<std::uint32_t>(bytes.data() + 80) : 0;
 }
 
 // Whether bytes behind the last triangle hold geometry: further triangles where the count is wrong, or a second file.
@@ -236,6 +216,16 @@ bool are_triangles(std::string_view left) {
   const bool is_file =
       left.size() >= kHeader + kFacet && count_in(left) > 0 && count_in(left) <= (left.size() - kHeader) / kFacet;
   return left.size() % kFacet == 0 || is_file;
+}
+
+bool is_degenerate(const std::array<Vec3, 3>& corners) {
+  return corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0];
+}
+
+// Adds a triangle with vertices of its own.
+void add_triangle(MeshBuilder& builder, const std::array<Vec3, 3>& corners) {
+  const std::uint32_t a = builder.vertex(corners[0]), b = builder.vertex(corners[1]), c = builder.vertex(corners[2]);
+  builder.triangle(a, b, c);
 }
 
 // Header, count, then facets of a normal and three vertices as little-endian float32. Other bytes behind them are a
@@ -301,17 +291,10 @@ class AsciiStl {
     throw InputError(fmt::format("{}:{}: {}", file_, line, what));
   }
 
-  std::string lower_word() {
-    std::string word(next_word(rest_));
-    std::transform(word.begin(), word.end(), word.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return word;
-  }
-
   // The next keyword in lower case; "end loop" is endloop.
   std::string keyword() {
-    const std::string word = lower_word();
-    return word == "end" ? word + lower_word() : word;
+    const std::string word = lower_case(next_word(rest_));
+    return word == "end" ? word + lower_case(next_word(rest_)) : word;
   }
 
   void expect(const char* word) {
@@ -322,19 +305,12 @@ class AsciiStl {
   void begin_solid() {
     if (in_solid_) fail("solid where endsolid belongs");
     in_solid_ = true;
-    std::string_view line = next_line(rest_);
-    std::string name;
-    for (std::string_view word = next_word(line); !word.empty(); word = next_word(line)) {
-      if (!name.empty()) name += ' ';
-      name += word;
-    }
-    solid_ = name.empty() ? "body" : utf8_of(name);
+    solid_ = name_in(next_line(rest_), "body");
   }
 
   double coordinate() {
     const std::string_view word = next_word(rest_);
-    const auto number = parse_any_number(word);
-    const auto value = number ? coordinate_of(*number) : std::nullopt;
+    const auto value = coordinate_in(word);
     if (!value) fail(fmt::format("\"{}\" is not a coordinate", shown(word)));
     return *value;
   }
@@ -352,12 +328,10 @@ class AsciiStl {
     }
     expect("endloop");
     expect("endfacet");
-    if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) return;
+    if (is_degenerate(corners)) return;
     builder_.begin_part(solid_);
-    if (builder_.part_count() > kMaxSolids) fail(fmt::format("more than {} solids", kMaxSolids));
-    const std::uint32_t a = builder_.vertex(corners[0]), b = builder_.vertex(corners[1]),
-                        c = builder_.vertex(corners[2]);
-    builder_.triangle(a, b, c);
+    if (builder_.part_count() > kMaxParts) fail(fmt::format("more than {} solids", kMaxParts));
+    add_triangle(builder_, corners);
   }
 
   const std::string text_;
@@ -370,12 +344,10 @@ class AsciiStl {
 
 // "solid" comes first, behind a byte order mark perhaps; no text has bytes such as 0 at its beginning.
 bool is_text(std::string_view bytes) {
-  constexpr std::string_view kMark = "\xef\xbb\xbf", kSolid = "solid";
+  constexpr std::string_view kMark = "\xef\xbb\xbf";
   std::string_view start = bytes;
   if (start.starts_with(kMark)) start.remove_prefix(kMark.size());
-  const std::string_view word = next_word(start);
-  const bool says_solid =
-      std::ranges::equal(word, kSolid, [](unsigned char a, unsigned char b) { return std::tolower(a) == b; });
+  const bool says_solid = lower_case(next_word(start)) == "solid";
   const std::string_view head = bytes.substr(0, 512);
   const bool has_other_bytes = std::any_of(head.begin(), head.end(), [](char c) {
     return (c >= 0 && c < 0x20 && c != '\n' && c != '\r' && c != '\t' && c != '\f') || c == 0x7f;
@@ -390,7 +362,18 @@ TriangleMesh read_stl(std::string bytes, const std::string& file) {
   const bool has_binary_size =
       bytes.size() >= kHeader && bytes.size() == kHeader + kFacet * std::size_t{count_in(bytes)};
   if (!has_binary_size && is_text(bytes)) return AsciiStl(plain_lines(std::move(bytes)), file).read();
-  return read_binary(std::move(bytes), file);
+  return read_binary(bytes, file);
+}
+
+std::string stl_bytes(const TriangleMesh& mesh) {
+  const Silence silence;
+  SoupExporter exporter(mesh);
+  OpenMesh::IO::Options options = OpenMesh::IO::Options::Binary;
+  std::ostringstream stream;
+  if (!OpenMesh::IO::IOManager().write(stream, ".stl", exporter, options)) {
+    throw WorkError("OpenMesh could not write the mesh");
+  }
+  return stream.str();
 }
 
 }  // namespace seaglint

@@ -390,25 +390,17 @@ std::vector<std::string> diagnostic_messages(const MeshDiagnostics& h) {
 RepairedMesh diagnose_and_repair(const TriangleMesh& mesh) {
   Diagnosis d = find_defects(mesh);
   RepairedMesh repaired{mesh, std::move(d.health)};
-  TriangleMesh& result = repaired.mesh;
-  std::size_t count = 0;
+  repaired.mesh.clear_triangles();
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (d.drop[t]) continue;
-    auto triangle = mesh.triangles[t];
-    if (d.turn[t]) std::swap(triangle[1], triangle[2]);
-    result.triangles[count] = triangle;
-    result.triangle_part[count] = mesh.triangle_part[t];
-    result.triangle_material[count] = mesh.triangle_material[t];
-    if (!mesh.corner_normals.empty()) {
-      const auto& n = mesh.corner_normals[t];
-      result.corner_normals[count] = d.turn[t] ? std::array{Vec3(-n[0]), Vec3(-n[2]), Vec3(-n[1])} : n;
+    std::array<std::uint32_t, 3> triangle = mesh.triangles[t];
+    std::array<Vec3, 3> normals = mesh.normals_of(t);
+    if (d.turn[t]) {
+      std::swap(triangle[1], triangle[2]);
+      normals = {-normals[0], -normals[2], -normals[1]};
     }
-    ++count;
+    repaired.mesh.add_like(mesh, t, triangle, normals);
   }
-  result.triangles.resize(count);
-  result.triangle_part.resize(count);
-  result.triangle_material.resize(count);
-  if (!mesh.corner_normals.empty()) result.corner_normals.resize(count);
   return repaired;
 }
 

@@ -89,7 +89,6 @@ std::size_t Topology::count(EdgeKind kind) const {
 
 Topology topology_of(const TriangleMesh& mesh) {
   Topology topology;
-  topology.triangle_edges.assign(mesh.triangles.size(), {kNoIndex, kNoIndex, kNoIndex});
   topology.neighbours.assign(mesh.triangles.size(), {kNoIndex, kNoIndex, kNoIndex});
 
   // Sides with the same two vertices are one edge.
@@ -100,7 +99,6 @@ Topology topology_of(const TriangleMesh& mesh) {
       topology.edges.push_back({vertices, EdgeKind::kManifold, static_cast<std::uint32_t>(topology.uses.size()), 0});
     ++topology.edges.back().use_count;
     topology.uses.push_back(side);
-    topology.triangle_edges[side.triangle][side.side] = static_cast<std::uint32_t>(topology.edges.size() - 1);
   }
 
   for (MeshEdge& edge : topology.edges) {

@@ -51,8 +51,6 @@ struct Topology {
   std::vector<MeshEdge> edges;  // ascending in their vertices
   std::vector<HalfEdge> uses;
   std::vector<std::array<std::uint32_t, 3>>
-      triangle_edges;  // edge of each side; kNoIndex when its two vertices coincide
-  std::vector<std::array<std::uint32_t, 3>>
       neighbours;                         // triangle across each side; kNoIndex unless the edge is manifold
   std::vector<std::uint32_t> degenerate;  // triangles of zero area, ascending
   std::vector<bool> part_closed;  // per part: its triangles traverse every edge equally often in both directions

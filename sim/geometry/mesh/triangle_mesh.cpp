@@ -7,7 +7,10 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <map>
+#include <numeric>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "sim/core/process/error.h"
@@ -16,7 +19,6 @@ namespace seaglint {
 
 namespace {
 
-const std::array<Vec3, 3> kNoNormals{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
 constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
 
 // Index of `name` in `names`, appended when new.
@@ -71,6 +73,21 @@ void TriangleMesh::append(const TriangleMesh& other) {
     triangle_part.push_back(part[other.triangle_part[t]]);
     triangle_material.push_back(material[other.triangle_material[t]]);
   }
+}
+
+void TriangleMesh::clear_triangles() {
+  triangles.clear();
+  triangle_part.clear();
+  triangle_material.clear();
+  corner_normals.clear();
+}
+
+void TriangleMesh::add_like(const TriangleMesh& other, std::size_t t, const std::array<std::uint32_t, 3>& corners,
+                            const std::array<Vec3, 3>& normals) {
+  triangles.push_back(corners);
+  if (!other.triangle_part.empty()) triangle_part.push_back(other.triangle_part[t]);
+  if (!other.triangle_material.empty()) triangle_material.push_back(other.triangle_material[t]);
+  if (!other.corner_normals.empty()) corner_normals.push_back(normals);
 }
 
 Vec3 unit_normal(const Vec3& normal) {
@@ -174,20 +191,17 @@ TriangleMesh part_of(const TriangleMesh& mesh, std::size_t part) {
   std::vector<std::uint32_t> index(mesh.vertices.size(), kUnused);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (mesh.triangle_part[t] != part) continue;
-    std::array<std::uint32_t, 3> triangle{};
-    for (int i = 0; i < 3; ++i) {
-      const std::uint32_t v = mesh.triangles[t][i];
+    std::array<std::uint32_t, 3> triangle = mesh.triangles[t];
+    for (std::uint32_t& v : triangle) {
       if (index[v] == kUnused) {
         index[v] = static_cast<std::uint32_t>(result.vertices.size());
         result.vertices.push_back(mesh.vertices[v]);
       }
-      triangle[i] = index[v];
+      v = index[v];
     }
-    result.triangles.push_back(triangle);
-    result.triangle_part.push_back(0);
-    result.triangle_material.push_back(mesh.triangle_material[t]);
-    if (!mesh.corner_normals.empty()) result.corner_normals.push_back(mesh.corner_normals[t]);
+    result.add_like(mesh, t, triangle, mesh.normals_of(t));
   }
+  result.triangle_part.assign(result.triangles.size(), 0);
   return result;
 }
 
@@ -264,6 +278,107 @@ Sphere bounding_sphere(std::span<const Vec3> points) {
     sphere = larger;
   }
   return {origin + sphere.centre, sphere.radius};
+}
+
+namespace {
+
+constexpr std::size_t kMaxNames = 65536;  // of parts or materials: triangles store 16-bit indices
+
+}  // namespace
+
+void MeshBuilder::begin_part(const std::string& name) {
+  const auto [place, is_new] = part_of_name_.try_emplace(name, mesh_.part_names.size());
+  if (is_new) mesh_.part_names.push_back(name);
+  SEAGLINT_CHECK(place->second < kMaxNames, fmt::format("{} parts", mesh_.part_names.size()));
+  part_ = static_cast<std::uint16_t>(place->second);
+}
+
+void MeshBuilder::begin_material(const std::string& name) {
+  const auto [place, is_new] = material_of_name_.try_emplace(name, mesh_.materials.size());
+  if (is_new) mesh_.materials.push_back(Material{name});
+  SEAGLINT_CHECK(place->second < kMaxNames, fmt::format("{} materials", mesh_.materials.size()));
+  material_ = static_cast<std::uint16_t>(place->second);
+}
+
+void MeshBuilder::triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+  if (mesh_.part_names.empty()) begin_part("body");
+  if (mesh_.materials.empty()) begin_material(Material{}.name);
+  mesh_.triangles.push_back({a, b, c});
+  mesh_.triangle_part.push_back(part_);
+  mesh_.triangle_material.push_back(material_);
+  if (!mesh_.corner_normals.empty()) mesh_.corner_normals.resize(mesh_.triangles.size(), kNoNormals);
+}
+
+void MeshBuilder::triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, const std::array<Vec3, 3>& normals) {
+  triangle(a, b, c);
+  mesh_.corner_normals.resize(mesh_.triangles.size(), kNoNormals);
+  for (int i = 0; i < 3; ++i) mesh_.corner_normals.back()[i] = unit_normal(normals[i]);
+}
+
+TriangleMesh MeshBuilder::take() { return std::exchange(*this, {}).mesh_; }
+
+namespace {
+
+using Index = std::uint32_t;
+
+std::vector<Index> shuffled(std::size_t count, Random& random) {
+  std::vector<Index> order(count);
+  std::iota(order.begin(), order.end(), Index{0});
+  shuffle(order, random);
+  return order;
+}
+
+}  // namespace
+
+TriangleMesh cut_in_four(const TriangleMesh& mesh, bool as_float) {
+  TriangleMesh cut = mesh;
+  cut.clear_triangles();
+  std::map<std::pair<Index, Index>, Index> middle;
+  const auto between = [&](Index a, Index b) {
+    const auto [at, is_new] = middle.try_emplace(std::minmax(a, b), static_cast<Index>(cut.vertices.size()));
+    if (is_new) {
+      const Vec3 x = 0.5 * (mesh.vertices[a] + mesh.vertices[b]);
+      cut.vertices.push_back(as_float ? Vec3(x.cast<float>().cast<double>()) : x);
+    }
+    return at->second;
+  };
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto [a, b, c] = mesh.triangles[t];
+    const Index ab = between(a, b), bc = between(b, c), ca = between(c, a);
+    const auto& [na, nb, nc] = mesh.normals_of(t);
+    const Vec3 nab = unit_normal(na + nb), nbc = unit_normal(nb + nc), nca = unit_normal(nc + na);
+    cut.add_like(mesh, t, {a, ab, ca}, {na, nab, nca});
+    cut.add_like(mesh, t, {ab, b, bc}, {nab, nb, nbc});
+    cut.add_like(mesh, t, {ca, bc, c}, {nca, nbc, nc});
+    cut.add_like(mesh, t, {ab, bc, ca}, {nab, nbc, nca});
+  }
+  return cut;
+}
+
+TriangleMesh renumbered(const TriangleMesh& mesh, Random& random) {
+  TriangleMesh other = mesh;
+  const std::vector<Index> place = shuffled(mesh.vertices.size(), random),
+                           source = shuffled(mesh.triangles.size(), random);
+  for (std::size_t v = 0; v < place.size(); ++v) other.vertices[place[v]] = mesh.vertices[v];
+  for (std::size_t t = 0; t < source.size(); ++t) {
+    const std::size_t first = random.below(3);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t corner = (first + i) % 3;
+      other.triangles[t][i] = place[mesh.triangles[source[t]][corner]];
+      if (!mesh.corner_normals.empty()) other.corner_normals[t][i] = mesh.corner_normals[source[t]][corner];
+    }
+    if (!mesh.triangle_part.empty()) other.triangle_part[t] = mesh.triangle_part[source[t]];
+    if (!mesh.triangle_material.empty()) other.triangle_material[t] = mesh.triangle_material[source[t]];
+  }
+  return other;
+}
+
+TriangleMesh with_noise(const TriangleMesh& mesh, double sigma, Random& random) {
+  TriangleMesh noisy = mesh;
+  for (Vec3& x : noisy.vertices) {
+    for (int i = 0; i < 3; ++i) x[i] += sigma * random.normal();
+  }
+  return noisy;
 }
 
 }  // namespace seaglint

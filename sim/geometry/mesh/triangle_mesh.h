@@ -1,21 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Indexed triangle mesh. It holds any triangle soup, non-manifold ones included.
+// Indexed triangle mesh, which holds any triangle soup, non-manifold ones included; meshes made part by part, as every
+// generator and reader does, and from other meshes.
 
 #include <array>
 #include <cstdint>
 #include <span>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "sim/core/numbers/linear.h"
+#include "sim/core/numbers/random.h"
 
 namespace seaglint {
 
 struct Material {
   std::string name = "pec";  // perfect electric conductor; other names are defined by material files
 };
+
+// Of a triangle without normals at its corners.
+inline constexpr std::array<Vec3, 3> kNoNormals{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
 
 // Lengths in metres, body frame (CONVENTIONS.md): x forward, y to port, z up. Triangles are counter-clockwise seen from
 // outside.
@@ -34,6 +40,17 @@ struct TriangleMesh {
 
   // Appends a mesh unchanged; its parts and materials are matched by name.
   void append(const TriangleMesh& other);
+
+  // The normals at the corners of a triangle; kNoNormals without.
+  const std::array<Vec3, 3>& normals_of(std::size_t t) const {
+    return corner_normals.empty() ? kNoNormals : corner_normals[t];
+  }
+  // Removes all triangles with what belongs to them; vertices, names and materials stay.
+  void clear_triangles();
+  // Appends a triangle of these corners and normals with part and material of triangle t of another mesh, which has the
+  // same names, as far as that mesh has parts, materials and normals.
+  void add_like(const TriangleMesh& other, std::size_t t, const std::array<std::uint32_t, 3>& corners,
+                const std::array<Vec3, 3>& normals);
 };
 
 // The unit vector along a surface normal of a file; zero where that is not finite or has no length.
@@ -84,5 +101,52 @@ struct Sphere {
 // The smallest sphere that contains all points, to rounding: no point lies outside by more than 1e-12 of the radius. It
 // turns and moves with the points. Zero for no points, or where none has numbers as coordinates.
 Sphere bounding_sphere(std::span<const Vec3> points);
+
+class MeshBuilder {
+ public:
+  // Part or material of the triangles that follow; a name that was used before is continued.
+  void begin_part(const std::string& name);
+  void begin_material(const std::string& name);
+
+  std::uint32_t vertex(const Vec3& position) {
+    mesh_.vertices.push_back(position);
+    return static_cast<std::uint32_t>(mesh_.vertices.size() - 1);
+  }
+
+  // Vertices counter-clockwise seen from outside.
+  void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
+  // With the surface's normals at its corners, of any length; one that is not finite or zero is none.
+  void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, const std::array<Vec3, 3>& normals);
+  // Two triangles a b c, a c d.
+  void quad(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+    triangle(a, b, c);
+    triangle(a, c, d);
+  }
+
+  std::size_t part_count() const { return mesh_.part_names.size(); }
+  std::size_t triangle_count() const { return mesh_.triangles.size(); }
+  const std::vector<Vec3>& vertices() const { return mesh_.vertices; }
+
+  TriangleMesh take();
+
+ private:
+  TriangleMesh mesh_;
+  std::unordered_map<std::string, std::size_t> part_of_name_, material_of_name_;
+  std::uint16_t part_ = 0;
+  std::uint16_t material_ = 0;
+};
+
+// Other meshes of the same surface: cut, numbered or rounded differently, with noise on the vertices. Parts, materials
+// and corner normals are kept.
+
+// Every triangle cut into four at the midpoints of its sides, which are rounded to float32 on request. The normal at a
+// midpoint is the mean of those at both ends.
+TriangleMesh cut_in_four(const TriangleMesh& mesh, bool as_float = false);
+
+// Vertices and triangles in random order, triangles starting at a random corner.
+TriangleMesh renumbered(const TriangleMesh& mesh, Random& random);
+
+// Vertices displaced by a normal distribution of this standard deviation in every coordinate, m.
+TriangleMesh with_noise(const TriangleMesh& mesh, double sigma, Random& random);
 
 }  // namespace seaglint

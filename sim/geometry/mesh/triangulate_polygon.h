@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// What several formats of mesh files share: triangulation of polygons, by fans of convex ones and ear clipping of
-// concave ones; the range of coordinates; numbers in binary.
+// Triangulation of polygons, by fans of convex ones and ear clipping of concave ones; the range of coordinates.
 
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -46,13 +44,5 @@ std::vector<std::array<std::uint32_t, 3>> triangles_of_polygon(std::span<const V
 // A coordinate as it is; nullopt when not finite or beyond 1e30; 0 below 1e-30, so that its square does not vanish in
 // float32.
 std::optional<double> coordinate_of(double value);
-
-// The number of type T whose bytes begin here; swap: in the other byte order than the machine's.
-template <typename T>
-T number_at(const char* bytes, bool swap) {
-  std::array<char, sizeof(T)> raw{};
-  for (std::size_t i = 0; i < raw.size(); ++i) raw[i] = bytes[swap ? raw.size() - 1 - i : i];
-  return std::bit_cast<T>(raw);
-}
 
 }  // namespace seaglint

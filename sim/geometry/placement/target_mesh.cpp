@@ -15,7 +15,7 @@
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/mesh/mesh_diagnostics.h"
 #include "sim/geometry/placement/waterline.h"
-#include "sim/scenario/material_file.h"
+#include "sim/scenario/material_spec.h"
 
 namespace seaglint {
 
@@ -49,14 +49,23 @@ TriangleMesh placed(TriangleMesh mesh, const MeshPlacement& placement) {
   return mesh;
 }
 
-TriangleMesh read_placed_mesh(const std::filesystem::path& path, const MeshPlacement& placement) {
-  TriangleMesh mesh = placed(read_mesh(path, placement.unit), placement);
+namespace {
+
+// `mesh` of this name in metres.
+TriangleMesh placed_near(TriangleMesh mesh, const MeshPlacement& placement, const std::filesystem::path& path) {
+  mesh = placed(std::move(mesh), placement);
   const Bounds box = bounds(mesh);
   const double farthest = std::max(box.lower.cwiseAbs().maxCoeff(), box.upper.cwiseAbs().maxCoeff());
   if (!(farthest <= kLargestCoordinate))
     throw InputError(fmt::format("{}: reaches {:g} m from the origin, beyond {:g} m: are unit, scale and offset right?",
                                  path.string(), farthest, kLargestCoordinate));
   return mesh;
+}
+
+}  // namespace
+
+TriangleMesh read_placed_mesh(const std::filesystem::path& path, const MeshPlacement& placement) {
+  return placed_near(read_mesh(path, placement.unit), placement, path);
 }
 
 std::string placement_text(const MeshPlacement& placement) {
@@ -228,10 +237,10 @@ std::vector<MaterialSpec> choose_materials(const TargetSource& source, TriangleM
 }  // namespace
 
 TargetMesh load_target_mesh(const TargetSource& source) {
-  TargetMesh target{
-      source.loaded ? placed(*source.loaded, source.placement) : read_placed_mesh(source.mesh, source.placement),
-      {},
-      {}};
+  TargetMesh target{placed_near(source.loaded ? *source.loaded : read_mesh(source.mesh, source.placement.unit),
+                                source.placement, source.mesh),
+                    {},
+                    {}};
   target.materials = choose_materials(source, target.mesh);
   at_place(source.mesh_place, [&] {
     RepairedMesh repaired = diagnose_and_repair(target.mesh);

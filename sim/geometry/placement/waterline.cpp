@@ -175,29 +175,19 @@ std::vector<Loop> joined(const TriangleMesh& mesh, const std::vector<Loop>& loop
 // The triangles that stay, and lids.
 TriangleMesh closed_above(const DividedMesh& of, double& open_m) {
   TriangleMesh above = of.mesh;
-  above.triangles.clear();
-  above.triangle_part.clear();
-  above.triangle_material.clear();
-  above.corner_normals.clear();
-  const auto add = [&](const std::array<std::uint32_t, 3>& triangle, std::size_t like,
-                       const std::array<Vec3, 3>& normals) {
-    above.triangles.push_back(triangle);
-    if (!of.mesh.triangle_part.empty()) above.triangle_part.push_back(of.mesh.triangle_part[like]);
-    if (!of.mesh.triangle_material.empty()) above.triangle_material.push_back(of.mesh.triangle_material[like]);
-    if (!of.mesh.corner_normals.empty()) above.corner_normals.push_back(normals);
-  };
+  above.clear_triangles();
   for (std::size_t t = 0; t < of.mesh.triangles.size(); ++t) {
-    if (of.stays[t])
-      add(of.mesh.triangles[t], t, of.mesh.corner_normals.empty() ? std::array<Vec3, 3>{} : of.mesh.corner_normals[t]);
+    if (of.stays[t]) above.add_like(of.mesh, t, of.mesh.triangles[t], of.mesh.normals_of(t));
   }
-  const std::array<Vec3, 3> none{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
   for (const Loop& outline : joined(of.mesh, loops_of(of.mesh, sides_of_cut(of)))) {
     std::vector<Vec3> corners;
     for (const std::uint32_t v : outline.vertices) corners.push_back(of.mesh.vertices[v]);
     const auto lid = triangulate_polygon(corners);
     if (!lid) open_m += length_of(of.mesh, outline);
-    for (const auto& [a, b, c] : lid.value_or(std::vector<std::array<std::uint32_t, 3>>{}))
-      add({outline.vertices[a], outline.vertices[b], outline.vertices[c]}, outline.triangle, none);
+    for (const auto& [a, b, c] : lid.value_or(std::vector<std::array<std::uint32_t, 3>>{})) {
+      above.add_like(of.mesh, outline.triangle, {outline.vertices[a], outline.vertices[b], outline.vertices[c]},
+                     kNoNormals);
+    }
   }
   return welded(above);
 }
@@ -212,10 +202,7 @@ double waterline_margin(const Bounds& box) {
 WaterlineCut cut_at_waterline(const TriangleMesh& mesh, double height) {
   WaterlineCut cut;
   cut.mesh = mesh;
-  cut.mesh.triangles.clear();
-  cut.mesh.triangle_part.clear();
-  cut.mesh.triangle_material.clear();
-  cut.mesh.corner_normals.clear();
+  cut.mesh.clear_triangles();
   const double margin = waterline_margin(bounds(mesh));
   const auto above = [&](std::uint32_t v) { return cut.mesh.vertices[v].z() > height + margin; };
   // Interpolated from the lower vertex, so that both triangles of an edge get the same point; the vertex itself where
@@ -231,7 +218,7 @@ WaterlineCut cut_at_waterline(const TriangleMesh& mesh, double height) {
   };
   // Normal at a point of the side between two corners of triangle t, interpolated; none where either corner has none.
   const auto normal_between = [&](std::size_t t, int i, int j, const Vec3& point) -> Vec3 {
-    const Vec3 &a = mesh.corner_normals[t][i], &b = mesh.corner_normals[t][j];
+    const Vec3 &a = mesh.normals_of(t)[i], &b = mesh.normals_of(t)[j];
     if (a.isZero(0) || b.isZero(0)) return Vec3::Zero();
     const Vec3 &from = mesh.vertices[mesh.triangles[t][i]], side = mesh.vertices[mesh.triangles[t][j]] - from;
     return unit_normal(a + (point - from).dot(side) / side.squaredNorm() * (b - a));
@@ -239,16 +226,12 @@ WaterlineCut cut_at_waterline(const TriangleMesh& mesh, double height) {
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto add = [&](const std::array<std::uint32_t, 3>& triangle, bool below, const std::array<Vec3, 3>& normals) {
       if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0]) return;
-      cut.mesh.triangles.push_back(triangle);
-      if (!mesh.triangle_part.empty()) cut.mesh.triangle_part.push_back(mesh.triangle_part[t]);
-      if (!mesh.triangle_material.empty()) cut.mesh.triangle_material.push_back(mesh.triangle_material[t]);
-      if (!mesh.corner_normals.empty()) cut.mesh.corner_normals.push_back(normals);
+      cut.mesh.add_like(mesh, t, triangle, normals);
       cut.submerged.push_back(below);
     };
     const auto& corner = mesh.triangles[t];
     const int dry = above(corner[0]) + above(corner[1]) + above(corner[2]);
-    std::array<Vec3, 3> n{};
-    if (!mesh.corner_normals.empty()) n = mesh.corner_normals[t];
+    const std::array<Vec3, 3>& n = mesh.normals_of(t);
     if (dry == 0 || dry == 3) {
       add(corner, dry == 0, n);
       continue;
@@ -259,11 +242,8 @@ WaterlineCut cut_at_waterline(const TriangleMesh& mesh, double height) {
     const std::uint32_t a = corner[first], b = corner[(first + 1) % 3], c = corner[(first + 2) % 3];
     const std::uint32_t ab = crossing(a, b), ac = crossing(a, c);
     const int second = (first + 1) % 3, third = (first + 2) % 3;
-    Vec3 n_ab = Vec3::Zero(), n_ac = Vec3::Zero();
-    if (!mesh.corner_normals.empty()) {
-      n_ab = normal_between(t, first, second, cut.mesh.vertices[ab]);
-      n_ac = normal_between(t, first, third, cut.mesh.vertices[ac]);
-    }
+    const Vec3 n_ab = normal_between(t, first, second, cut.mesh.vertices[ab]),
+               n_ac = normal_between(t, first, third, cut.mesh.vertices[ac]);
     add({a, ab, ac}, dry == 2, {n[first], n_ab, n_ac});
     add({ab, b, c}, dry == 1, {n_ab, n[second], n[third]});
     add({ab, c, ac}, dry == 1, {n_ab, n[third], n_ac});

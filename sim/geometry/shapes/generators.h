@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "sim/core/numbers/rotation.h"
-#include "sim/geometry/mesh/mesh_builder.h"
 #include "sim/geometry/mesh/triangle_mesh.h"
 
 namespace seaglint {

@@ -5,14 +5,12 @@
 
 #include <array>
 #include <cmath>
+#include <tuple>
 #include <vector>
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/rotation.h"
 #include "sim/core/process/error.h"
-#include "sim/geometry/mesh/mesh_builder.h"
-#include "sim/geometry/shapes/generators.h"
-#include "sim/geometry/ship/ship_hull.h"
 #include "sim/geometry/surface/facets.h"
 
 namespace seaglint {
@@ -55,10 +53,7 @@ void add_enclosed_mast(MeshBuilder& builder, const HullSurface& hull, double foo
   const double x = hull.x_of(8.2), top = foot + 12.5;
   builder.begin_part("mast_1");
   const auto ring = [&](double half, double chamfer, double z) {
-    return std::vector<Vec3>{{x - half, -half + chamfer, z}, {x - half + chamfer, -half, z},
-                             {x + half - chamfer, -half, z}, {x + half, -half + chamfer, z},
-                             {x + half, half - chamfer, z},  {x + half - chamfer, half, z},
-                             {x - half + chamfer, half, z},  {x - half, half - chamfer, z}};
+    return octagon(x - half, x + half, half, chamfer, chamfer, z);
   };
   add_frustum(builder, ring(3.3, 0.9, foot - 0.3), ring(2.55, 0.75, foot + 5.8));
   add_frustum(builder, ring(2.35, 0.7, foot + 5.5), ring(1.25, 0.35, top));
@@ -337,11 +332,6 @@ void add_mooring_gear(MeshBuilder& builder, const HullSurface& hull) {
   }
 }
 
-struct Spot {
-  double x, y;  // design metres
-  double yaw;   // degrees
-};
-
 // Box with a lid that overhangs, on low feet.
 void add_locker(MeshBuilder& builder, const Pose& pose, const Vec3& size) {
   add_box(builder, pose * upright({0, 0, -0.1}), size + Vec3(0, 0, 0.1));
@@ -359,121 +349,67 @@ void add_shield(MeshBuilder& builder, const Pose& pose, double leg, double heigh
   add_corner_plates(builder, pose * upright({-0.4 * leg, -0.4 * leg, 0.04}), {leg, leg, height}, 0.06);
 }
 
-void add_foredeck(MeshBuilder& builder, const HullSurface& hull) {
-  const auto on_deck = [&](const Spot& s) {
-    const double x = hull.x_of(s.x);
-    return upright({x, hull.y_of(s.y), hull.deck_height(x)}, radians(s.yaw));
-  };
-  builder.begin_part("foredeck_lockers");
-  for (const Spot& s : {Spot{57.5, 2.8, 10},
-                        {57.5, -2.8, -10},
-                        {51.0, 3.6, 12},
-                        {51.0, -3.6, -12},
-                        {42.0, 5.9, 4},
-                        {42.0, -5.9, -4},
-                        {32.0, 6.6, 0},
-                        {32.0, -6.6, 0}}) {
-    add_locker(builder, on_deck(s), {1.6, 0.8, 0.95});
-  }
-  builder.begin_part("foredeck_ventilators");
-  for (const Spot& s : {Spot{64.5, 0.0, 0},
-                        {58.8, 0.9, 130},
-                        {58.8, -0.9, -130},
-                        {42.5, 3.6, 40},
-                        {42.5, -3.6, -40},
-                        {31.6, 3.2, 75},
-                        {31.6, -3.2, -75}}) {
-    add_ventilator(builder, on_deck(s), 1.25);
-  }
-  builder.begin_part("foredeck_shields");
-  for (const Spot& s : {Spot{40.2, 7.0, 0},
-                        {40.2, -7.0, -90},
-                        {33.5, 7.4, 25},
-                        {33.5, -7.4, -115},
-                        {49.3, 4.6, -20},
-                        {49.3, -4.6, -70}}) {
-    add_shield(builder, on_deck(s), 0.7, 1.5);
-  }
+enum class Fitting { kLocker, kVentilator, kShield };
+
+// A fitting to port and its like to starboard, turned differently. x, y: design metres, y = 0: one alone; yaw.
+struct Pair {
+  double x, y;
+  double port_deg, starboard_deg;
+};
+
+Pose on_deck(const HullSurface& hull, double x, double y, double yaw_deg) {
+  return upright({hull.x_of(x), hull.y_of(y), hull.deck_height(hull.x_of(x))}, radians(yaw_deg));
 }
 
-void add_flight_deck(MeshBuilder& builder, const HullSurface& hull) {
-  const auto on_deck = [&](const Spot& s) {
-    const double x = hull.x_of(s.x);
-    return upright({x, hull.y_of(s.y), hull.deck_height(x)}, radians(s.yaw));
+void add_fittings(MeshBuilder& builder, const HullSurface& hull, const ShipHouses& h) {
+  using enum Fitting;
+  // On the roof of a house, or on the deck. size: m, of a locker; leg and height of a shield; height of a ventilator.
+  const auto add = [&](const char* part, const Deckhouse* house, Fitting kind, const Vec3& size,
+                       const std::vector<Pair>& pairs) {
+    builder.begin_part(part);
+    for (const auto& [x, y, port_deg, starboard_deg] : pairs) {
+      for (const double side : {1.0, -1.0}) {
+        if (y == 0 && side < 0) continue;
+        const double yaw_deg = side > 0 ? port_deg : starboard_deg;
+        const Pose pose = house == nullptr
+                              ? on_deck(hull, x, side * y, yaw_deg)
+                              : upright({hull.x_of(x), hull.y_of(side * y), house->roof}, radians(yaw_deg));
+        if (kind == kLocker) add_locker(builder, pose, size);
+        if (kind == kVentilator) add_ventilator(builder, pose, size.x());
+        if (kind == kShield) add_shield(builder, pose, size.x(), size.y());
+      }
+    }
   };
-  builder.begin_part("flight_deck_gear");
-  for (const Spot& s : {Spot{-48.2, 7.2, 45},
-                        {-48.2, -7.2, -135},
-                        {-53.0, 7.4, 60},
-                        {-53.0, -7.4, -150},
-                        {-69.5, 5.6, 100},
-                        {-69.5, -5.6, 170}}) {
-    add_shield(builder, on_deck(s), 0.55, 0.9);
-  }
-  for (const Spot& s : {Spot{-49.3, 5.4, 12}, {-49.3, -5.4, -12}, {-70.0, 2.5, 90}, {-70.0, -2.5, 90}})
-    add_locker(builder, on_deck(s), {1.2, 0.6, 0.75});
+  add("foredeck_lockers", nullptr, kLocker, {1.6, 0.8, 0.95},
+      {{57.5, 2.8, 10, -10}, {51.0, 3.6, 12, -12}, {42.0, 5.9, 4, -4}, {32.0, 6.6, 0, 0}});
+  add("foredeck_ventilators", nullptr, kVentilator, {1.25, 0, 0},
+      {{64.5, 0.0, 0, 0}, {58.8, 0.9, 130, -130}, {42.5, 3.6, 40, -40}, {31.6, 3.2, 75, -75}});
+  add("foredeck_shields", nullptr, kShield, {0.7, 1.5, 0},
+      {{40.2, 7.0, 0, -90}, {33.5, 7.4, 25, -115}, {49.3, 4.6, -20, -70}});
+  add("flight_deck_gear", nullptr, kShield, {0.55, 0.9, 0},
+      {{-48.2, 7.2, 45, -135}, {-53.0, 7.4, 60, -150}, {-69.5, 5.6, 100, 170}});
+  add("flight_deck_gear", nullptr, kLocker, {1.2, 0.6, 0.75}, {{-49.3, 5.4, 12, -12}, {-70.0, 2.5, 90, 90}});
   // Recovery grid and its track, a few centimetres proud.
-  const Pose grid = on_deck({-58.0, 0, 0});
+  const Pose grid = on_deck(hull, -58.0, 0, 0);
   add_cone(builder, grid * Vec3(0, 0, -0.1), grid * Vec3(0, 0, 0.04), 1.6, 1.6, 20);
-  add_bar(builder, grid * Vec3(1.0, 0.5, 0.0), on_deck({-47.2, 0.5, 0}) * Vec3(0, 0, 0.02), 0.07);
-  add_bar(builder, grid * Vec3(1.0, -0.5, 0.0), on_deck({-47.2, -0.5, 0}) * Vec3(0, 0, 0.02), 0.07);
-}
-
-// Lockers, shields and ventilators on the roofs, turned in all directions.
-void add_roof_fittings(MeshBuilder& builder, const HullSurface& hull, const ShipHouses& houses) {
-  const auto on = [&](const Spot& s, double z) { return upright({hull.x_of(s.x), hull.y_of(s.y), z}, radians(s.yaw)); };
-  const double forward = houses.forward.roof, bridge = houses.bridge.roof, aft = houses.aft.roof,
-               core = houses.core.roof;
-  const double flag = houses.flag_deck.roof, radar = houses.radar_house.roof;
-  builder.begin_part("roof_shields");
-  for (const Spot& s : {Spot{-7.5, 6.4, 20},
-                        {-7.5, -6.4, -80},
-                        {-1.0, 6.6, 110},
-                        {-1.0, -6.6, 160},
-                        {5.5, 6.7, -10},
-                        {5.5, -6.7, -100},
-                        {11.0, 6.6, 70},
-                        {11.0, -6.6, 200}}) {
-    add_shield(builder, on(s, forward), 0.6, 1.0);
-  }
-  for (const Spot& s : {Spot{16.2, 4.9, 95}, {16.2, -4.9, 175}, {24.0, 3.9, -5}, {24.0, -3.9, -75}})
-    add_shield(builder, on(s, bridge), 0.5, 0.7);
-  for (const Spot& s : {Spot{-45.0, 5.2, 150},
-                        {-45.0, -5.2, 120},
-                        {-38.6, 7.0, 30},
-                        {-38.6, -7.0, -120},
-                        {-31.0, 7.1, 85},
-                        {-31.0, -7.1, 215},
-                        {-24.0, 7.0, -20},
-                        {-24.0, -7.0, -65},
-                        {-19.8, 6.9, 15},
-                        {-19.8, -6.9, -105}}) {
-    add_shield(builder, on(s, aft), 0.6, 1.0);
-  }
-  builder.begin_part("roof_lockers");
-  for (const Spot& s : {Spot{-2.5, 4.6, 0}, {-2.5, -4.6, 0}, {8.0, 6.2, 90}, {8.0, -6.2, 90}})
-    add_locker(builder, on(s, forward), {1.4, 0.7, 0.9});
-  for (const Spot& s :
-       {Spot{-40.5, 2.6, 0}, {-40.5, -2.6, 0}, {-28.2, 5.0, 35}, {-28.2, -5.0, -35}, {-34.5, 5.6, 0}, {-34.5, -5.6, 0}})
-    add_locker(builder, on(s, aft), {1.4, 0.8, 0.95});
-  for (const Spot& s : {Spot{-11.0, 2.9, 0}, {-11.0, -2.9, 0}, {-17.0, 2.4, 90}, {-17.0, -2.4, 90}})
-    add_locker(builder, on(s, core), {1.1, 0.7, 0.8});
-  builder.begin_part("roof_ventilators");
-  for (const Spot& s : {Spot{-4.8, 6.0, 60}, {-4.8, -6.0, -60}, {3.5, 6.3, 135}, {3.5, -6.3, -135}})
-    add_ventilator(builder, on(s, forward), 0.9);
-  for (const Spot& s : {Spot{-21.5, 5.4, 25},
-                        {-21.5, -5.4, -25},
-                        {-30.0, 4.6, 100},
-                        {-30.0, -4.6, -100},
-                        {-43.8, 3.4, 150},
-                        {-43.8, -3.4, -150}})
-    add_ventilator(builder, on(s, aft), 1.1);
-  for (const Spot& s : {Spot{2.2, 2.2, 180}, {2.2, -2.2, 180}, {12.8, 2.4, 70}, {12.8, -2.4, -70}})
-    add_ventilator(builder, on(s, flag), 0.6);
-  for (const Spot& s : {Spot{-36.0, 1.9, 160}, {-36.0, -1.9, -160}, {-30.6, 1.8, 20}, {-30.6, -1.8, -20}})
-    add_ventilator(builder, on(s, radar), 0.35);
-  for (const Spot& s : {Spot{15.6, 2.2, 170}, {15.6, -2.2, -170}, {22.8, 1.9, 30}, {22.8, -1.9, -30}})
-    add_ventilator(builder, on(s, bridge), 0.45);
+  for (const double y : {0.5, -0.5})
+    add_bar(builder, grid * Vec3(1.0, y, 0.0), on_deck(hull, -47.2, y, 0) * Vec3(0, 0, 0.02), 0.07);
+  add("roof_shields", &h.forward, kShield, {0.6, 1.0, 0},
+      {{-7.5, 6.4, 20, -80}, {-1.0, 6.6, 110, 160}, {5.5, 6.7, -10, -100}, {11.0, 6.6, 70, 200}});
+  add("roof_shields", &h.bridge, kShield, {0.5, 0.7, 0}, {{16.2, 4.9, 95, 175}, {24.0, 3.9, -5, -75}});
+  add("roof_shields", &h.aft, kShield, {0.6, 1.0, 0}, {{-45.0, 5.2, 150, 120}, {-38.6, 7.0, 30, -120}});
+  add("roof_shields", &h.aft, kShield, {0.6, 1.0, 0},
+      {{-31.0, 7.1, 85, 215}, {-24.0, 7.0, -20, -65}, {-19.8, 6.9, 15, -105}});
+  add("roof_lockers", &h.forward, kLocker, {1.4, 0.7, 0.9}, {{-2.5, 4.6, 0, 0}, {8.0, 6.2, 90, 90}});
+  add("roof_lockers", &h.aft, kLocker, {1.4, 0.8, 0.95},
+      {{-40.5, 2.6, 0, 0}, {-28.2, 5.0, 35, -35}, {-34.5, 5.6, 0, 0}});
+  add("roof_lockers", &h.core, kLocker, {1.1, 0.7, 0.8}, {{-11.0, 2.9, 0, 0}, {-17.0, 2.4, 90, 90}});
+  add("roof_ventilators", &h.forward, kVentilator, {0.9, 0, 0}, {{-4.8, 6.0, 60, -60}, {3.5, 6.3, 135, -135}});
+  add("roof_ventilators", &h.aft, kVentilator, {1.1, 0, 0},
+      {{-21.5, 5.4, 25, -25}, {-30.0, 4.6, 100, -100}, {-43.8, 3.4, 150, -150}});
+  add("roof_ventilators", &h.flag_deck, kVentilator, {0.6, 0, 0}, {{2.2, 2.2, 180, 180}, {12.8, 2.4, 70, -70}});
+  add("roof_ventilators", &h.radar_house, kVentilator, {0.35, 0, 0}, {{-36.0, 1.9, 160, -160}, {-30.6, 1.8, 20, -20}});
+  add("roof_ventilators", &h.bridge, kVentilator, {0.45, 0, 0}, {{15.6, 2.2, 170, -170}, {22.8, 1.9, 30, -30}});
 }
 
 // Rigid inflatable in the bay between the houses, under its davit.
@@ -505,17 +441,9 @@ void add_boat(MeshBuilder& builder, const HullSurface& hull, double side) {
 
 void add_deck_fittings(MeshBuilder& builder, const HullSurface& hull, const ShipHouses& houses) {
   add_mooring_gear(builder, hull);
-  add_foredeck(builder, hull);
-  add_flight_deck(builder, hull);
-  add_roof_fittings(builder, hull, houses);
+  add_fittings(builder, hull, houses);
   add_boat(builder, hull, 1.0);
   add_boat(builder, hull, -1.0);
-}
-
-void require(double value, double min, double max, const char* name) {
-  // Written so that a NaN fails.
-  if (!(value >= min && value <= max))
-    throw InputError(fmt::format("ship {}: {} is outside {}..{} m", name, value, min, max));
 }
 
 // Positions on a grid of 2^-16 m (15 um, a thousandth of a wavelength at 16 GHz), which float32 represents exactly up
@@ -535,14 +463,18 @@ constexpr double kFlat_m = 3e-5;
 }  // namespace
 
 TriangleMesh make_ship(const ShipForm& form) {
-  require(form.length_m, 90, 200, "length");
-  require(form.beam_m, 12, 25, "beam");
-  require(form.freeboard_m, 4, 9, "freeboard");
-  require(form.bow_height_m, form.freeboard_m, 14, "bow height");
-  require(form.stern_height_m, 3, 9, "stern height");
-  require(form.panel_m, 0.5, 6, "panel");
-  require(form.plating_m, 0, 0.05, "plating");
-  require(form.rail_width_m, 0.02, 0.1, "rail width");
+  for (const auto& [value, min, max, name] : {std::tuple{form.length_m, 90.0, 200.0, "length"},
+                                              {form.beam_m, 12.0, 25.0, "beam"},
+                                              {form.freeboard_m, 4.0, 9.0, "freeboard"},
+                                              {form.bow_height_m, form.freeboard_m, 14.0, "bow height"},
+                                              {form.stern_height_m, 3.0, 9.0, "stern height"},
+                                              {form.panel_m, 0.5, 6.0, "panel"},
+                                              {form.plating_m, 0.0, 0.05, "plating"},
+                                              {form.rail_width_m, 0.02, 0.1, "rail width"}}) {
+    // Written so that a NaN fails.
+    if (!(value >= min && value <= max))
+      throw InputError(fmt::format("ship {}: {} is outside {}..{} m", name, value, min, max));
+  }
 
   const HullSurface hull(form);
   const ShipHouses houses = ship_houses(hull);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/geometry/ship/ship_hull.h"
+#include "sim/geometry/ship/make_ship.h"
 
 #include <algorithm>
 #include <array>
@@ -194,12 +194,10 @@ namespace {
 
 double lean(double slope_deg, double height) { return height * std::tan(radians(slope_deg)); }
 
-// The eight vertices of a house at a height, counter-clockwise from the starboard quarter.
+// The outline of a house at a height.
 std::vector<Vec3> ring(const Deckhouse& house, const HullSurface& hull, double z) {
-  const double a = house.aft_at(hull, z), f = house.fore_at(hull, z), w = house.half_width_at(hull, z);
-  const double ca = house.aft_chamfer, cf = house.fore_chamfer;
-  return {{a, -w + ca, z}, {a + ca, -w, z}, {f - cf, -w, z}, {f, -w + cf, z},
-          {f, w - cf, z},  {f - cf, w, z},  {a + ca, w, z},  {a, w - ca, z}};
+  return octagon(house.aft_at(hull, z), house.fore_at(hull, z), house.half_width_at(hull, z), house.aft_chamfer,
+                 house.fore_chamfer, z);
 }
 
 void add_house(MeshBuilder& builder, const Deckhouse& house, const HullSurface& hull) {
@@ -300,6 +298,13 @@ void add_hangar(MeshBuilder& builder, const HullSurface& hull, const Deckhouse& 
 }
 
 }  // namespace
+
+std::vector<Vec3> octagon(double aft, double fore, double half_width, double aft_chamfer, double fore_chamfer,
+                          double z) {
+  const double a = aft, f = fore, w = half_width, ca = aft_chamfer, cf = fore_chamfer;
+  return {{a, -w + ca, z}, {a + ca, -w, z}, {f - cf, -w, z}, {f, -w + cf, z},
+          {f, w - cf, z},  {f - cf, w, z},  {a + ca, w, z},  {a, w - ca, z}};
+}
 
 double Deckhouse::half_width_at(const HullSurface& hull, double z) const {
   return hull.y_of(half_width) - lean(side_slope, z - foot);

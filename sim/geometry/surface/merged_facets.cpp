@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/geometry/surface/merged_facets.h"
+#include "sim/geometry/surface/smooth_surface.h"
 
 #include <fmt/format.h>
 

@@ -315,7 +315,7 @@ struct FacetCorner {
 };
 
 // Ratio of the largest to the smallest width up to which facets are of similar width, and from which they are not.
-constexpr std::array<double, 2> kAlike{2, 3};
+constexpr std::array<double, 2> kAlikeSides{2, 3};
 
 // Width of a planar face from the second moments of its area, m.
 double face_width(std::span<const Facet> facets, std::span<const std::uint32_t> of_face) {
@@ -366,7 +366,7 @@ Vec3 mean_normal(std::span<const Facet> facets, std::span<const FacetCorner> fan
     narrowest = std::min(narrowest, width[member.facet]);
     widest = std::max(widest, width[member.facet]);
   }
-  const double alike = smooth_taper(widest / narrowest, kAlike);
+  const double alike = smooth_taper(widest / narrowest, kAlikeSides);
   Vec3 mean = Vec3::Zero();
   for (const auto& [share, are_alike] : {std::pair(alike, true), std::pair(1 - alike, false)}) {
     if (share == 0) continue;

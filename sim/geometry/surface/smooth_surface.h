@@ -2,7 +2,8 @@
 #pragma once
 
 // Smooth surfaces that a mesh samples: sides across which the target is smooth, vertex normals between creases, height
-// above the facets, curvature.
+// above the facets, curvature; the same with no more facets than the curvature requires, so that the cost of a view
+// does not follow the fineness of the mesh.
 
 #include <array>
 #include <cstdint>
@@ -97,5 +98,22 @@ SmoothVertices smooth_vertices(std::span<const Facet> facets, const SmoothSides&
 
 // Weight of a facet at one of its corners, corner_weight().
 double facet_weight(const Facet& facet, int corner, double width, bool alike);
+
+struct MergedFacets {
+  std::vector<Facet> facets;
+  SmoothSides smooth;
+};
+
+// Angle between a merged facet and the normals of the surface at its corners, at most: a circle keeps 120 sides. It
+// limits the error of paths that go on from a curved reflector to another panel: an ellipsoid over a plate changes by
+// -34 dB of the echo, with 0.0524 by -17 dB; its own echo by less than -50 dB with either.
+inline constexpr double kMaxFacetTilt = 0.0262;  // rad, 1.5 deg
+
+// The same surface without vertices inside smooth surfaces that larger curved facets (SmoothSurface) replace: every
+// removed vertex lies within `tolerance` (m) of the facet that replaces it, measured from the height of the surface
+// over it, and no merged facet is tilted by more than kMaxFacetTilt. Vertices on sides that are not smooth stay. Merged
+// facets carry the normals of the fine mesh at their corners. Half-edge collapse with its link condition (H. Hoppe et
+// al., Proc. SIGGRAPH 1993, 19-26).
+MergedFacets merge_smooth_facets(std::vector<Facet> facets, SmoothSides smooth, double tolerance);
 
 }  // namespace seaglint

@@ -63,8 +63,6 @@ constexpr double kHeaveDamping = 0.3;
 // Time constant with which a mooring returns a float to its position, against the wave drift.
 constexpr double kMooringTime = 10;  // s
 
-double given_or(double value, double derived) { return value > 0 ? value : derived; }
-
 Vec2 rotated(const Vec2& v, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
   return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};

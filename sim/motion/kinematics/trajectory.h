@@ -10,6 +10,9 @@
 
 namespace seaglint {
 
+// A value of a specification, or what the shape of the body gives where it is 0.
+inline double given_or(double value, double derived) { return value > 0 ? value : derived; }
+
 // Oscillator of one degree of freedom: x'' + 2 z w0 x' + b |x'| x' + w0^2 x = f(t), f an acceleration.
 
 struct Oscillator {

@@ -398,20 +398,15 @@ Trajectory trajectory_of(const AttitudeSeries& series, double start_s, double du
                                      start_s, time.front())
                        : ""));
   }
-  double smallest = time[1] - time[0], largest = smallest;
-  for (std::size_t n = 1; n < time.size(); ++n) {
-    smallest = std::min(smallest, time[n] - time[n - 1]);
-    largest = std::max(largest, time[n] - time[n - 1]);
-  }
-  // Times written with few digits count as uniform.
-  constexpr double kUniform = 1e-3;
   const double span = time.back() - time.front();
   std::vector<MotionSample> samples;
   double step = span / static_cast<double>(time.size() - 1);
-  if (largest - smallest <= kUniform * step) {
+  if (series.grid != TimeGrid::kIrregular) {
     samples = series.samples;
   } else {
     constexpr double kMaxSamples = 1e7;
+    double smallest = span;
+    for (std::size_t n = 1; n < time.size(); ++n) smallest = std::min(smallest, time[n] - time[n - 1]);
     const double count = std::ceil(span / smallest - 1e-9);
     if (count > kMaxSamples) {
       throw InputError(fmt::format("{}: a smallest step of {:.3g} s in {:.6g} s: must make at most {:.0e} steps",

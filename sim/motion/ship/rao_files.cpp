@@ -25,7 +25,6 @@ namespace seaglint {
 
 namespace {
 
-constexpr Complex kJ{0, 1};
 constexpr double kHeaveSlack = 0.1;                      // of 1, at the lowest frequency
 constexpr double kWrongHeave = 0.2, kWrongRotation = 2;  // differences and factors that are refused
 constexpr double kRestless = 0.1;                        // heave of a body that moves at all
@@ -238,9 +237,8 @@ class NumberLines {
   std::vector<double> numbers(std::size_t count, const char* what) {
     skip_empty_lines();
     if (rest_.empty()) source_.fail(rest_, fmt::format("ends where {} should follow", what));
-    std::string_view text = line();
     std::vector<double> values;
-    for (std::string_view word = next_word(text); !word.empty(); word = next_word(text)) {
+    for (const std::string_view word : words_of(line())) {
       const std::optional<double> value = parse_written_number(word);
       if (!value || !std::isfinite(*value))
         source_.fail(word, fmt::format("{}: value {}: must be a finite number", what, in_quotes(word)));
@@ -290,7 +288,7 @@ MotionRao in_metres(const MotionRao& r, double omega, const MotionSpec& units) {
   if (rotations == RaoRotations::kDegrees || rotations == RaoRotations::kSlopeDegrees) turning *= radians(1);
   if (rotations == RaoRotations::kSlope || rotations == RaoRotations::kSlopeDegrees)
     turning *= omega * omega / kGravity;
-  return {factor * r.surge, factor * r.sway, factor * r.heave, turning * r.roll, turning * r.pitch, turning * r.yaw};
+  return scaled(r, factor, turning);
 }
 
 RaoTable table_of(std::string source, const std::map<double, Heading>& headings, std::vector<double> omega,
@@ -459,8 +457,7 @@ enum : std::size_t { kPeriod, kBeta, kMode, kModulus, kPhase, kRe, kIm };
 // names that declares another quantity.
 WamitFirstColumn first_column_of(const TextSource& source, WamitFirstColumn given) {
   for (std::string_view rest = source.text(); !rest.empty();) {
-    std::string_view line = next_line(rest);
-    for (std::string_view word = next_word(line); !word.empty(); word = next_word(line)) {
+    for (const std::string_view word : words_of(next_line(rest))) {
       if (parse_written_number(word)) return given;
       const std::string key = column_key(word);
       if (key == "omega" || key == "omega_rad_s") return WamitFirstColumn::kOmega;

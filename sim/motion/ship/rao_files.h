@@ -9,7 +9,7 @@
 #include <string>
 
 #include "sim/core/numbers/linear.h"
-#include "sim/motion/ship/rao_table.h"
+#include "sim/motion/ship/responses.h"
 #include "sim/scenario/target_spec.h"
 
 namespace seaglint {

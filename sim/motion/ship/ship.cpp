@@ -19,8 +19,6 @@ constexpr double kRollRadius = 0.40;    // of gyration with added mass, per beam
 constexpr double kPitchRadius = 0.25;   // of gyration of the mass alone, per length, in pitch and yaw
 constexpr double kRollDamping = 0.075;  // bilge keels, no speed: 0.05-0.10
 
-double given_or(double value, double derived) { return value > 0 ? value : derived; }
-
 // -w^2 M + C - T of sway, roll and yaw without speed, without the roll inertia about G and additional damping.
 Eigen::Matrix3cd lateral_impedance(const ShipParticulars& ship, double omega) {
   const StripTheory::Radiation radiation = ship.strips->radiation(omega, 0);
@@ -161,8 +159,6 @@ ShipParticulars ship_particulars(const MotionSpec& spec, const HullSections& hul
 
 namespace {
 
-constexpr Complex kJ{0, 1};
-
 // Lower bound of the encounter frequency, rad/s: sway and yaw have no restoring force, so their responses diverge as it
 // goes to zero.
 constexpr double kSlowestEncounter = 0.1;
@@ -245,14 +241,11 @@ std::vector<OscillatorState> nonlinear_roll(const ShipParticulars& ship, const M
 
 std::vector<MotionSample> simulate_ship(const ShipParticulars& ship, const MotionSpec& spec, const WaveField& sea,
                                         double x, double y, double duration_s) {
-  const long count = std::max(1L, static_cast<long>(std::ceil(duration_s / spec.step_s))) + 1;
   const auto response = [&](const ShipWave& wave) { return channels(ship, wave, spec.translations); };
-  ResponseSynthesis series(sea, response, ship.speed, x, y, 0, spec.step_s);
-  std::vector<MotionSample> samples;
-  samples.reserve(static_cast<std::size_t>(count));
-  for (long n = 0; n < count; ++n, series.advance()) samples.push_back(series.sample());
+  std::vector<MotionSample> samples =
+      ResponseSynthesis(sea, response, ship.speed, x, y, 0, spec.step_s).samples(duration_s);
   if (ship.roll.quadratic > 0) {
-    const std::vector<OscillatorState> roll = nonlinear_roll(ship, spec, sea, x, y, count);
+    const std::vector<OscillatorState> roll = nonlinear_roll(ship, spec, sea, x, y, static_cast<long>(samples.size()));
     for (std::size_t n = 0; n < samples.size(); ++n) {
       samples[n].angles.x() = roll[n].x;
       samples[n].angle_rates.x() = roll[n].rate;

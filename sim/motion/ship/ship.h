@@ -10,7 +10,7 @@
 
 #include "sim/core/numbers/linear.h"
 #include "sim/motion/kinematics/trajectory.h"
-#include "sim/motion/ship/response_series.h"
+#include "sim/motion/ship/responses.h"
 #include "sim/motion/strip_theory/hull_sections.h"
 #include "sim/motion/strip_theory/strip_theory.h"
 #include "sim/scenario/target_spec.h"

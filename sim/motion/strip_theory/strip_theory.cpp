@@ -14,8 +14,6 @@ namespace seaglint {
 
 namespace {
 
-constexpr Complex kJ{0, 1};
-
 // Sections with a breadth or draught below this fraction of the draught of the hull, or an area below its square times
 // the beam and draught of the hull, are skipped.
 constexpr double kThinnest = 0.01;

@@ -14,8 +14,6 @@ namespace seaglint {
 
 namespace {
 
-constexpr Complex j(0, 1);
-
 // Relative difference |x - y| / |x + y| below which arguments count as equal.
 constexpr double kEqual = 1e-3;
 
@@ -27,7 +25,7 @@ Complex divided_difference(double x, const Complex& F_x, double y, const Complex
   if (nearly_equal(x, y)) {
     const double mean = 0.5 * (x + y);
     const Complex F = transition_function(mean);
-    return 0.5 * F - j * mean * (F - 1.0);
+    return 0.5 * F - kJ * mean * (F - 1.0);
   }
   return (y * F_x - x * F_y) / (y - x);
 }
@@ -57,7 +55,7 @@ Complex transition_function(double x) {
     part[n % 2] += (n % 4 == 1 || n % 4 == 2 ? -term : term) / (2.0 * n + 1);
   }
   const Complex sum(part[0], part[1]);
-  return 2.0 * j * std::sqrt(x) * std::polar(1.0, x) * (std::polar(std::sqrt(kPi) / 2, -kPi / 4) - sum);
+  return 2.0 * kJ * std::sqrt(x) * std::polar(1.0, x) * (std::polar(std::sqrt(kPi) / 2, -kPi / 4) - sum);
 }
 
 Complex double_transition_function(double x, double y) {

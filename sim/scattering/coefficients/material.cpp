@@ -10,7 +10,6 @@ namespace seaglint {
 
 namespace {
 
-constexpr Complex kJ(0, 1);
 constexpr double kVacuumPermittivity = 8.8541878128e-12;  // F/m, CODATA 2018
 
 // Normal wavenumber over k0: the root that decays along e^{-j kappa z}, Im kappa <= 0; the propagating one where

@@ -13,7 +13,6 @@ namespace seaglint {
 
 namespace {
 
-constexpr Complex j(0, 1);
 // Phase of sin(theta) beyond which the path of s is rotated by the rest, rad: its integrand has poles at tan v = +-j
 // e^{j phase}, on the path for a reactive face. The path stays in Re s > 0, where the logarithm is regular.
 constexpr double kMaxPhase = 0.9;
@@ -110,11 +109,11 @@ Complex impedance_wedge(double phi, double phi0, const std::array<Complex, 2>& b
     return second.product(phi, sign) * first.product(phi - round, sign) /
            (std::sin((phi - middle + sign * kPi) / N) - sine_0);
   };
-  return -0.5 * j * std::cos((phi0 - middle) / N) / N * (part(-1) - part(1)) / (receiver * transmitter);
+  return -0.5 * kJ * std::cos((phi0 - middle) / N) / N * (part(-1) - part(1)) / (receiver * transmitter);
 }
 
 Complex half_plane_optics(double phi, double phi0, const Complex& reflection, const Complex& transmission) {
-  return 0.25 * j *
+  return 0.25 * kJ *
          ((1.0 + reflection - transmission) * std::sin(phi) - (1.0 - reflection - transmission) * std::sin(phi0)) /
          (std::cos(phi) + std::cos(phi0));
 }
@@ -123,7 +122,7 @@ namespace {
 
 // Sine of the grazing angle below which a face is evaluated at it; distance from a boundary within which two values on
 // either side of it are averaged: relative error of the second order, 4e-6.
-constexpr double kMinSine = 1e-4, kBoundaryStep = 2e-3;
+constexpr double kMinGrazingSine = 1e-4, kBoundaryStep = 2e-3;
 
 // Component along the edge: E for the soft wave, H for the hard one.
 enum Wave { kSoft, kHard };
@@ -138,7 +137,7 @@ struct EdgeDirection {
   double phi, cos_b, sin_b;
 };
 
-double off_grazing(double x) { return std::max(std::abs(x), kMinSine); }
+double off_grazing(double x) { return std::max(std::abs(x), kMinGrazingSine); }
 
 // Reflection and transmission of the component along the edge by a face, for a wave that has only this one of E_t and
 // H_t. Frame: x into the face, y its normal, z along the edge.
@@ -311,7 +310,7 @@ std::array<CVec3, 2> material_edge_currents(const WedgeFrame& wedge, const Mater
 
   const MaterialEdge edge(wedge.N, faces, shadow);
   const double off_cone = 0.5 * (in.cos_b + out.cos_b);  // (k^ - s) . t / 2, 0 on Keller's cone
-  const Complex scale = j / (kPi * in.sin_b * out.sin_b) * std::sqrt(1 - off_cone * off_cone);
+  const Complex scale = kJ / (kPi * in.sin_b * out.sin_b) * std::sqrt(1 - off_cone * off_cone);
   const Complex soft = scale * edge.amplitude(kSoft, in, out), hard = scale * edge.amplitude(kHard, in, out);
   // At oblique incidence the currents of physical optics also convert E_t and H_t into each other: line integrals of
   // the total field along the edge (F. Kottler, Ann. Phys. 71, 1923, 457-508), without a pole.

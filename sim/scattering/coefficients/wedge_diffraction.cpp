@@ -195,8 +195,6 @@ double transition_parameter(const Vec3& along_face, const Vec3& other) {
 
 namespace {
 
-constexpr Complex j(0, 1);
-
 // Direction relative to the edge: angle from the sheet's extension, positive on the side of the first face, and sine of
 // the angle to the edge.
 struct EdgeAngle {
@@ -213,7 +211,7 @@ EdgeAngle about(const WedgeFrame& wedge, const Vec3& towards) {
 
 // (1 - gamma - ln(kappa t / 2 pi) - j pi / 2) / pi, kappa = k sin b: the logarithm of the square end.
 FirstOrderThickness<Complex> end_logarithm(double sin_b) {
-  return {(1 - std::numbers::egamma - std::log(sin_b / (2 * kPi)) - 0.5 * j * kPi) / kPi, -1 / kPi};
+  return {(1 - std::numbers::egamma - std::log(sin_b / (2 * kPi)) - 0.5 * kJ * kPi) / kPi, -1 / kPi};
 }
 
 // 2 delta P / kappa t without the logarithm, whose factors are given separately.
@@ -258,8 +256,8 @@ std::array<FirstOrderThickness<CVec3>, 2> thick_edge_currents(const WedgeFrame& 
   for (int i = 0; i < 2; ++i) {
     // S per metre is j / (pi sin^2 b) times the amplitude P of the fields along t, E_t along t and H_t along t x s;
     // delta P has the factor kappa t / 2.
-    const Complex E_t = j / (2 * kPi * sin_b) * fields[i].dot(t),
-                  H_t = j / (2 * kPi * sin_b) * k_hat.cross(fields[i]).dot(t);
+    const Complex E_t = kJ / (2 * kPi * sin_b) * fields[i].dot(t),
+                  H_t = kJ / (2 * kPi * sin_b) * k_hat.cross(fields[i]).dot(t);
     currents[i].constant = soft * E_t * t.cast<Complex>() + hard * H_t * e_hard.cast<Complex>();
     currents[i].logarithm =
         end.logarithm * (terms.soft_log * E_t * t.cast<Complex>() + terms.hard_log * H_t * e_hard.cast<Complex>());
@@ -271,7 +269,7 @@ FirstOrderThickness<Complex> thick_edge_wave_change(const WedgeFrame& wedge, con
   const auto [phi, sin_b] = about(wedge, towards);
   const double C = std::cos(phi / 2), S = std::sin(std::abs(phi) / 2);
   const FirstOrderThickness<Complex> end = end_logarithm(sin_b);
-  const Complex all = -j * sin_b * S;
+  const Complex all = -kJ * sin_b * S;
   return {all * (S * end.constant + C * (1 - std::abs(phi) / kPi)), all * S * end.logarithm};
 }
 

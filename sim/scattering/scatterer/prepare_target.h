@@ -24,6 +24,8 @@ struct ScattererSettings {
   double sheet_thickness_m = 0;      // thickness of open surfaces
   bool edges = true;                 // edge diffraction is used
   double lowest_hz = 1e9, highest_hz = 1e9;  // the highest determines which facets are merged (merging_tolerance())
+
+  bool operator==(const ScattererSettings&) const = default;
 };
 
 // Target ready for illumination.

@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "sim/core/process/error.h"
-#include "sim/geometry/mesh/planar_faces.h"
 #include "sim/geometry/mesh/topology.h"
 #include "sim/geometry/mesh/triangle_mesh.h"
+#include "sim/geometry/surface/facets.h"
 
 namespace seaglint {
 

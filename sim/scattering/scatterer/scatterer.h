@@ -11,7 +11,6 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/geometry/surface/facets.h"
-#include "sim/geometry/surface/merged_facets.h"
 #include "sim/geometry/surface/smooth_surface.h"
 #include "sim/scattering/coefficients/material.h"
 #include "sim/scattering/scatterer/embree_scene.h"
@@ -45,7 +44,7 @@ class Scatterer {
   // differ by less form one smooth surface, 0..pi; 0: all facets flat; absent: planar faces are triangulated anew and
   // the shape determines which facets form a smooth surface (smooth_sides_by_shape()). sheet_thickness_m: thickness of
   // open surfaces at their free edges, m. merging_m: tolerance to which facets of smooth surfaces are merged
-  // (merged_facets.h), m; 0, and with crease_rad: they stay as meshed. Throws InputError when every triangle is
+  // (merge_smooth_facets()), m; 0, and with crease_rad: they stay as meshed. Throws InputError when every triangle is
   // degenerate.
   explicit Scatterer(const TriangleMesh& mesh, std::vector<MaterialSpec> materials = {},
                      std::optional<double> crease_rad = std::nullopt, double sheet_thickness_m = 0,

@@ -108,7 +108,7 @@ PrismOverlap prism_overlap(const BeamSegment& segment, const Prism& prism, const
 namespace {
 
 // Halvings of the cross-section of a beam whose rays the border of a panel limits. The echo of a cylinder of 48 strips
-// before a patch errs by 0.28, 0.13 to 0.18, 0.11 and 0.09 with 2, 4, 6 and 8 (cylinder_patch_test.cpp); a boat of
+// before a patch errs by 0.28, 0.13 to 0.18, 0.11 and 0.09 with 2, 4, 6 and 8 (CylinderBeforeAPatch); a boat of
 // 35,000 facets takes 1.4 times as long with 6 as without, and 1.4 times as long again with 8.
 constexpr int kMaxHalvings = 6;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/scenario/files/hop_code_file.h"
+#include "sim/scenario/files/tables.h"
 
 #include <fmt/format.h>
 

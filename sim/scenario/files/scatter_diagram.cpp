@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/scenario/files/scatter_diagram.h"
+#include "sim/scenario/files/tables.h"
 
 #include <fmt/format.h>
 
@@ -22,7 +22,7 @@ namespace seaglint {
 
 namespace {
 
-constexpr std::size_t kMaxBytes = 10'000'000, kMaxLabels = 200;
+constexpr std::size_t kMaxDiagramBytes = 10'000'000, kMaxLabels = 200;
 constexpr double kLeastHeight_m = 1e-6;
 
 // A period that columns may be: the key of `sea` that it is, words of it in the first cell, and a name of its column.
@@ -43,14 +43,11 @@ bool contains(const Names& names, std::string_view name) {
   return std::ranges::find(names, name) != names.end();
 }
 
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
 // Words of letters, digits and '_' in lower case, without a unit at the end: "hs", "tp" of "Hs [m] / Tp_s".
-std::vector<std::string> words_of(std::string_view cell) {
+std::vector<std::string> names_in(std::string_view cell) {
   std::vector<std::string> words;
   bool inside = false;
-  for (const char raw : cell) {
-    const char c = lower(raw);
+  for (const char c : lower_case(cell)) {
     const bool is_letter = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
     if (is_letter && !inside) words.emplace_back();
     if (is_letter) words.back() += c;
@@ -71,7 +68,7 @@ struct Axes {
 std::optional<Axes> axes_of(std::string_view cell) {
   std::optional<std::size_t> height, period;
   std::string key;
-  const std::vector<std::string> words = words_of(cell);
+  const std::vector<std::string> words = names_in(cell);
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (contains(kHeights, words[i])) {
       if (height) return std::nullopt;
@@ -165,7 +162,7 @@ struct Labels {
   std::vector<std::size_t> places;
 
   void add(const TextSource& source, std::string_view text, std::size_t place, const std::string& what) {
-    const std::vector<std::string> words = words_of(text);
+    const std::vector<std::string> words = names_in(text);
     if (words.size() == 1 && contains(kSums, words.front())) return;
     const std::optional<Label> label = label_of(text);
     if (!label)
@@ -269,7 +266,7 @@ bool has_columns(const TextSource& source) {
   for (std::string_view rest = source.text(); !rest.empty();) {
     const std::string_view line = next_line(rest);
     if (is_comment(line) || trimmed(line).empty()) continue;
-    const std::vector<std::string> words = words_of(line);
+    const std::vector<std::string> words = names_in(line);
     return contains(words, "count") || contains(words, "counts") || contains(words, "occurrences");
   }
   return false;
@@ -334,7 +331,7 @@ ScatterDiagram parse_scatter_diagram(const std::string& text, const std::string&
 }
 
 ScatterDiagram read_scatter_diagram(const std::filesystem::path& file) {
-  return diagram_of(TextSource::read(file, kMaxBytes));
+  return diagram_of(TextSource::read(file, kMaxDiagramBytes));
 }
 
 }  // namespace seaglint

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/scenario/files/spectrum_table.h"
+#include "sim/scenario/files/tables.h"
 
 #include <fmt/format.h>
 
@@ -23,7 +23,7 @@ namespace seaglint {
 
 namespace {
 
-constexpr std::size_t kMaxBytes = 10'000'000;
+constexpr std::size_t kMaxSpectrumBytes = 10'000'000;
 
 }  // namespace
 
@@ -47,12 +47,6 @@ double number_of(const TextSource& source, std::string_view word, const char* wh
                                   lowest, lookalike_note(word)));
   }
   return *value;
-}
-
-std::vector<std::string_view> words_of(std::string_view line) {
-  std::vector<std::string_view> words;
-  for (std::string_view word = next_word(line); !word.empty(); word = next_word(line)) words.push_back(word);
-  return words;
 }
 
 // A spectrum over frequencies in Hz, each with the word that states it.
@@ -430,7 +424,7 @@ SpectrumTable parse_spectrum_table(const std::string& text, const std::string& f
 }
 
 SpectrumTable read_spectrum_table(const std::filesystem::path& file, const std::string& time) {
-  return spectrum_of(TextSource::read(file, kMaxBytes), time);
+  return spectrum_of(TextSource::read(file, kMaxSpectrumBytes), time);
 }
 
 }  // namespace seaglint

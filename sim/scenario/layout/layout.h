@@ -1,16 +1,67 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Places, heights, headings and sizes of the bodies of a target's layout. A target without one is one body at the
-// origin.
+// The `layout` of a target: how many bodies of one mesh it consists of, their places on the water, heights, headings
+// and sizes. A target without one is one body at the origin.
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "sim/core/numbers/linear.h"
-#include "sim/scenario/layout/layout_spec.h"
 
 namespace seaglint {
+
+enum class LayoutBodies { kIndependent, kRigid };
+enum class LayoutShape { kLine, kRing, kGrid, kRandom };
+inline constexpr const char* kLayoutShapeNames[] = {"line", "ring", "grid", "random"};
+
+inline constexpr int kMostBodies = 1000;  // of one layout
+
+// Equal spacings along x of the target frame.
+struct LineLayout {
+  int count = 1;
+  double spacing_m = 40;
+  double centre_x_m = 0;
+  double centre_y_m = 0;
+
+  bool operator==(const LineLayout&) const = default;
+};
+
+// A given number of bodies over a given area, length_m along x and width_m along y of the target frame.
+struct AreaLayout {
+  LayoutShape shape = LayoutShape::kRandom;
+  int count = 4;
+  double length_m = 120;
+  double width_m = 40;
+  double min_distance_m = 0;
+  double centre_x_m = 0;
+  double centre_y_m = 0;
+
+  bool operator==(const AreaLayout&) const = default;
+};
+
+// Bounds of a quantity that is drawn for every body, uniform between them; lowest <= highest.
+struct BodyRange {
+  double lowest = 0;
+  double highest = 0;
+
+  bool operator==(const BodyRange&) const = default;
+};
+
+// Either a line or an area.
+struct LayoutSpec {
+  std::optional<LineLayout> line = {};
+  std::optional<AreaLayout> area = {};
+  LayoutBodies bodies = LayoutBodies::kIndependent;
+  std::optional<BodyRange> heights_m = {};
+  std::optional<BodyRange> headings_deg = {};
+  std::optional<BodyRange> scales = {};
+  std::uint64_t seed = 0;
+
+  bool operator==(const LayoutSpec&) const = default;
+};
 
 using OptionalLayout = std::optional<LayoutSpec>;
 

@@ -10,9 +10,9 @@
 
 #include "classify/model/classifiers.h"
 #include "classify/model/learning_table.h"
-#include "classify/model/model_card.h"
+#include "classify/model/saved_model.h"
 #include "classify/model/scores.h"
-#include "classify/model/study_text.h"
+#include "classify/model/study.h"
 #include "sim/core/numbers/random.h"
 #include "sim/core/process/error.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/cavity/cavity_scattering.h"
-#include "tests/sim/scattering/solve_calls.h"
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,13 +10,251 @@
 #include <fstream>
 #include <map>
 
+#include "sim/cavity/cavity_aperture.h"
+#include "sim/cavity/wall_currents.h"
 #include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/rotation.h"
 #include "sim/core/process/error.h"
 #include "sim/geometry/files/mesh_io.h"
-#include "tests/sim/cavity/guide.h"
+#include "sim/geometry/mesh/triangle_mesh.h"
+#include "sim/geometry/shapes/generators.h"
+#include "sim/scattering/radiation/contribution.h"
+#include "tests/sim/scattering/solve_calls.h"
 
 namespace seaglint {
 namespace {
+
+// A rectangular guide, shorted at its end, as a cavity: 0 <= y <= a, 0 <= z <= b, open at x = 0, closed at x = depth.
+
+// Its inner faces, each of two triangles; part "guide".
+inline TriangleMesh guide(double a, double b, double depth) {
+  MeshBuilder builder;
+  builder.begin_part("guide");
+  const auto v = [&](double x, double y, double z) { return builder.vertex({x, y, z}); };
+  const auto o00 = v(0, 0, 0), oa0 = v(0, a, 0), oab = v(0, a, b), o0b = v(0, 0, b);
+  const auto e00 = v(depth, 0, 0), ea0 = v(depth, a, 0), eab = v(depth, a, b), e0b = v(depth, 0, b);
+  builder.quad(o00, e00, ea0, oa0);  // floor, seen from above
+  builder.quad(o0b, oab, eab, e0b);  // ceiling
+  builder.quad(o00, o0b, e0b, e00);  // y = 0
+  builder.quad(oa0, ea0, eab, oab);  // y = a
+  builder.quad(e00, e0b, eab, ea0);  // end
+  return builder.take();
+}
+
+struct Sum {
+  Vec3 area = Vec3::Zero(), moment = Vec3::Zero();  // of the area about the origin, signed along the sum
+};
+
+Sum sum_of(const std::vector<ApertureCell>& cells) {
+  Sum sum;
+  for (const ApertureCell& cell : cells) sum.area += cell.area * cell.inward;
+  for (const ApertureCell& cell : cells) sum.moment += cell.area * cell.inward.dot(sum.area.normalized()) * cell.centre;
+  return sum;
+}
+
+TriangleMesh inverted(TriangleMesh mesh) {
+  for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+  return mesh;
+}
+
+// A prism with its base at z = -1 and its top open at z = 0; the outline runs counter-clockwise seen from above. Side
+// faces have inward normals; the base is a fan about `hub`, from which all of it must be visible.
+TriangleMesh pit(const std::vector<Vec2>& outline, const Vec2& hub) {
+  MeshBuilder builder;
+  builder.begin_part("pit");
+  std::vector<std::uint32_t> top, base;
+  for (const Vec2& p : outline) {
+    top.push_back(builder.vertex({p.x(), p.y(), 0}));
+    base.push_back(builder.vertex({p.x(), p.y(), -1}));
+  }
+  const std::uint32_t middle = builder.vertex({hub.x(), hub.y(), -1});
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const std::size_t next = (i + 1) % outline.size();
+    builder.quad(base[next], base[i], top[i], top[next]);
+    builder.triangle(middle, base[i], base[next]);
+  }
+  return builder.take();
+}
+
+TEST(CavityAperture, OfAGuideIsItsOpenFaceWithInwardNormal) {
+  const Sum sum = sum_of(aperture_cells(guide(0.3, 0.2, 0.5), 0.011));
+  EXPECT_LT((sum.area - Vec3(0.06, 0, 0)).norm(), 1e-12);
+  EXPECT_LT((sum.moment / 0.06 - Vec3(0, 0.15, 0.1)).norm(), 1e-12);
+}
+
+TEST(CavityAperture, MayBeOfAnyShapeEvenConcave) {
+  // An L: two unit squares and one in the corner.
+  const std::vector<Vec2> outline{{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
+  const auto cells = aperture_cells(pit(outline, {0.5, 0.5}), 0.07);
+  const Sum sum = sum_of(cells);
+  EXPECT_LT((sum.area - Vec3(0, 0, -3)).norm(), 1e-12);
+  EXPECT_LT((sum.moment / 3 - Vec3(2.5 / 3, 2.5 / 3, 0)).norm(), 1e-12);
+  for (const ApertureCell& cell : cells) {
+    EXPECT_LE(cell.area, 0.07 * 0.07 * (1 + 1e-12));
+    EXPECT_LT((cell.across.cross(cell.up) - cell.inward).norm(), 1e-12);
+  }
+}
+
+TEST(CavityAperture, WithAnIslandIsTheRingBetweenTheRims) {
+  // A post of 1 m square in a pit of 3 m square, as high as the rim, with a solid interior: its walls face the pit, so
+  // that its rim has the opposite orientation.
+  TriangleMesh mesh = pit({{0, 0}, {3, 0}, {3, 3}, {0, 3}}, {1.5, 1.5});
+  const TriangleMesh post = inverted(pit({{1, 1}, {2, 1}, {2, 2}, {1, 2}}, {1.5, 1.5}));
+  mesh.append(post);
+  const auto cells = aperture_cells(mesh, 0.1);
+  const Sum sum = sum_of(cells);
+  EXPECT_LT((sum.area - Vec3(0, 0, -8)).norm(), 1e-11);
+  for (const ApertureCell& cell : cells) {
+    EXPECT_LT(cell.inward.z(), -0.99);  // a wave from above enters through all of them
+    EXPECT_GT((cell.centre - Vec3(1.5, 1.5, 0)).cwiseAbs().maxCoeff(), 0.5 - 1e-9);
+  }
+}
+
+TEST(CavityAperture, RefusesSurfacesThatAreNoCavity) {
+  const auto refused = [](const TriangleMesh& mesh, const std::string& why) {
+    try {
+      aperture_cells(mesh, 0.01);
+      FAIL() << "not refused: " << why;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr(why));
+    }
+  };
+  refused(inverted(guide(0.3, 0.2, 0.5)), "face away from its inside");
+
+  // Its two halves with their apertures facing each other.
+  TriangleMesh closed = guide(0.3, 0.2, 0.5);
+  const Mat3 half_turn(-Vec3::UnitX(), -Vec3::UnitY(), Vec3::UnitZ());
+  closed.append(transformed(closed, half_turn, Vec3(0, 0.3, 0)));
+  refused(welded(closed), "closed");
+
+  TriangleMesh uneven = guide(0.3, 0.2, 0.5);
+  uneven.vertices[2].x() = 0.05;
+  refused(uneven, "not flat");
+
+  // Two guides whose apertures have one edge or one vertex in common.
+  TriangleMesh sharing = guide(0.3, 0.2, 0.5), touching = sharing;
+  sharing.append(transformed(guide(0.3, 0.2, 0.5), Mat3::Identity(), Vec3(0, 0.3, 0.2)));
+  refused(welded(sharing), "more than two triangles");
+  const Mat3 tilt = axis_rotation(0.1, Vec3::UnitY());
+  touching.append(transformed(guide(0.3, 0.2, 0.5), tilt, Vec3(0, 0.3, 0.2)));
+  refused(welded(touching), "touches itself");
+
+  TriangleMesh flipped = guide(0.3, 0.2, 0.5);
+  std::swap(flipped.triangles[8][1], flipped.triangles[8][2]);
+  refused(flipped, "have opposite orientation");
+
+  MeshBuilder sheet;
+  sheet.begin_part("sheet");
+  sheet.quad(sheet.vertex({0, 0, 0}), sheet.vertex({0, 0, 1}), sheet.vertex({0.3, 1, 1}), sheet.vertex({0.3, 1, 0}));
+  refused(sheet.take(), "enclose nothing");
+}
+
+// The inside of a tube about the x axis, of slivers as long as the tube.
+TriangleMesh tube(double radius, double length, int sides) {
+  MeshBuilder builder;
+  builder.begin_part("tube");
+  std::vector<std::uint32_t> near, far;
+  for (int i = 0; i < sides; ++i) {
+    const double at = 2 * kPi * i / sides;
+    near.push_back(builder.vertex({0, radius * std::cos(at), radius * std::sin(at)}));
+    far.push_back(builder.vertex({length, radius * std::cos(at), radius * std::sin(at)}));
+  }
+  for (int i = 0; i < sides; ++i) {
+    const int next = (i + 1) % sides;
+    builder.quad(near[i], far[i], far[next], near[next]);
+  }
+  return builder.take();
+}
+
+TEST(WallPatches, KeepAreaAndVectorAreaForAnyTriangulation) {
+  const TriangleMesh mesh = tube(0.1, 0.5, 300);
+  const auto patches = wall_patches(mesh, 0.02);
+  double area = 0;
+  Vec3 vector = Vec3::Zero(), moment = Vec3::Zero();
+  for (const WallPatch& p : patches) {
+    area += p.area;
+    vector += p.area * p.normal;
+    moment += p.area * p.centre;
+  }
+  EXPECT_NEAR(area, surface_area(mesh), 1e-12);
+  EXPECT_LT((moment / area - Vec3(0.25, 0, 0)).norm(), 1e-12);
+  EXPECT_LT(vector.norm(), 1e-3 * area);
+}
+
+TEST(WallPatches, AreAboutOneSizeAndLieOnTheWall) {
+  constexpr double kSize = 0.02, kRadius = 0.1;
+  const TriangleMesh mesh = tube(kRadius, 0.5, 300);
+  const auto patches = wall_patches(mesh, kSize);
+  EXPECT_NEAR(static_cast<double>(patches.size()) * kSize * kSize / surface_area(mesh), 1, 0.25);
+  // Seeds lie 0.94 of a size apart at least: a hexagon of 0.77 squares, of which half may be cut by the tube's end; no
+  // point is farther than that from a seed, which a hexagon of 2.3 squares would need everywhere.
+  for (const WallPatch& p : patches) {
+    EXPECT_GT(p.area, 0.3 * kSize * kSize);
+    EXPECT_LT(p.area, 2 * kSize * kSize);
+    const Vec3 outwards = Vec3(0, p.centre.y(), p.centre.z()).normalized();
+    // A patch extends over an arc of at most `kSize` to either side: its centre is off the wall by the arc's height.
+    EXPECT_NEAR(Vec3(0, p.centre.y(), p.centre.z()).norm(), kRadius, kSize * kSize / (2 * kRadius));
+    EXPECT_GT(-outwards.dot(p.normal), std::cos(kSize / kRadius));
+    EXPECT_LT((p.tangent[0].cross(p.tangent[1]) - p.normal).norm(), 1e-12);
+  }
+}
+
+TEST(WallPatches, EndAtEdges) {
+  for (const WallPatch& p : wall_patches(guide(0.3, 0.2, 0.5), 0.013))
+    EXPECT_GT(p.normal.cwiseAbs().maxCoeff(), 1 - 1e-9);
+}
+
+TEST(WallPatches, RefuseWallsTooLargeForTheWavelength) {
+  EXPECT_THROW(wall_patches(guide(3, 2, 5), 0.01), InputError);
+  EXPECT_THROW(wall_patches(tube(1e-6, 100, 10'000), 1e-4), InputError);
+}
+
+// The magnetic-field integral equation also holds on the outside of a closed body, for which the echo is known.
+double backscatter_of_sphere(double ka) {
+  // |sum of (-1)^n (2n + 1) (b_n - a_n)| / 2k, radius 1 m (Ruck, Radar Cross Section Handbook, 1970, eq. 3.2-2)
+  Complex sum = 0;
+  for (unsigned n = 1; n < 2 * ka + 20; ++n) {
+    const auto h = [&](unsigned order) { return Complex(std::sph_bessel(order, ka), -std::sph_neumann(order, ka)); };
+    const double slope_j = ka * std::sph_bessel(n - 1, ka) - n * std::sph_bessel(n, ka);
+    const Complex slope_h = ka * h(n - 1) - static_cast<double>(n) * h(n);
+    sum += (n % 2 ? -1.0 : 1.0) * (2 * n + 1) * (slope_j / slope_h - std::sph_bessel(n, ka) / h(n));
+  }
+  return std::abs(sum) / (2 * ka);
+}
+
+TEST(WallCurrents, OnTheOutsideOfASphereHaveItsExactEcho) {
+  constexpr double ka = 6.5;  // of a radius of 1 m, away from the interior resonances, where the equation is singular
+  const TriangleMesh sphere = make_sphere(1, 4);
+  const RadarBasis radar = radar_basis(Vec3::UnitX());
+  const auto echo = [&](double patches_per_wavelength) {
+    const std::vector<WallPatch> walls = wall_patches(sphere, 2 * kPi / ka / patches_per_wavelength);
+    WallMatrix driven(2 * walls.size(), 1);
+    const auto row = [](std::size_t i, int t) { return 2 * i + static_cast<std::size_t>(t); };
+    for (std::size_t i = 0; i < walls.size(); ++i) {
+      const Vec3 J = 2 * walls[i].normal.cross(-radar.r.cross(radar.h));
+      for (int t = 0; t < 2; ++t)
+        driven(row(i, t), 0) =
+            std::complex<float>(walls[i].tangent[t].dot(J) * std::polar(1.0, ka * radar.r.dot(walls[i].centre)));
+    }
+    const WallMatrix J = WallCurrents(walls, ka, 2, nullptr).solve(driven, std::array{1.0}, 2, nullptr);
+    Complex S = 0;
+    for (std::size_t i = 0; i < walls.size(); ++i) {
+      for (int t = 0; t < 2; ++t)
+        S += walls[i].area * walls[i].tangent[t].dot(radar.h) * std::polar(1.0, ka * radar.r.dot(walls[i].centre)) *
+             Complex(J(row(i, t), 0));
+    }
+    return std::abs(S) * ka / (4 * kPi);
+  };
+  // Patches of a sixth of a wavelength have errors of some tenths of a decibel, finer ones less; measured 0.11 and 0.05
+  // dB.
+  const auto error_db = [&](double patches) {
+    return std::abs(20 * std::log10(echo(patches) / backscatter_of_sphere(ka)));
+  };
+  const double coarse = error_db(6), fine = error_db(12);
+  RecordProperty("error_db", fmt::format("{:.3f} {:.3f}", coarse, fine));
+  EXPECT_LT(coarse, 0.25);
+  EXPECT_LT(fine, 0.1);
+}
 
 using Matrix = std::array<Complex, 4>;
 

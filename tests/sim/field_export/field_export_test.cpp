@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cuts written as other programs' files are read back by the readers of those formats, and by pandas.
+// Cuts written as other programs' files are read back by the readers of those formats.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,11 +7,11 @@
 #include <filesystem>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/core/numbers/dbsm.h"
+#include "sim/core/numbers/real_functions.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/field_export/field_export.h"
-#include "sim/field_tables/read_field_table.h"
+#include "sim/field_tables/field_table.h"
 #include "tests/pipeline/program.h"
 #include "tests/temporary_folder.h"
 
@@ -115,53 +115,6 @@ TEST(FieldExport, AsCstHasTenDigitsAndItsPlaceInTheName) {
             "boat (f = 10.123456789), theta = 80, phi = 30.5, HP.txt");
 }
 
-TEST(FieldExport, AsPyaedtIsExact) {
-  const TemporaryFolder folder;
-  for (const RcsCut& cut : cuts_of(kMonostatic)) {
-    const std::string stem = std::string("boat_") + kPolarisationNames[static_cast<int>(cut.element)];
-    const PyaedtPair pair = pyaedt_pair(cut, stem);
-    write_file(folder.path() / (stem + ".json"), pair.json);
-    write_file(folder.path() / (stem + ".h5"), pair.table);
-    const FieldTable table = read_field_table(folder.path() / (stem + ".h5"), {});
-    ASSERT_EQ(table.cuts.at(0).element, cut.element);
-    ASSERT_EQ(table.cuts[0].values.size(), cut.values.size());
-    for (std::size_t n = 0; n < cut.values.size(); ++n) {
-      const FieldValue &read = table.cuts[0].values[n], &written = cut.values[n];
-      EXPECT_DOUBLE_EQ(read.frequency_hz, written.frequency_hz);
-      EXPECT_EQ(read.theta_deg, written.theta_deg);
-      EXPECT_EQ(read.phi_deg, written.phi_deg);
-      EXPECT_DOUBLE_EQ(read.amplitude_m->real(), written.amplitude_m->real());
-      EXPECT_DOUBLE_EQ(read.amplitude_m->imag(), written.amplitude_m->imag());
-    }
-  }
-}
-
-TEST(FieldExport, AsPyaedtIsOpenedByPandas) {
-  if (run_words({kPython, "-c", "import pandas, tables"}).code != 0)
-    GTEST_SKIP() << "needs the packages python3-pandas and python3-tables";
-  const TemporaryFolder folder;
-  const RcsCut cut = cuts_of(kMonostatic)[1];
-  write_file(folder.path() / "a.h5", pyaedt_pair(cut, "a").table);
-  const ProgramResult result = run_words({kPython, "-W", "error", "-c", R"(
-import pandas, sys
-frame = pandas.read_hdf(sys.argv[1])
-assert list(frame.index.names) == ['Freq', 'IWavePhi', 'IWaveTheta'], frame.index.names
-assert list(frame.columns) == ['data'] and frame['data'].dtype == 'complex128'
-value = frame.loc[(9.3, 10.5, 85.0), 'data']
-print(len(frame), repr(value.real), repr(value.imag))
-print(len(pandas.read_hdf(sys.argv[1], 'df', where='IWaveTheta > 86')))
-)",
-                                          folder.path() / "a.h5"});
-  ASSERT_EQ(result.code, 0) << result.err;
-  const Complex value = -std::sqrt(4 * kPi) * *cut.values[1].amplitude_m;  // hv along -phi^ = -h
-  double rows = 0, re = 0, im = 0, above = 0;
-  ASSERT_EQ(std::sscanf(result.out.c_str(), "%lf %lf %lf %lf", &rows, &re, &im, &above), 4) << result.out;
-  EXPECT_EQ(rows, 12);
-  EXPECT_DOUBLE_EQ(re, value.real());
-  EXPECT_DOUBLE_EQ(im, value.imag());
-  EXPECT_EQ(above, 6);
-}
-
 TEST(FieldExport, OfWhatAFormatCannotHoldIsRefused) {
   const auto refusal = [](const auto& write) {
     try {
@@ -172,7 +125,6 @@ TEST(FieldExport, OfWhatAFormatCannotHoldIsRefused) {
     return std::string("written");
   };
   std::vector<RcsCut> cuts = cuts_of(kFixed);
-  EXPECT_THAT(refusal([&] { pyaedt_pair(cuts[0], "a"); }), HasSubstr("is monostatic: this cut is not"));
   cuts.pop_back();
   EXPECT_EQ(refusal([&] { feko_text(cuts, true); }), "a .ffe needs both vv and hv");
   EXPECT_EQ(refusal([&] { feko_text(cuts, false); }), "written");

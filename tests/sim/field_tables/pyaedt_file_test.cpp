@@ -13,8 +13,8 @@
 #include "sim/core/numbers/random.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
+#include "sim/field_tables/field_table.h"
 #include "sim/field_tables/pandas_table.h"
-#include "sim/field_tables/read_field_table.h"
 #include "tests/temporary_folder.h"
 
 namespace seaglint {
@@ -22,7 +22,7 @@ namespace {
 
 using testing::HasSubstr;
 
-const std::filesystem::path kFolder = std::filesystem::path(SEAGLINT_SOURCE_DIR) / "tests/cases/exports";
+const std::filesystem::path kPyaedtFolder = std::filesystem::path(SEAGLINT_SOURCE_DIR) / "tests/cases/exports";
 
 // The message with which a file is refused, which is all that is said.
 std::string refusal(const std::filesystem::path& file, const FieldTableSettings& settings = {}) {
@@ -54,14 +54,14 @@ TEST(PyaedtFile, IsRefusedWithWhatIsWrongInItsJson) {
   EXPECT_THAT(refused(json_with("null", "\"GHz\"")), HasSubstr("only the geometry was exported"));
   EXPECT_THAT(refused(json_with("\"a.h5\"", "\"GHz\"")), HasSubstr("'a.h5': no such HDF5 file beside it"));
   EXPECT_THAT(refused(R"({"monostatic_file": "a.h5")"), HasSubstr("a.json: no valid JSON from byte"));
-  std::filesystem::copy_file(kFolder / "pyaedt_VV.h5", folder.path() / "a.h5");
+  std::filesystem::copy_file(kPyaedtFolder / "pyaedt_VV.h5", folder.path() / "a.h5");
   EXPECT_THAT(refused(json_with("\"a.h5\"", "\"GHz\"")), HasSubstr("a.json: does not say its polarisation"));
   EXPECT_THAT(refused(R"({"monostatic_file": "a.h5"})"), HasSubstr("does not say its polarisation"));
 }
 
 TEST(PyaedtFile, TakesItsPolarisationFromTheSettingsAndItsUnitFromTheJson) {
   const TemporaryFolder folder;
-  std::filesystem::copy_file(kFolder / "pyaedt_VV.h5", folder.path() / "a.h5");
+  std::filesystem::copy_file(kPyaedtFolder / "pyaedt_VV.h5", folder.path() / "a.h5");
   FieldTableSettings hh;
   hh.elements = {Polarisation::kHh};
   EXPECT_THAT(refusal(folder.path() / "a.h5", hh), HasSubstr("a JSON beside it whose monostatic_file is 'a.h5'"));
@@ -74,13 +74,13 @@ TEST(PyaedtFile, TakesItsPolarisationFromTheSettingsAndItsUnitFromTheJson) {
   EXPECT_EQ(table.cuts[0].values.at(0).frequency_hz, 9.5);
   FieldTableSettings vv;
   vv.elements = {Polarisation::kVv};
-  EXPECT_THAT(refusal(kFolder / "pyaedt_VH.json", vv), HasSubstr("is vh by its name, which is not wanted"));
+  EXPECT_THAT(refusal(kPyaedtFolder / "pyaedt_VH.json", vv), HasSubstr("is vh by its name, which is not wanted"));
 }
 
 // PyAEDT puts the meshes of model_info into the folder geometry beside the JSON.
 TEST(PyaedtFile, NamesItsGeometryWithUnits) {
   const TemporaryFolder folder;
-  std::filesystem::copy_file(kFolder / "pyaedt_VV.h5", folder.path() / "VV_data_x.h5");
+  std::filesystem::copy_file(kPyaedtFolder / "pyaedt_VV.h5", folder.path() / "VV_data_x.h5");
   const auto read = [&](const std::string& model) {
     write_file(folder.path() / "VV_x.json",
                R"({"solution": "x", "monostatic_file": "VV_data_x.h5", "model_units": "mm", "frequency_units": "GHz",)"
@@ -111,8 +111,8 @@ TEST(PyaedtFile, NamesItsGeometryWithUnits) {
 
 TEST(PyaedtFile, ThatIsCutOffIsRefused) {
   const TemporaryFolder folder;
-  const std::string whole = read_file(kFolder / "pyaedt_VV.h5");
-  write_file(folder.path() / "pyaedt_VV.json", read_file(kFolder / "pyaedt_VV.json"));
+  const std::string whole = read_file(kPyaedtFolder / "pyaedt_VV.h5");
+  write_file(folder.path() / "pyaedt_VV.json", read_file(kPyaedtFolder / "pyaedt_VV.json"));
   for (std::size_t bytes = 8; bytes < whole.size(); bytes += 97) {
     write_file(folder.path() / "pyaedt_VV.h5", whole.substr(0, bytes));
     EXPECT_THAT(refusal(folder.path() / "pyaedt_VV.json"), HasSubstr("pyaedt_VV.h5: not a whole HDF5 file"));
@@ -124,9 +124,9 @@ TEST(PyaedtFile, ThatIsCutOffIsRefused) {
 TEST(PyaedtFile, WithAChangedByteIsRefusedOrReadAsItStands) {
   const char* count = std::getenv("SEAGLINT_MUTATIONS");
   const TemporaryFolder folder;
-  const std::string whole = read_file(kFolder / "pyaedt_VV.h5");
-  write_file(folder.path() / "pyaedt_VV.json", read_file(kFolder / "pyaedt_VV.json"));
-  const std::vector<FieldValue> original = read_field_table(kFolder / "pyaedt_VV.json", {}).cuts.at(0).values;
+  const std::string whole = read_file(kPyaedtFolder / "pyaedt_VV.h5");
+  write_file(folder.path() / "pyaedt_VV.json", read_file(kPyaedtFolder / "pyaedt_VV.json"));
+  const std::vector<FieldValue> original = read_field_table(kPyaedtFolder / "pyaedt_VV.json", {}).cuts.at(0).values;
   Random random({14, Stream::kTest, 0});
   int refused = 0, changed = 0;
   for (int n = 0; n < (count == nullptr ? 300 : std::atoi(count)); ++n) {
@@ -156,22 +156,11 @@ TEST(PyaedtFile, WithAChangedByteIsRefusedOrReadAsItStands) {
   EXPECT_GT(changed, 0);
 }
 
-TEST(PandasTable, HasTheRowsThatWereWritten) {
-  const TemporaryFolder folder;
-  std::vector<PandasRow> rows;
-  for (int n = 0; n < 3000; ++n) rows.push_back({9.5 + n / 7.0, 85.1, n / 3.0, {1.0 / (n + 1), -n * 1e-7}});
-  const std::string bytes = pandas_table_bytes(rows);
-  EXPECT_EQ(bytes, pandas_table_bytes(rows));
-  write_file(folder.path() / "t.h5", bytes);
-  ASSERT_TRUE(is_hdf5_file(folder.path() / "t.h5"));
-  const std::vector<PandasRow> read = read_pandas_table(folder.path() / "t.h5");
-  ASSERT_EQ(read.size(), rows.size());
-  for (std::size_t n = 0; n < rows.size(); ++n) {
-    EXPECT_EQ(read[n].frequency, rows[n].frequency);
-    EXPECT_EQ(read[n].theta_deg, rows[n].theta_deg);
-    EXPECT_EQ(read[n].phi_deg, rows[n].phi_deg);
-    EXPECT_EQ(read[n].value, rows[n].value);
-  }
+// HDF5 1.10 follows the list of the second file without end.
+TEST(LocalHeaps, WhoseFreeListIsACircleAreFound) {
+  EXPECT_TRUE(has_sound_heaps(kPyaedtFolder / "pyaedt_VH.h5"));
+  EXPECT_TRUE(has_sound_heaps(kPyaedtFolder / "pyaedt_VV.h5"));
+  EXPECT_FALSE(has_sound_heaps(SEAGLINT_SOURCE_DIR "/tests/fuzz/inputs/pyaedt/heap_circle.h5"));
 }
 
 }  // namespace

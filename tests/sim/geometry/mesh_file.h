@@ -5,49 +5,34 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <string>
 
-#include "sim/core/process/error.h"
+#include "sim/core/process/file.h"
 #include "sim/geometry/files/mesh_io.h"
+#include "tests/refusal.h"
+#include "tests/temporary_folder.h"
 
 namespace seaglint {
 
 class MeshFile : public testing::Test {
  protected:
-  void SetUp() override {
-    folder = std::filesystem::path(testing::TempDir()) /
-             ("seaglint_mesh_" + std::to_string(::getpid()) +
-              std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-    std::filesystem::remove_all(folder);
-    std::filesystem::create_directories(folder);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder); }
-
   std::filesystem::path put(const std::string& name, const std::string& content) const {
     std::ofstream(folder / name, std::ios::binary) << content;
     return folder / name;
   }
-  static std::string bytes_of(const std::filesystem::path& path) {
-    std::ostringstream content;
-    content << std::ifstream(path, std::ios::binary).rdbuf();
-    return content.str();
+  static std::string bytes_of(const std::filesystem::path& path) { return read_file(path); }
+  static std::string refusal(const std::filesystem::path& path) {
+    return refusal_of([&] { read_mesh(path); });
   }
   static void expect_error(const std::filesystem::path& path, const std::string& what) {
-    try {
-      read_mesh(path);
-      ADD_FAILURE() << path << " was read";
-    } catch (const InputError& error) {
-      EXPECT_THAT(error.what(), testing::StartsWith(path.string()));
-      EXPECT_THAT(error.what(), testing::HasSubstr(what));
-    }
+    EXPECT_THAT(refusal(path), testing::AllOf(testing::StartsWith(path.string()), testing::HasSubstr(what)));
   }
 
-  std::filesystem::path folder;
+  const TemporaryFolder temporary;
+  const std::filesystem::path folder = temporary.path();
 };
 
 // float32 keeps 24 bits: half a unit in the last place is 2^-24 of a coordinate.

@@ -25,7 +25,7 @@ Body body_of(const TargetSpec& target) { return make_body(target.motion, {kRefle
 std::vector<Trajectory> simulate(const TargetSpec& target, const Body& body, const SeaState& state,
                                  const WaveField& sea, double duration_s, std::uint64_t seed, std::uint64_t index,
                                  std::size_t first_body = 0, int threads = 1) {
-  return simulate_target(target, std::array{&body}, state, sea, duration_s, seed, index, first_body, threads);
+  return simulate_target({target, std::array{&body}, state, sea, duration_s, seed, index, first_body, threads});
 }
 
 SeaState state_of(double height, double period) {

@@ -6,7 +6,6 @@
 #include "sim/core/numbers/random.h"
 #include "sim/core/process/error.h"
 #include "sim/core/text/names.h"
-#include "sim/scenario/material_file.h"
 #include "sim/scenario/material_spec.h"
 
 namespace seaglint {

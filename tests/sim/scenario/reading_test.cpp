@@ -9,7 +9,6 @@
 #include "sim/core/process/error.h"
 #include "sim/scenario/files/document.h"
 #include "sim/scenario/scenario.h"
-#include "sim/scenario/writer.h"
 #include "tests/sim/scenario/parsing.h"
 
 namespace seaglint {

@@ -12,119 +12,74 @@
 #include "sim/core/process/error.h"
 #include "sim/scenario/fields.h"
 #include "sim/scenario/scenario.h"
-#include "sim/scenario/writer.h"
 
 namespace seaglint {
 namespace {
 
-// Visits all fields; the derived visitor receives each value with its full key path.
-class Walker : public FieldVisitor {
- public:
-  void section(const char* key, const Fields& fields) override {
-    below(key, [&] { fields(*this); });
-  }
-  void list(const char* key, std::size_t size, std::size_t, const std::function<void(std::size_t)>&,
-            const std::function<void(std::size_t, FieldVisitor&)>& item) override {
-    for (std::size_t i = 0; i < size; ++i) below(fmt::format("{}.{}", key, i), [&] { item(i, *this); });
-  }
-  void dictionary(const char* key, const std::vector<std::string>& names, std::size_t,
-                  const std::function<void(const std::vector<std::string>&)>&,
-                  const std::function<void(std::size_t, FieldVisitor&)>& item) override {
-    for (std::size_t i = 0; i < names.size(); ++i) below(fmt::format("{}.{}", key, names[i]), [&] { item(i, *this); });
-  }
-  void require(const char*) override {}
-  bool optional(const char*, bool present) override { return present; }
-
- protected:
-  std::string path(const char* key) const { return prefix_ + key; }
-
- private:
-  void below(const std::string& key, const std::function<void()>& visit) {
-    const std::string before = prefix_;
-    prefix_ += key + ".";
-    visit();
-    prefix_ = before;
-  }
-  std::string prefix_;
-};
-
 // All values, exactly.
-class Collector : public Walker {
- public:
+struct Collector : PathVisitor {
   std::map<std::string, std::string> values;
 
-  void number(const char* key, double& value, const Bound&) override { values[path(key)] = fmt::format("{:a}", value); }
-  void number_or_auto(const char* key, std::optional<double>& value, const Bound&) override {
-    values[path(key)] = value ? fmt::format("{:a}", *value) : "auto";
-  }
-  void integer(const char* key, int& value, const Bound&) override { values[path(key)] = std::to_string(value); }
-  void natural(const char* key, std::uint64_t& value) override { values[path(key)] = std::to_string(value); }
-  void flag(const char* key, bool& value) override { values[path(key)] = std::to_string(value); }
-  void text(const char* key, std::string& value) override { values[path(key)] = value; }
-  void choice(const char* key, std::size_t& index, Names) override { values[path(key)] = std::to_string(index); }
-  void triple(const char* key, std::array<double, 3>& v, const Bound&) override {
-    values[path(key)] = fmt::format("{:a} {:a} {:a}", v[0], v[1], v[2]);
-  }
-  void ratio(const char* key, double& value) override { values[path(key)] = fmt::format("{:a}", value); }
-  void words(const char* key, std::vector<std::string>& names, std::size_t, std::size_t) override {
-    for (const std::string& name : names) values[path(key)] += name + ";";
-  }
-  void sweep(const char* key, Sweep& sweep, const Bound&, Names words, std::size_t* word) override {
-    values[path(key)] = word != nullptr && *word > 0 ? words[*word - 1] : "";
-    for (const double value : sweep) values[path(key)] += fmt::format("{:a} ", value);
-  }
-  void hold_outs(const char* key, std::vector<HoldOutSpec>& columns) override {
-    std::string& all = values[path(key)];
-    for (const HoldOutSpec& column : columns) {
-      all += "\n" + column.column;
-      for (const std::string& value : column.values) all += "\t" + value;
+  void value(const char* key, const KeyField& value, const char*) override {
+    std::string& text = values[path_of(key)] = value_as_yaml(value);
+    if (const auto* number = std::get_if<NumberField>(&value)) text = fmt::format("{:a}", number->value);
+    if (const auto* ratio = std::get_if<RatioField>(&value)) text = fmt::format("{:a}", ratio->fraction);
+    if (const auto* sweep = std::get_if<SweepField>(&value)) {
+      for (const double number : sweep->values) text += fmt::format(" {:a}", number);
     }
   }
 };
 
 // Another allowed value for every field, with as many digits as a double has.
-class Mutator : public Walker {
+class Mutator : public PathVisitor {
  public:
-  explicit Mutator(std::uint64_t index) : random_({1, Stream::kTest, index}) {}
+  explicit Mutator(std::uint64_t index, bool words_only = false)
+      : random_({1, Stream::kTest, index}), words_only_(words_only) {}
 
-  void number(const char*, double& value, const Bound& bound) override { value = draw(bound); }
-  void number_or_auto(const char*, std::optional<double>& value, const Bound& bound) override { value = draw(bound); }
-  void integer(const char* key, int& value, const Bound& bound) override {
-    if (path(key) == "seaglint") return;
-    const auto low = static_cast<std::int64_t>(std::ceil(bound.lowest));
-    const auto high = static_cast<std::int64_t>(std::floor(bound.highest));
-    value = static_cast<int>(low + random_.below(static_cast<std::uint32_t>(high - low)));
-  }
-  void natural(const char*, std::uint64_t& value) override { value = random_.bits() >> 1; }
-  void flag(const char*, bool& value) override { value = !value; }
-  void text(const char*, std::string& value) override { value += " \"'\\ #: \xc3\xa9 {[&*"; }
-  // Without the role, which decides whether there is a label.
-  void choice(const char* key, std::size_t& index, Names names) override {
-    if (std::string_view(key) != "role") index = (index + 1) % names.size();
-  }
-  void triple(const char*, std::array<double, 3>& values, const Bound& bound) override {
-    for (double& value : values) value = draw(bound);
-  }
-  void ratio(const char*, double& fraction) override { fraction = random_.uniform(); }
-  void words(const char*, std::vector<std::string>& names, std::size_t, std::size_t) override {
-    for (std::string& name : names) name += "_1-b c";
-  }
-  void sweep(const char*, Sweep& values, const Bound& bound, Names, std::size_t* word) override {
-    if (word != nullptr && *word > 0) return;
-    values.resize(1 + random_.below(3));
-    for (double& value : values) value = draw(bound);
-  }
-  void hold_outs(const char*, std::vector<HoldOutSpec>& columns) override {
-    columns = {{"target_name", {"ring", "a \"line\": #1", "-3"}}, {"sea.peak_period_s", {"8:9.5"}}};
+  void value(const char* key, const KeyField& value, const char*) override {
+    // Without the role, which decides whether there is a label.
+    if (path_of(key) == "seaglint" || std::string_view(key) == "role") return;
+    const bool is_words = std::holds_alternative<ChoiceField>(value) || std::holds_alternative<NaturalField>(value) ||
+                          std::holds_alternative<NamesField>(value);
+    if (!words_only_ || is_words) std::visit([&](const auto& field) { change(field); }, value);
   }
 
  private:
+  void change(const NumberField& field) { field.value = draw(field.bound); }
+  void change(const NumberOrAutoField& field) { field.value = draw(field.bound); }
+  void change(const IntegerField& field) {
+    const auto low = static_cast<std::int64_t>(std::ceil(field.bound.lowest));
+    const auto high = static_cast<std::int64_t>(std::floor(field.bound.highest));
+    field.value = static_cast<int>(low + random_.below(static_cast<std::uint32_t>(high - low)));
+  }
+  void change(const NaturalField& field) { field.value = random_.bits() >> 1; }
+  void change(const FlagField& field) { field.value = !field.value; }
+  void change(const TextField& field) { field.value += " \"'\\ #: \xc3\xa9 {[&*"; }
+  void change(const ChoiceField& field) { field.index = (field.index + 1) % field.words.size(); }
+  void change(const TripleField& field) {
+    for (double& value : field.values) value = draw(field.bound);
+  }
+  void change(const RatioField& field) { field.fraction = random_.uniform(); }
+  void change(const NamesField& field) {
+    for (std::string& name : field.values) name += "_1-b c";
+  }
+  void change(const SweepField& field) {
+    if (field.word > 0) return;
+    field.values.resize(1 + random_.below(3));
+    for (double& value : field.values) value = draw(field.bound);
+  }
+  void change(const HoldOutsField& field) {
+    field.columns = {{"target_name", {"ring", "a \"line\": #1", "-3"}}, {"sea.peak_period_s", {"8:9.5"}}};
+  }
+
   double draw(const Bound& bound) {
     const double low = std::max(bound.lowest, -1e5);
     const double high = std::min(bound.highest, low + 1e5);
     return low + (high - low) * random_.uniform();
   }
+
   Random random_;
+  bool words_only_;
 };
 
 Scenario full_scenario() {
@@ -210,6 +165,7 @@ void make_consistent(Scenario& scenario) {
   for (TargetSpec& target : scenario.targets) {
     // A part must be a companion; this one is the ship's.
     if (target.name == "array" && scenario.seed % 2 == 0) target.role = TargetRole::kPart;
+    if (target.role == TargetRole::kPart) target.label = 0;
     if (!target.mesh.empty()) scenario.radar.intra_pulse_motion = false;
     for (CompanionSpec& companion : target.companions) companion.target = "array";
     for (TargetSpec& array : scenario.targets) {
@@ -257,7 +213,9 @@ TEST(RoundTrip, EveryFieldComesBackToTheBit) {
       changes[path] += standard == defaults.end() || value != standard->second ? 1 : 0;
     }
     try {
-      EXPECT_EQ(values_of(parse_scenario(yaml, "effective.yaml")), expected) << yaml;
+      const Scenario read = parse_scenario(yaml, "effective.yaml");
+      EXPECT_EQ(values_of(read), expected) << yaml;
+      EXPECT_TRUE(read == scenario) << yaml;
     } catch (const InputError& error) {
       ADD_FAILURE() << error.what() << "\n" << yaml;
     }
@@ -278,25 +236,30 @@ TEST(RoundTrip, DefaultsRoundTripAndTheEffectiveScenarioIsIdempotent) {
   EXPECT_EQ(effective_yaml(read), yaml);
 }
 
+TEST(RoundTrip, EqualScenariosHaveTheSameKeysWhereverTheyWereRead) {
+  const std::string text =
+      "seaglint: 1\nname: a\ntargets:\n  a: {label: 1, points: [{position_m: [1, 2, 3]}]}\n"
+      "  b: {role: part, label: 3, mesh: b.obj}\n  c: {label: 0, mesh: c.obj, companions: [{target: b}]}\n"
+      "sea: {significant_wave_height_m: uniform(0.1 2)}\n";
+  const Scenario scenario = parse_scenario(text, "here/a.yaml");
+  EXPECT_TRUE(parse_scenario(text, "there/a.yaml") == scenario);
+  EXPECT_TRUE(parse_scenario(effective_yaml(scenario), "a.yaml") == scenario);
+  for (const Override& other : std::vector<Override>{{"name", "b"},
+                                                     {"targets.c.unit", "cm"},
+                                                     {"targets.c.label", "1"},
+                                                     {"sea.depth_m", "8"},
+                                                     {"targets.c.motion.waves", "independent"},
+                                                     {"sea.significant_wave_height_m", "uniform(0.1 3)"}})
+    EXPECT_FALSE(parse_scenario(text, "a.yaml", {other}) == scenario) << other.key_path;
+}
+
 TEST(RoundTrip, EveryAllowedWordIsRead) {
   // Each choice is written by name and read back by name; a name listed twice or out of order would not be recovered.
   for (int step = 0; step < 6; ++step) {
     Scenario scenario = full_scenario();
     scenario.clutter.enabled = false;  // its reflectivity is modelled for two of the polarisations
     for (int i = 0; i < step; ++i) {
-      class Change : public Mutator {
-       public:
-        Change() : Mutator(0) {}
-        void number(const char*, double&, const Bound&) override {}
-        void number_or_auto(const char*, std::optional<double>&, const Bound&) override {}
-        void integer(const char*, int&, const Bound&) override {}
-        void flag(const char*, bool&) override {}
-        void text(const char*, std::string&) override {}
-        void triple(const char*, std::array<double, 3>&, const Bound&) override {}
-        void ratio(const char*, double&) override {}
-        void sweep(const char*, Sweep&, const Bound&, Names, std::size_t*) override {}
-        void hold_outs(const char*, std::vector<HoldOutSpec>&) override {}
-      } change;
+      Mutator change(0, true);
       visit_fields(scenario, change);
     }
     if (scenario.sea.spectrum == SpectrumKind::kTable) scenario.sea.spectrum = SpectrumKind::kJonswap;

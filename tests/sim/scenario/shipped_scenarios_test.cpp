@@ -7,7 +7,6 @@
 #include <string>
 
 #include "sim/scenario/scenario.h"
-#include "sim/scenario/writer.h"
 
 namespace seaglint {
 namespace {
@@ -25,6 +24,7 @@ TEST(ShippedScenarios, AreValidAndRoundTripThroughTheirEffectiveForm) {
     const Scenario scenario = read_scenario(entry.path());
     const std::string effective = effective_yaml(scenario);
     EXPECT_EQ(effective_yaml(parse_scenario(effective, entry.path())), effective) << entry.path();
+    EXPECT_TRUE(parse_scenario(effective, entry.path()) == scenario) << entry.path();
     EXPECT_EQ(scenario.name, entry.path().stem()) << entry.path();
   }
   EXPECT_GE(count, 3);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Reads the numeric tables of tests/reference/waves.
+// A sea state of the tests, and the numeric tables of tests/reference/waves.
 
 #include <fstream>
 #include <sstream>
@@ -9,7 +9,19 @@
 #include <string>
 #include <vector>
 
+#include "sim/scenario/sea_spec.h"
+
 namespace seaglint {
+
+// A long-crested JONSWAP sea in deep water with the default cut-offs; height in m, period in s.
+inline SeaState state_of(double height, double period) {
+  SeaState state;
+  state.significant_wave_height_m = height;
+  state.peak_period_s = period;
+  state.cutoff_rad_s = 0;
+  state.second_order_cutoff_rad_s = 0;
+  return state;
+}
 
 // Rows of a comma-separated file below its header; a cell that is not a number reads as 0.
 inline std::vector<std::vector<double>> read_reference(const std::string& name) {

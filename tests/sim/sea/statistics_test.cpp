@@ -13,7 +13,6 @@
 #include "sim/sea/spectrum.h"
 #include "tests/measured.h"
 #include "tests/sim/sea/reference_table.h"
-#include "tests/sim/sea/sea_state.h"
 
 namespace seaglint {
 namespace {
@@ -108,7 +107,7 @@ double skewness_of(const JonswapSpectrum& spectrum, double cutoff, double depth,
     m0 += energy;
     components.push_back({omega, std::sqrt(2 * energy), 0, wavenumber_at(omega, depth)});
   }
-  return WaveField(components, {1, 0}, 2, 1e9, depth).third_cumulant() / std::pow(m0, 1.5);
+  return WaveField(components, 2, 1e9, depth).third_cumulant() / std::pow(m0, 1.5);
 }
 
 // WAFO integrates over the spectrum. N waves of fixed amplitude have half of the self-interaction of each, a deficit of

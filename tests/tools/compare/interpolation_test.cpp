@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/core/numbers/dbsm.h"
 #include "sim/core/numbers/random.h"
+#include "sim/core/numbers/real_functions.h"
 #include "sim/core/process/error.h"
 #include "sim/scattering/observation/observation.h"
 
@@ -66,12 +66,6 @@ RcsCut cut_of(const std::vector<Centre>& centres, const std::vector<double>& azi
     }
   }
   return cut;
-}
-
-std::vector<double> grid(double from, double step, int count) {
-  std::vector<double> values;
-  for (int i = 0; i < count; ++i) values.push_back(from + step * i);
-  return values;
 }
 
 std::vector<ViewPoint> places(const std::vector<double>& azimuths, double elevation_deg) {

@@ -7,9 +7,9 @@
 
 #include <cmath>
 
-#include "sim/canonical/canonical_echo.h"
+#include "sim/canonical/canonical_body.h"
 #include "sim/core/numbers/constants.h"
-#include "sim/core/numbers/dbsm.h"
+#include "sim/core/numbers/real_functions.h"
 #include "sim/scattering/observation/observation.h"
 
 namespace seaglint {
@@ -52,11 +52,11 @@ TEST(KnownValues, StatesBothBiasesOfASphere) {
   ASSERT_TRUE(known);
   ASSERT_EQ(known->statistics.size(), 1u) << "a sphere has no cross-polar echo";
   const KnownStatistics& s = known->statistics[0];
-  EXPECT_EQ(s.pairs, 5u);
+  EXPECT_EQ(s.reference.points, 5u);
   EXPECT_EQ(s.error_db, 0);
-  EXPECT_NEAR(s.reference_bias_db, -6.54 + 5.486, 0.02);
-  EXPECT_NEAR(s.compared_bias_db, -5.51 + 5.486, 0.02);
-  EXPECT_NEAR(s.reference_rms_db, std::abs(s.reference_bias_db), 1e-9);
+  EXPECT_NEAR(s.reference.bias_db, -6.54 + 5.486, 0.02);
+  EXPECT_NEAR(s.compared.bias_db, -5.51 + 5.486, 0.02);
+  EXPECT_NEAR(s.reference.rms_db, std::abs(s.reference.bias_db), 1e-9);
   ASSERT_TRUE(cuts[0].known);
   EXPECT_EQ(cuts[0].known->name, "exact (Mie series)");
   EXPECT_NEAR(cuts[0].known->level_dbsm[2], -5.486, 0.02);
@@ -85,7 +85,7 @@ TEST(KnownValues, OfAPlateAreThoseOfItsMainLobe) {
   ASSERT_TRUE(known);
   EXPECT_EQ(known->name, "closed form");
   // 3 dB at sin(X) / X = 0.708, X = 1.39 = k a sin(azimuth): 1.27 deg.
-  EXPECT_EQ(known->statistics[0].pairs, 2u);
+  EXPECT_EQ(known->statistics[0].reference.points, 2u);
   EXPECT_NEAR(cuts[0].known->level_dbsm[0], peak, 1e-9);
   EXPECT_TRUE(std::isnan(cuts[0].known->level_dbsm[2]));
   // 3 / (k b) of the amplitude, k b = 41.9.

@@ -91,7 +91,7 @@ TEST(PermutedLabels, AreRecognisedAsByGuessing) {
   generate(folder.path() / "a", "42", 24);
   generate(folder.path() / "b", "7", 24);
   const std::vector<Override> short_training{{"learning.epochs", "2"}, {"learning.trees", "20"}};
-  train_model(folder.path() / "a", folder.path() / "model", short_training, 1);
+  train_model({{folder.path() / "a"}, folder.path() / "model", short_training});
   // The same model recognises the true labels of 192 maps, beyond four standard deviations of guessing.
   const nlohmann::json truth = evaluation_of(folder.path() / "model", folder.path() / "b", folder.path() / "true");
   EXPECT_GT(truth.at("handmade").at("accuracy").get<double>(), 0.5 + 4 * 0.5 / std::sqrt(192.0));
@@ -101,7 +101,7 @@ TEST(PermutedLabels, AreRecognisedAsByGuessing) {
   expect_chance(evaluation_of(folder.path() / "model", folder.path() / "permuted_b", folder.path() / "data"));
 
   permute_labels(folder.path() / "a", 2);
-  train_model(folder.path() / "a", folder.path() / "permuted_model", short_training, 1);
+  train_model({{folder.path() / "a"}, folder.path() / "permuted_model", short_training});
   expect_chance(evaluation_of(folder.path() / "permuted_model", folder.path() / "a", folder.path() / "held_out"));
 }
 
@@ -109,7 +109,7 @@ TEST(Evaluation, OfAMapThatIsNotFiniteNamesTheSample) {
   const TemporaryFolder folder;
   generate(folder.path() / "a", "42", 4);
   generate(folder.path() / "b", "7", 4);
-  train_model(folder.path() / "a", folder.path() / "model", {{"learning.epochs", "1"}, {"learning.trees", "3"}}, 1);
+  train_model({{folder.path() / "a"}, folder.path() / "model", {{"learning.epochs", "1"}, {"learning.trees", "3"}}});
   change_samples(folder.path() / "b", [](Sample& sample) {
     if (sample.record.sample == 3) sample.magnitude[5] = std::nanf("");
   });

@@ -200,7 +200,7 @@ TEST_F(BodiesInWater, IsReportedWithAreaAndDepthOfTheTarget) {
 TEST_F(BodiesInWater, NamesBodiesThatHover) {
   write_hulls(0);
   const auto warnings = [&](const std::string& more) {
-    return mesh_warnings(Pipeline(scene_of(target("a", "cut.obj", more))));
+    return motion_warnings(Pipeline(scene_of(target("a", "cut.obj", more))).targets());
   };
   const std::string ship = "motion: {model: ship, length_m: 10, beam_m: 4}";
   EXPECT_THAT(warnings(ship), IsEmpty());
@@ -213,7 +213,8 @@ TEST_F(BodiesInWater, NamesBodiesThatHover) {
               IsEmpty());
   // The reflectors of the shipped scenarios are above floats that are not part of the mesh.
   write_mesh(folder_.path() / "reflector.glb", make_icosahedral_reflector());
-  EXPECT_THAT(mesh_warnings(Pipeline(scene_of(target("a", "reflector.glb", "motion: {model: float}")))), IsEmpty());
+  EXPECT_THAT(motion_warnings(Pipeline(scene_of(target("a", "reflector.glb", "motion: {model: float}"))).targets()),
+              IsEmpty());
 }
 
 TEST_F(BodiesInWater, RefusesBodiesThatAreUnderIt) {
@@ -221,7 +222,6 @@ TEST_F(BodiesInWater, RefusesBodiesThatAreUnderIt) {
   const auto complaint = [&](const std::string& more) {
     try {
       Pipeline pipeline(scene_of(target("a", "whole.obj", more)));
-      range_window_m(pipeline.scenario(), pipeline.plan(), pipeline.targets());
     } catch (const InputError& error) {
       return std::string(error.what());
     }
@@ -267,7 +267,7 @@ TEST_F(BodiesInWater, OfATurnedMeshOfAnotherOriginIsThatOfTheMeshInTheBodyFrame)
 TEST_F(BodiesInWater, OfAShipWithOtherAxesIsAFindingThatNamesTheKey) {
   const std::string hulls = SEAGLINT_SOURCE_DIR "/tests/cases/hulls/";
   const auto findings = [&](const std::string& mesh, const std::string& more) {
-    return motion_warnings(Pipeline(scene_of(target("a", mesh, more))));
+    return motion_warnings(Pipeline(scene_of(target("a", mesh, more))).targets());
   };
   const std::string ship = "motion: {model: ship}";
   EXPECT_THAT(

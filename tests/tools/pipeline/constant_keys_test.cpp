@@ -12,7 +12,7 @@
 #include "sim/core/process/file.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/shapes/generators.h"
-#include "sim/scenario/writer.h"
+#include "sim/scenario/scenario.h"
 #include "tests/temporary_folder.h"
 
 namespace seaglint {

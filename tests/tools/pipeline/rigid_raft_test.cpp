@@ -17,7 +17,6 @@
 #include "sim/motion/target_motion.h"
 #include "tests/temporary_folder.h"
 #include "tests/tools/pipeline/target_responses.h"
-#include "tools/pipeline/interval_products.h"
 #include "tools/pipeline/pipeline.h"
 
 namespace seaglint {
@@ -147,8 +146,13 @@ TEST_F(RigidRaft, IsTheSameForAnyNumberOfThreadsAndInEveryRun) {
   EXPECT_EQ(response_of(one, 0), response_of(other, 0));
   const Target& raft = one.targets()[0];
   const auto scene = one.scene(0, 0);
-  const auto threaded = simulate_target(raft.spec, std::array{raft.models.front()->motion.get()},
-                                        one.plan().sea_states()[0], scene->sea, 10, scenario.seed, 0, 0, 3);
+  const auto threaded = simulate_target({.target = raft.spec,
+                                         .models = std::array{raft.models.front()->motion.get()},
+                                         .state = scene->state,
+                                         .sea = scene->sea,
+                                         .duration_s = 10,
+                                         .seed = scenario.seed,
+                                         .threads = 3});
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(threaded[i].pose(7.7).p, scene->bodies[0][i].pose(7.7).p);
 }
 

@@ -13,7 +13,6 @@
 #include "sim/scenario/layout/layout.h"
 #include "tests/temporary_folder.h"
 #include "tests/tools/pipeline/target_responses.h"
-#include "tools/pipeline/moving_bodies.h"
 #include "tools/pipeline/pipeline.h"
 #include "tools/pipeline/warnings.h"
 
@@ -22,7 +21,7 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr const char* kReflector = SEAGLINT_SOURCE_DIR "/assets/icosahedral_reflector.glb";
+constexpr const char* kReflectorMesh = SEAGLINT_SOURCE_DIR "/assets/icosahedral_reflector.glb";
 
 class TargetSizes : public testing::Test {
  protected:
@@ -82,7 +81,7 @@ TEST_F(TargetSizes, EchoAsTheTargetAtAFrequencyAsManyTimesHigher) {
   for (const double s : {0.25, 8.0}) EXPECT_LT(error_db("sphere.stl", s), -150) << s;
   for (const double s : {0.25, 3.0, 8.0}) {
     EXPECT_LT(error_db("plate.stl", s), -100) << s;
-    EXPECT_LT(error_db(kReflector, s), -100) << s;
+    EXPECT_LT(error_db(kReflectorMesh, s), -100) << s;
   }
 }
 
@@ -102,8 +101,7 @@ targets:
     motion: {{model: float, translations: false, step_s: {}, spin_up_s: {}}}
 )",
                           0.3 * s, 3 * slower, 8 / slower, 8 / slower, s, 5 * s, 0.02 * slower, 20 * slower));
-    const StopFlag stop = false;
-    return simulate_bodies(scenario, {}, 10 * slower, 1, stop, [](const TargetSpec&, const Body&) {});
+    return moving_bodies(scenario, {}, 10 * slower);
   };
   const MovingBodies small = moving(1, 1), large = moving(4, 2);
   double largest = 0;
@@ -121,7 +119,7 @@ targets:
 TEST_F(TargetSizes, OfFactorsOfOneLeaveTheBytes) {
   const auto floats = [&](const std::string& keys) {
     return in_waves(fmt::format("  t: {{label: 1, mesh: {}, {} bodies: independent}}, motion: {{model: float}}}}",
-                                kReflector, keys));
+                                kReflectorMesh, keys));
   };
   const Pipeline plain(floats("layout: {line: {count: 2},"));
   for (const char* keys : {"layout: {line: {count: 2}, scales: {lowest: 1, highest: 1},",
@@ -135,7 +133,7 @@ TEST_F(TargetSizes, OfFactorsOfOneLeaveTheBytes) {
 
 TEST_F(TargetSizes, OfALayoutEchoAsTheSumOfSingleBodies) {
   for (const char* motion : {"fixed", "float"}) {
-    const std::string common = fmt::format("mesh: {}, motion: {{model: {}}}", kReflector, motion);
+    const std::string common = fmt::format("mesh: {}, motion: {{model: {}}}", kReflectorMesh, motion);
     const std::string both = fmt::format(
         "  both: {{label: 1, {}, scale: 1.5, layout: {{line: {{count: 2, spacing_m: 40}}, scales: {{lowest: "
         "0.5, highest: 2}}, seed: 3}}}}\n",
@@ -159,7 +157,7 @@ TEST_F(TargetSizes, OfReflectorsLeaveTheMotionOfTheirRaft) {
     return Pipeline(
         in_waves(fmt::format("  t: {{label: 1, mesh: {}, layout: {{line: {{count: 3}}, bodies: rigid{}}}, "
                              "motion: {{model: ship, length_m: 134.6, beam_m: 17.5}}}}",
-                             kReflector, scales)));
+                             kReflectorMesh, scales)));
   };
   const Pipeline plain = raft(""), sizes = raft(", scales: {lowest: 0.5, highest: 2}");
   for (std::size_t i = 0; i < 3; ++i) {

@@ -19,7 +19,7 @@
 #include "classify/model/learning_table.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
-#include "sim/scenario/writer.h"
+#include "sim/scenario/scenario.h"
 #include "tools/pipeline/generate.h"
 
 namespace seaglint {
@@ -42,7 +42,11 @@ class Training : public testing::Test {
 
   static void train(std::vector<Override> overrides, const StopFlag* stop = nullptr) {
     overrides.push_back({"learning.epochs", "1"});
-    train_model(folder_ / "data", folder_ / "model", overrides, 1, stop);
+    train_model({.data_sets = {folder_ / "data"},
+                 .model_directory = folder_ / "model",
+                 .overrides = overrides,
+                 .threads = 1,
+                 .stop = stop});
   }
 
   static std::map<std::string, std::string> files() {
@@ -67,7 +71,7 @@ TEST_F(Training, LearnsNothingFromAMapThatIsNotFinite) {
     manifest.shards[0].sha256 = write_shard(file, shard, read_scenario(data / kScenarioFile).features.max_centres);
     write_file(data / kManifestFile, to_json(manifest));
     try {
-      train_model(data, folder_ / "no_model", {{"learning.epochs", "1"}}, 1);
+      train_model({{data}, folder_ / "no_model", {{"learning.epochs", "1"}}});
     } catch (const InputError& error) {
       EXPECT_FALSE(fs::exists(folder_ / "no_model"));
       return std::string(error.what());
@@ -108,7 +112,7 @@ TEST_F(Training, RecordsItsSettings) {
                                         {"learning.learning_rate", "0.002"},
                                         {"learning.split.hold_out", "{azimuth_deg: 80}"},
                                         {"dataset.split", "5:3"}};
-  train_model(folder_ / "data", folder_ / "other", overrides, 1);
+  train_model({{folder_ / "data"}, folder_ / "other", overrides});
   const nlohmann::json metrics = nlohmann::json::parse(read_file(folder_ / "other" / kMetricsFile));
   EXPECT_EQ(metrics.at("dataset").at("split"), "5:3");
   const nlohmann::json& learning = metrics.at("learning");
@@ -131,7 +135,7 @@ TEST_F(Training, DividesAsItsScenarioStatesUnlessOptionsReplaceIt) {
     std::vector<Override> overrides{{"learning.epochs", "1"}, {"learning.trees", "3"}};
     overrides.insert(overrides.end(), of_scenario.begin(), of_scenario.end());
     const fs::path model = folder_ / "divided";
-    const TrainedModel trained = train_model({folder_ / "data"}, model, overrides, options, 1);
+    const TrainedModel trained = train_model({{folder_ / "data"}, model, overrides, options});
     return trained.study.division + "\n" + read_file(model / kSplitsFile);
   };
   const std::vector<Override> of_scenario{{"learning.split.by", "interval"},
@@ -143,17 +147,20 @@ TEST_F(Training, DividesAsItsScenarioStatesUnlessOptionsReplaceIt) {
   EXPECT_EQ(split({{"learning.split.by", "interval"}}, {"sea", {}}), split({}, {}));
 
   // A run, which has read its scenario, divides likewise.
-  const DatasetReader data(folder_ / "data");
   std::vector<Override> short_training{{"learning.epochs", "1"}, {"learning.trees", "3"}};
   short_training.insert(short_training.end(), of_scenario.begin(), of_scenario.end());
   const Scenario scenario = read_scenario(folder_ / "data" / kScenarioFile, short_training);
-  const TrainedModel run = train_model(data, scenario, folder_ / "divided", 1);
+  const TrainedModel run =
+      train_model({.data_sets = {folder_ / "data"}, .model_directory = folder_ / "divided", .scenario = &scenario});
   EXPECT_EQ(run.study.division + "\n" + read_file(folder_ / "divided" / kSplitsFile), stated);
 }
 
 TEST_F(Training, DependsNeitherOnItsThreadsNorOnThoseOfANetwork) {
-  train_model(folder_ / "data", folder_ / "one", {{"learning.epochs", "2"}}, 1);
-  train_model(folder_ / "data", folder_ / "several", {{"learning.epochs", "2"}, {"learning.threads", "3"}}, 2);
+  const std::vector<Override> one{{"learning.epochs", "2"}},
+      several{{"learning.epochs", "2"}, {"learning.threads", "3"}};
+  train_model({.data_sets = {folder_ / "data"}, .model_directory = folder_ / "one", .overrides = one, .threads = 1});
+  train_model(
+      {.data_sets = {folder_ / "data"}, .model_directory = folder_ / "several", .overrides = several, .threads = 2});
   for (const std::string& name : model_files())
     EXPECT_EQ(read_file(folder_ / "several" / name), read_file(folder_ / "one" / name)) << name;
   EXPECT_EQ(read_file(folder_ / "several" / kEmbeddingsFile), read_file(folder_ / "one" / kEmbeddingsFile));

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scattering matrices from a plain request, as of a program without a command line.
+// Requests for a sweep: contradictions, selections, settings of other programs.
 #include "tools/rcs/rcs_request.h"
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
+#include <fmt/format.h>
+#include <unistd.h>
 #include <cmath>
 
-#include "sim/core/numbers/dbsm.h"
+#include "sim/core/numbers/real_functions.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
-#include "sim/field_tables/read_field_table.h"
+#include "sim/field_tables/field_table.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/shapes/generators.h"
 #include "tools/rcs/rcs_table.h"
@@ -22,8 +22,10 @@
 namespace seaglint {
 namespace {
 
-namespace fs = std::filesystem;
+using testing::ElementsAre;
 using testing::HasSubstr;
+
+namespace fs = std::filesystem;
 
 constexpr double kLengthM = 0.5, kWidthM = 0.3, kFrequencyHz = 10e9;
 
@@ -163,6 +165,46 @@ TEST_F(PlateRequest, WarnsOfReceiversBehindTheTarget) {
   request_.transmitter = FixedTransmitter{150, 0};
   ASSERT_EQ(request_warnings(request_).size(), 1u);
   EXPECT_THAT(request_warnings(request_).front(), HasSubstr("receivers up to 150 deg from the transmitter"));
+}
+
+TEST(LikePrograms, SetFacetsEdgesAndBounces) {
+  EXPECT_THAT(like_names(), ElementsAre("hfss", "feko", "cst"));
+  const RcsRequest hfss = solved_like({}, like_program("hfss"));
+  EXPECT_EQ(hfss.crease_deg, 0);
+  EXPECT_FALSE(hfss.edges);
+  EXPECT_EQ(hfss.max_bounces, 3);
+  EXPECT_EQ(solver_text(hfss), "flat facets, no edge diffraction, at most 3 bounces, method beams (--like hfss)");
+  const RcsRequest cst = solved_like({}, like_program("cst"));
+  EXPECT_FALSE(cst.crease_deg);
+  EXPECT_FALSE(cst.edges);
+  EXPECT_EQ(solver_text({}),
+            "surfaces smooth as the mesh says, with edge diffraction, at most 40 bounces, method beams");
+}
+
+TEST(LikePrograms, LeaveWhatIsGiven) {
+  RcsRequest request;
+  request.crease_deg = 12;
+  request.max_bounces = 5;
+  const RcsRequest kept =
+      solved_like(request, like_program("hfss"), {.crease = true, .edges = true, .max_bounces = true});
+  EXPECT_EQ(kept.crease_deg, 12);
+  EXPECT_TRUE(kept.edges);
+  EXPECT_EQ(kept.max_bounces, 5);
+  EXPECT_EQ(solved_like(request, like_program("hfss"), {.max_bounces = true}).crease_deg, 0);
+}
+
+TEST(LikePrograms, AreRecognisedByTheReaderOfAFile) {
+  EXPECT_STREQ(like_program_of_reader("an export of PyAEDT")->name, "hfss");
+  EXPECT_STREQ(like_program_of_reader("an HFSS table")->name, "hfss");
+  EXPECT_STREQ(like_program_of_reader("a FEKO far field")->name, "feko");
+  EXPECT_STREQ(like_program_of_reader("a CST farfield table")->name, "cst");
+  EXPECT_EQ(like_program_of_reader("a table of seaglint rcs"), nullptr);
+  try {
+    like_program("xpatch");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("like: value 'xpatch': must be one of hfss, feko, cst"));
+  }
 }
 
 }  // namespace

@@ -35,6 +35,7 @@ except ImportError:
 from ._common import SeaglintWarning
 from ._core import InputError, WorkError
 from ._dataset import Dataset
+from ._handover import write_pyaedt
 from ._mesh import Mesh
 from ._rcs import compare, rcs
 from ._sample import Sample, Simulator, sample
@@ -43,7 +44,7 @@ from ._series import MotionSeries, SeaSeries, motion, sea
 from ._train import evaluate, train
 
 __all__ = ["Dataset", "InputError", "Mesh", "MotionSeries", "Sample", "Scenario", "SeaSeries", "SeaglintWarning", "Simulator", "WorkError", "compare", "data_folder", "evaluate", "motion", "rcs", "sample", "sea",
-           "train"]
+           "train", "write_pyaedt"]
 __version__ = _core.__version__
 InputError.__doc__ = "Wrong input: file:line:col, key, value and bound, where they exist."
 WorkError.__doc__ = "The work failed on valid input: a full disk, no permission, no convergence."

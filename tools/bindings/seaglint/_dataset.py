@@ -7,11 +7,14 @@ import json
 import mmap
 import os
 import pathlib
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from . import _handover
 from ._columns import read_columns
+from ._common import warn
 from ._core import InputError
 
 
@@ -57,7 +60,7 @@ class Dataset:
 
     path: the folder of `generate` or of `run`. Maps are read when they are used; each process has handles of its own,
     so that it can be shared with workers, forked or spawned. Maps are views of the file, not to be written to.
-    check=True compares the SHA-256 of every shard with the manifest.
+    check=True compares the SHA-256 of every shard with the manifest, and the files that croissant.json lists with it.
     """
 
     def __init__(self, path: str | os.PathLike, check: bool = False):
@@ -84,6 +87,8 @@ class Dataset:
         if self._first[-1] != manifest["samples"]:
             raise InputError(f"{folder / 'manifest.json'}: {manifest['samples']} samples, but {self._first[-1]} in its shards")
         self._first = np.array(self._first)
+        if check:
+            _handover.check_croissant(self)
         self._shards, self._owner, self._columns, self._axes, self._closed = {}, os.getpid(), None, None, False
 
     def __len__(self):
@@ -164,6 +169,44 @@ class Dataset:
     def torch_dataset(self, column: str = "label", transform=None):
         """For torch.utils.data.DataLoader: items (map as a float32 tensor [1, velocity, range], value of the column)."""
         return _TorchDataset(self, column, transform)
+
+    def card(self, *, name: str | None = None, licence: str | None = None, creators: Sequence[str] = (), organisations: Sequence[str] = (), url: str | None = None,
+             date: str | None = None, version: str | None = None) -> dict:
+        """Writes the files with which the data set is handed to others into its folder, and returns the dictionary of
+        croissant.json.
+
+        README.md: the data card with metadata of the Hugging Face Hub, licence and citation. columns.csv: one line for each
+        sample, with `shard` and `row` of its map; an empty cell is no number. croissant.json, written last: the Croissant
+        format 1.0, every file with its SHA-256 and a field for every column.
+
+        name: the title; None: that of the scenario. licence: an identifier of the SPDX list, "CC-BY-4.0", LicenseRef-NAME, or
+        a URL. creators, organisations: names. url: page of the data set. date: of publication, YYYY-MM-DD. version:
+        MAJOR.MINOR.PATCH. Nothing is invented: what is not given is left out, and a SeaglintWarning names what Croissant
+        requires. Every shard is read and compared with the manifest first. A file that this program did not write, or that
+        was changed since, is an InputError and nothing is written.
+        """
+        self._require_open()
+        card, warnings = _handover.write_cards(self, _handover.check_publication(name, licence, creators, organisations, url, date, version))
+        warn(warnings)
+        return card
+
+    def to_webdataset(self, directory: str | os.PathLike, max_tar_mb: float = 500) -> int:
+        """Writes tar archives samples-000000.tar, ... of at most max_tar_mb (10^6 bytes) in the WebDataset layout; returns
+        their number.
+
+        The files of a sample are adjacent, named by its number of nine digits: .map.npy (float32 [velocity, range], m),
+        .complex.npy (complex64, of a data set with complex maps), .hop_code.npy (uint16 [pulse]), .centres.npy (float32
+        [centre, (range_m, velocity_mps, amplitude_m)], strongest first), .cls (the label), .json (the row of the sample; null
+        where a value is no number). description.json: axes, units, meaning. index.json, written last: the archives with samples,
+        bytes and SHA-256, as the package `wids` reads them.
+
+        directory: new, empty, or an export of this data set, which is replaced. Memory holds one shard. A training on the
+        archives divides them by `group` of the samples' JSON.
+        """
+        self._require_open()
+        archives = _handover.write_webdataset(self, directory, max_tar_mb)
+        warn(_handover.merged_file(self.folder)[1])
+        return archives
 
     def close(self):
         self._shards, self._closed = {}, True

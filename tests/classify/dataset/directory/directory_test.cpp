@@ -8,16 +8,22 @@
 
 #include <fstream>
 #include <limits>
+#include <map>
+#include <set>
+#include <tuple>
 
 #include "classify/dataset/directory/dataset_reader.h"
+#include "classify/dataset/directory/dataset_writer.h"
 #include "classify/dataset/format/hdf5_file.h"
 #include "classify/dataset/format/manifest.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
-#include "sim/scenario/writer.h"
+#include "sim/scenario/scenario.h"
 #include "tests/classify/dataset/data_directory.h"
+#include "tests/temporary_folder.h"
 
 namespace seaglint {
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -383,4 +389,149 @@ TEST_F(DataSetDirectory, WithABrokenManifestIsRefused) {
 }
 
 }  // namespace
+
+namespace {
+
+// 30 deg converted to radians and back is 29.999999999999996: a selection by the scenario's own angle would find
+// nothing.
+TEST(PlannedRecord, HasTheAnglesOfTheScenario) {
+  Scenario scenario;
+  scenario.targets.resize(2);
+  scenario.sea.propagation_deg = {120, -33.3};
+  scenario.view = {{30, 80.1, -7}, {2, 0.7}};
+  const SamplePlan plan(scenario);
+  std::set<std::tuple<double, double, double>> angles;
+  for (std::size_t i = 0; i < plan.size(); ++i) {
+    const SampleRecord record = planned_record(scenario, plan, i);
+    angles.insert({record.propagation_deg, record.azimuth_deg, record.elevation_deg});
+  }
+  std::set<std::tuple<double, double, double>> given;
+  for (const double propagation : scenario.sea.propagation_deg) {
+    for (const double azimuth : scenario.view.azimuth_deg) {
+      for (const double elevation : scenario.view.elevation_deg) given.insert({propagation, azimuth, elevation});
+    }
+  }
+  EXPECT_EQ(angles, given);
+}
+
+// Data sets of one seed share the random numbers of their seas, and only they do.
+TEST(PlannedRecord, NumbersASeaEquallyInAllDataSets) {
+  Scenario scenario;
+  scenario.targets.resize(2);
+  scenario.sea.significant_wave_height_m = {0.5, 1};
+  scenario.dataset.maps_per_case = scenario.dataset.realisations_per_case = 3;
+  const auto ids = [](const Scenario& of) {
+    std::map<std::int64_t, std::int64_t> id_of_group;
+    const SamplePlan plan(of);
+    for (std::size_t i = 0; i < plan.size(); ++i) {
+      const SampleRecord record = planned_record(of, plan, i);
+      EXPECT_EQ(id_of_group.emplace(record.group, record.sea_id).first->second, record.sea_id);
+      EXPECT_GE(record.sea_id, 0);
+      EXPECT_LT(record.sea_id, std::int64_t{1} << 53);
+    }
+    return id_of_group;
+  };
+  const auto first = ids(scenario);
+  std::set<std::int64_t> all;
+  for (const auto& [group, id] : first) all.insert(id);
+  EXPECT_EQ(all.size(), 6u);
+  Scenario other = scenario;
+  other.view.azimuth_deg = {3, 4, 5};
+  EXPECT_EQ(ids(other), first);
+  other.seed = 43;
+  for (const auto& [group, id] : ids(other)) all.insert(id);
+  EXPECT_EQ(all.size(), 12u);
+}
+
+TEST(PlannedRecord, HasSwellAndDepthOrZeroForDeepWater) {
+  Scenario scenario;
+  scenario.targets.resize(1);
+  const SampleRecord deep = planned_record(scenario, SamplePlan(scenario), 0);
+  EXPECT_EQ(deep.depth_m, 0);
+  EXPECT_EQ(deep.swell_wave_height_m, 0);
+  scenario.sea.depth_m = 20;
+  scenario.sea.swell.significant_wave_height_m = 0.5;
+  const SampleRecord shallow = planned_record(scenario, SamplePlan(scenario), 0);
+  EXPECT_EQ(shallow.depth_m, 20);
+  EXPECT_EQ(shallow.swell_wave_height_m, 0.5);
+}
+
+}  // namespace
+
+// A data set records its scenario and the files that the scenario names.
+
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+class InputList : public ::testing::Test {
+ protected:
+  InputList() {
+    fs::create_directory(folder_ / "data");
+    write("ship.obj", "ship");
+    scenario_.folder = folder_;
+    scenario_.targets.resize(1);
+    scenario_.targets[0].name = "ship";
+    scenario_.targets[0].mesh = "ship.obj";
+  }
+
+  void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
+  std::string complaint() const {
+    try {
+      require_same_inputs(folder_ / "data", scenario_);
+      write_input_list(folder_ / "data", scenario_);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path();
+  Scenario scenario_;
+};
+
+TEST_F(InputList, IsWrittenOnceAndFilesMustMatchIt) {
+  EXPECT_EQ(complaint(), "");
+  EXPECT_EQ(read_file(folder_ / "data" / kInputsFile), sha256("ship") + "  targets.ship.mesh\n");
+  EXPECT_EQ(complaint(), "");
+  write("ship.obj", "another");
+  EXPECT_THAT(complaint(), HasSubstr(fmt::format(
+                               "inputs.sha256: targets.ship.mesh: {} is not the file that the data set was begun with",
+                               (folder_ / "ship.obj").string())));
+  EXPECT_EQ(read_file(folder_ / "data" / kInputsFile), sha256("ship") + "  targets.ship.mesh\n");
+  write("ship.obj", "ship");
+  EXPECT_EQ(complaint(), "");
+}
+
+TEST_F(InputList, IncludesTheBuffersOfAMesh) {
+  constexpr std::size_t kTriangleBytes = 36;
+  write("ship.gltf",
+        R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],)"
+        R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],)"
+        R"("bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,"uri":"parts/hull.bin"}]})");
+  fs::create_directory(folder_ / "parts");
+  write("parts/hull.bin", std::string(kTriangleBytes, '\0'));
+  scenario_.targets[0].mesh = "ship.gltf";
+  EXPECT_EQ(complaint(), "");
+  EXPECT_THAT(read_file(folder_ / "data" / kInputsFile),
+              HasSubstr(sha256(std::string(kTriangleBytes, '\0')) + "  targets.ship.mesh/parts/hull.bin\n"));
+  write("parts/hull.bin", std::string(kTriangleBytes, '\1'));
+  EXPECT_THAT(complaint(), HasSubstr("inputs.sha256: targets.ship.mesh/parts/hull.bin: "));
+}
+
+TEST_F(InputList, IsNotWrittenWhereNoFileIsNamed) {
+  scenario_.targets[0].mesh.clear();
+  EXPECT_EQ(complaint(), "");
+  EXPECT_FALSE(fs::exists(folder_ / "data" / kInputsFile));
+}
+
+TEST_F(InputList, ThatIsNoListIsRefused) {
+  write("data/inputs.sha256", "nonsense\n");
+  EXPECT_THAT(complaint(), HasSubstr("inputs.sha256:1:1: 'nonsense': must be a checksum and a key"));
+}
+
+}  // namespace
+
 }  // namespace seaglint

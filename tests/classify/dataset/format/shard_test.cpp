@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "classify/dataset/format/shard.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -9,11 +7,14 @@
 #include <fstream>
 
 #include "classify/dataset/format/manifest.h"
+#include "classify/dataset/format/shard.h"
 #include "sim/core/numbers/random.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
+#include "tests/temporary_folder.h"
 
 namespace seaglint {
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -175,4 +176,82 @@ TEST(Checksum, EqualsThePublishedDigest) {
 }
 
 }  // namespace
+
+// Columns of drawn values: units by the key, and what is written is read.
+
+namespace {
+
+TEST(DrawnColumns, HaveTheUnitOfTheirKey) {
+  const std::pair<const char*, const char*> units[] = {
+      {"sea.peak_period_s", "s"},
+      {"targets.a.motion.yaw_rate_std_deg_s", "deg/s"},
+      {"targets.a.motion.speed_mps", "m/s"},
+      {"targets.a.layout.line.spacing_m", "m"},
+      {"view.azimuth_deg", "deg"},
+      {"clutter.scr_db", "dB"},
+      {"sea_reflection.salinity_psu", "psu"},
+      {"targets.a.sheet_thickness_mm", "mm"},
+      {"radar.pri_jitter_us", "us"},
+      {"targets.a.layout.line.count", "1"},
+      {"sea.spreading.s", "1"},
+      {"sea.gamma", "1"},
+  };
+  for (const auto& [key, unit] : units) EXPECT_EQ(drawn_text(key).units, unit) << key;
+}
+
+SampleRecord record_of(double period, const std::string& code) {
+  SampleRecord record;
+  record.drawn_numbers = {{"sea.peak_period_s", period}, {"targets.a-1.layout.line.count", 3}};
+  record.drawn_words = {{"radar.hop_code", code}};
+  return record;
+}
+
+TEST(DrawnColumns, AreReadAsWritten) {
+  const std::vector<SampleRecord> rows{record_of(7.25, "random"), record_of(8.5, "balanced"),
+                                       record_of(0.1, "stepped")};
+  const TemporaryFolder folder;
+  Hdf5Writer file(folder.path() / "a.h5", Hdf5Version::k18);
+  const auto write = [&](std::size_t first, std::size_t count) {
+    const StoredColumns columns = stored_columns(std::span(rows).subspan(first, count), default_classes());
+    if (first == 0) {
+      file.group("/samples");
+      for (const StoredColumn& column : columns.samples) create_column(file, column, rows.size(), 2);
+      create_drawn(file, columns, rows.size(), 2);
+    }
+    for (const auto* part : {&columns.samples, &columns.drawn})
+      for (const StoredColumn& column : *part) write_column(file, column, first);
+  };
+  write(0, 2);
+  write(2, 1);
+  file.close();
+  const Hdf5Reader reader(folder.path() / "a.h5");
+  EXPECT_EQ(read_drawn_keys(reader), drawn_keys(rows[0]));
+  const std::vector<SampleRecord> read = read_rows(reader, 1, 2);
+  EXPECT_EQ(differing_column(read[0], rows[1]), "");
+  EXPECT_EQ(differing_column(read[1], rows[2]), "");
+  EXPECT_EQ(differing_column(read[0], rows[2]), "a drawn value");
+  EXPECT_THROW(read_rows(reader, 2, 2), WorkError);
+}
+
+TEST(DrawnColumns, OfAFileWithoutThemAreNone) {
+  const TemporaryFolder folder;
+  Hdf5Writer file(folder.path() / "a.h5", Hdf5Version::k18);
+  create_drawn(file, stored_columns(std::vector<SampleRecord>(1), default_classes()), 1, 1);
+  file.close();
+  EXPECT_EQ(read_drawn_keys(Hdf5Reader(folder.path() / "a.h5")), DrawnKeys());
+}
+
+TEST(DrawnColumns, WithAPathForAKeyAreRefused) {
+  for (const char* key : {"../samples/label", "a/b", ".", "sea.\x01"}) {
+    const TemporaryFolder folder;
+    Hdf5Writer file(folder.path() / "a.h5", Hdf5Version::k18);
+    file.attribute("drawn_numbers", key);
+    file.close();
+    const Hdf5Reader reader(folder.path() / "a.h5");
+    EXPECT_THROW(read_drawn_keys(reader), WorkError) << key;
+  }
+}
+
+}  // namespace
+
 }  // namespace seaglint

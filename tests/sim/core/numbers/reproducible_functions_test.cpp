@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 namespace seaglint {
 namespace {
@@ -20,6 +21,18 @@ TEST(ReproducibleFunctions, AreLogarithmExponentialAndTangent) {
     EXPECT_EQ(reproducible_tanh(-x), -reproducible_tanh(x));
   }
   EXPECT_EQ(reproducible_tanh(0), 0);
+}
+
+TEST(UnitPhasors, AreCosinesAndSines) {
+  std::vector<double> angle;
+  for (int i = -2000; i <= 2000; ++i) angle.push_back(0.7853981633974483 * i + 1e-3 * (i % 7));
+  for (double a = 1e-300; a < kLargestAngle; a *= 1.9) angle.insert(angle.end(), {a, -a});
+  std::vector<double> cosine(angle.size()), sine(angle.size());
+  unit_phasors(angle, cosine, sine);
+  for (std::size_t i = 0; i < angle.size(); ++i) {
+    EXPECT_NEAR(cosine[i], std::cos(angle[i]), 4e-16) << angle[i];
+    EXPECT_NEAR(sine[i], std::sin(angle[i]), 4e-16) << angle[i];
+  }
 }
 
 }  // namespace

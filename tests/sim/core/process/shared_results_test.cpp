@@ -46,16 +46,5 @@ TEST(SharedResults, ThatFailedAreTriedAgain) {
   EXPECT_EQ(*kept.get(1, [] { return 7; }), 7);
 }
 
-TEST(SharedResults, CanBeForgottenWhileTheyAreComputed) {
-  SharedResults<int, int> kept(2);
-  int made = 0;
-  const auto make = [&] {
-    kept.forget(1);
-    return ++made;
-  };
-  EXPECT_EQ(*kept.get(1, make), 1);
-  EXPECT_EQ(*kept.get(1, make), 2);
-}
-
 }  // namespace
 }  // namespace seaglint

@@ -10,7 +10,7 @@
 #include <string>
 #include <utility>
 
-#include "sim/core/process/error.h"
+#include "tests/refusal.h"
 
 namespace seaglint {
 namespace {
@@ -18,12 +18,7 @@ namespace {
 using ::testing::ElementsAre;
 
 std::string complaint_about(const std::string& range) {
-  try {
-    parse_range(range);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "none";
+  return refusal_of([&] { parse_range(range); });
 }
 
 TEST(Number, IsReadCompletelyOrNotAtAll) {

@@ -7,8 +7,6 @@
 #include <algorithm>
 #include <string>
 
-#include "sim/core/process/error.h"
-#include "sim/core/process/file.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/mesh/mesh_diagnostics.h"
 #include "tests/sim/geometry/mesh_file.h"
@@ -21,16 +19,10 @@ using testing::HasSubstr;
 
 const std::string kMeshes = SEAGLINT_SOURCE_DIR "/tests/cases/meshes/";
 
-std::string refusal(const std::string& path) {
-  try {
-    read_mesh(path);
-  } catch (const InputError& error) {
-    return std::string(error.what()).substr(path.rfind('/') + 1);
-  }
-  return "accepted";
-}
-
-class FieldMesh : public MeshFile {};
+class FieldMesh : public MeshFile {
+ protected:
+  static std::string refusal(const std::string& path) { return MeshFile::refusal(path).substr(path.rfind('/') + 1); }
+};
 
 TEST_F(FieldMesh, WithOddPolygonsIsReadAndCountsThem) {
   const TriangleMesh crossing = read_mesh(kMeshes + "bowtie_among_good.obj");

@@ -5,14 +5,18 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <limits>
 #include <sstream>
+#include <utility>
 
 #include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/random.h"
 #include "sim/core/numbers/rotation.h"
 #include "sim/core/process/error.h"
+#include "sim/core/process/file.h"
 #include "sim/geometry/mesh/topology.h"
 #include "sim/geometry/shapes/generators.h"
 #include "tests/sim/geometry/mesh_file.h"
@@ -321,6 +325,173 @@ TEST_F(MeshFile, WrongNamesAndPlacesAreRefused) {
   write_mesh(folder / "a.obj", make_plate(1, 1));
   EXPECT_THROW(read_mesh(put("far.obj", "v 0 0 0\nv 1e9 0 0\nv 0 1 0\nf 1 2 3\n")), InputError);
 }
+
+// Mesh files with a valid encoding and invalid contents.
+
+using testing::HasSubstr;
+
+class MeshErrors : public MeshFile {
+ protected:
+  std::string refusal(const std::string& name, const std::string& content) const {
+    return MeshFile::refusal(put(name, content));
+  }
+};
+
+// The first `count` of four vertices, as a sheet of this mode placed by this node.
+std::string gltf_of(int count, const std::string& mode, const std::string& node, const std::string& asset = "") {
+  return R"({"asset":{"version":"2.0")" + asset + R"(},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0)" + node +
+         R"(}],"meshes":[{"primitives":[{"mode":)" + mode +
+         R"(,"attributes":{"POSITION":0}}]}],)"
+         R"("accessors":[{"bufferView":0,"componentType":5126,"count":)" +
+         std::to_string(count) +
+         R"(,"type":"VEC3"}],"bufferViews":[{"buffer":0,"byteLength":48}],"buffers":[{"byteLength":48,)"
+         R"("uri":"data:application/octet-stream;base64,AAAAvwAAAL8AAAAAAAAAPwAAAL8AAAAAAAAAPwAAAD8AAAAAAAAAvwAAAD8AAAAA"}]})";
+}
+
+TEST_F(MeshErrors, OfVerticesThatFormNoWholeTriangles) {
+  EXPECT_EQ(refusal("a.gltf", gltf_of(3, "4", "")), "accepted");
+  EXPECT_EQ(refusal("a.gltf", gltf_of(4, "5", "")), "accepted");
+  EXPECT_THAT(
+      refusal("a.gltf", gltf_of(4, "4", "")),
+      HasSubstr("a.gltf: meshes[0].primitives[0]: 4 vertices without indices are no whole number of triangles"));
+  EXPECT_THAT(refusal("a.gltf", gltf_of(2, "6", "")), HasSubstr("2 vertices without indices make no triangle"));
+  write_mesh(folder / "plate.gltf", make_plate(1, 1));
+  std::string indexed = bytes_of(folder / "plate.gltf");
+  const std::size_t six = indexed.find("\"count\":6");
+  ASSERT_NE(six, std::string::npos) << indexed;
+  EXPECT_THAT(refusal("a.gltf", indexed.replace(six, 9, "\"count\":5")),
+              HasSubstr("5 indices are no whole number of triangles"));
+}
+
+TEST_F(MeshErrors, OfSingularTransforms) {
+  const auto with = [&](const std::string& node) { return refusal("a.gltf", gltf_of(3, "4", node)); };
+  EXPECT_EQ(with(R"(,"matrix":[1,0,0,0, 0,1,0,0, 0,0,1,0, 5,0,0,1])"), "accepted");
+  EXPECT_THAT(with(R"(,"matrix":[1,0,0,0.5, 0,1,0,0, 0,0,1,0, 0,0,0,1])"),
+              HasSubstr("nodes[0].matrix has 0.5 in its last row, which must be 0 0 0 1"));
+  EXPECT_THAT(with(R"(,"matrix":[1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,2])"),
+              HasSubstr("nodes[0].matrix has 2 in its last row"));
+  EXPECT_THAT(with(R"(,"matrix":[1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1],"scale":[2,2,2])"),
+              HasSubstr("nodes[0] has a matrix and a scale"));
+  EXPECT_THAT(with(R"(,"rotation":[0,0,0,0])"), HasSubstr("nodes[0].rotation is zero"));
+  EXPECT_EQ(with(R"(,"rotation":[0,0,0,1],"scale":[2,2,2])"), "accepted");
+}
+
+TEST_F(MeshErrors, OfAFileForALaterGltf) {
+  EXPECT_EQ(refusal("a.gltf", gltf_of(3, "4", "", R"(,"minVersion":"2.0")")), "accepted");
+  EXPECT_THAT(refusal("a.gltf", gltf_of(3, "4", "", R"(,"minVersion":"3.0")")),
+              HasSubstr("a.gltf: needs more than glTF 2 (asset.minVersion)"));
+}
+
+// Two solids in one file, or a count that is smaller than the contents.
+TEST_F(MeshErrors, OfBinaryStlWithMoreTrianglesThanDeclared) {
+  write_mesh(folder / "plate.stl", make_plate(1, 1));
+  std::string bytes = bytes_of(folder / "plate.stl");
+  EXPECT_THAT(refusal("a.stl", bytes + bytes),
+              HasSubstr("a.stl: promises 2 triangles, which end at byte 184; 184 bytes are left over"));
+  bytes[80] = 1;
+  EXPECT_THAT(refusal("a.stl", bytes),
+              HasSubstr("promises 1 triangles, which end at byte 134; 50 bytes are left over"));
+}
+
+TEST_F(MeshErrors, OfSizesThatNoFormatPreserves) {
+  for (const double size : {1e-308, 9e-21, 1.01e7, 1e38, 1e308}) {
+    EXPECT_THROW(make_plate(size, 1), InputError) << size;
+    EXPECT_THROW(make_sphere(size, 1), InputError) << size;
+  }
+  for (const double size : {kMinSize, kLargestSize}) {
+    for (const char* name : {"a.obj", "a.stl", "a.ply", "a.glb"}) {
+      for (const TriangleMesh& mesh : {make_plate(size, size), make_sphere(size, 2), make_cylinder(size, size, 64)}) {
+        write_mesh(folder / name, mesh);
+        // float32 rounds each coordinate by 6e-8 of itself; an area has two of them, a dozen of such errors in all.
+        EXPECT_NEAR(surface_area(read_mesh(folder / name)) / surface_area(mesh), 1, 1e-6) << name << ' ' << size;
+      }
+    }
+  }
+  // A mesh that cannot be read back is not written either.
+  TriangleMesh far = make_plate(1, 1);
+  far.vertices[0].x() = 1e9;
+  EXPECT_THROW(write_mesh(folder / "far.obj", far), InputError);
+  EXPECT_FALSE(std::filesystem::exists(folder / "far.obj"));
+}
+
+// Damaged files of all formats: each is read as some mesh or refused with an InputError that names it, without any
+// other effect.
+
+class MeshFuzzing : public MeshFile, public testing::WithParamInterface<const char*> {
+ protected:
+  void SetUp() override {
+    const fs::path valid = folder / ("sound" + std::string(GetParam()));
+    write_mesh(valid, make_icosahedral_reflector());
+    bytes = bytes_of(valid);
+  }
+
+  // True when the file was refused.
+  bool refused(const std::string& content) const {
+    const fs::path path = put("damaged" + std::string(GetParam()), content);
+    const std::string message = refusal_of([&] {
+      const TriangleMesh mesh = read_mesh(path);
+      for (const auto& triangle : mesh.triangles) {
+        for (std::uint32_t v : triangle) EXPECT_TRUE(v < mesh.vertices.size() && mesh.vertices[v].allFinite());
+      }
+    });
+    EXPECT_THAT(message, testing::AnyOf("accepted", testing::StartsWith(path.string())));
+    return message != "accepted";
+  }
+
+  std::string bytes;
+};
+
+TEST_P(MeshFuzzing, CutShortAnywhereIsNeverACrash) {
+  int refusals = 0;
+  for (std::size_t i = 0; i < 50; ++i) refusals += refused(bytes.substr(0, bytes.size() * i / 50));
+  // Text formats without counts may be valid when truncated; the others always report it.
+  const std::string format = GetParam();
+  EXPECT_GE(refusals, format == ".obj" ? 1 : 50);
+}
+
+TEST_P(MeshFuzzing, ChangedBytesAreNeverACrash) {
+  Random random({.seed = 1, .stream = Stream::kTest, .index = 0});
+  int refusals = 0;
+  for (int i = 0; i < 400; ++i) {
+    std::string changed = bytes;
+    const std::uint32_t count = 1 + random.below(4);
+    // Half of the changes are in the first 2 kB, which contain the header.
+    const auto span =
+        static_cast<std::uint32_t>(i % 2 == 0 ? changed.size() : std::min<std::size_t>(changed.size(), 2048));
+    for (std::uint32_t k = 0; k < count; ++k) changed[random.below(span)] = static_cast<char>(random.below(256));
+    refusals += refused(changed);
+  }
+  EXPECT_GT(refusals, 0);
+}
+
+TEST_P(MeshFuzzing, ChangedDigitsAreNeverACrash) {
+  Random random({.seed = 2, .stream = Stream::kTest, .index = 0});
+  for (int i = 0; i < 200; ++i) {
+    std::string changed = bytes;
+    const auto span = static_cast<std::uint32_t>(std::min<std::size_t>(changed.size(), 4096));
+    for (int tries = 0; tries < 200; ++tries) {
+      char& c = changed[random.below(span)];
+      if (c < '0' || c > '9') continue;
+      c = static_cast<char>('0' + random.below(10));
+      break;
+    }
+    refused(changed);
+  }
+}
+
+TEST_P(MeshFuzzing, NoiseIsRefused) {
+  Random random({.seed = 3, .stream = Stream::kTest, .index = 0});
+  for (std::uint32_t size : {1u, 10u, 84u, 200u, 5000u}) {
+    std::string noise(size, '\0');
+    for (char& c : noise) c = static_cast<char>(random.below(256));
+    EXPECT_TRUE(refused(noise)) << size;
+    // A valid header followed by noise.
+    EXPECT_TRUE(refused(bytes.substr(0, 30) + noise)) << size;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, MeshFuzzing, testing::Values(".glb", ".gltf", ".obj", ".stl", ".ply"),
+                         [](const auto& format) { return std::string(format.param).substr(1); });
 
 }  // namespace
 }  // namespace seaglint

@@ -10,24 +10,21 @@
 #include "sim/core/numbers/random.h"
 #include "sim/core/numbers/rotation.h"
 #include "sim/geometry/files/mesh_io.h"
-#include "sim/geometry/mesh/mesh_builder.h"
 #include "sim/geometry/mesh/mesh_diagnostics.h"
+#include "sim/geometry/mesh/triangle_mesh.h"
 #include "sim/geometry/shapes/generators.h"
+#include "tests/sim/geometry/mesh_changes.h"
 
 namespace seaglint {
 namespace {
 
+using namespace testing_meshes;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
 const std::string kMeshes = SEAGLINT_SOURCE_DIR "/tests/cases/meshes/";
-
-TriangleMesh turned_over(TriangleMesh mesh) {
-  for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
-  return mesh;
-}
 
 TriangleMesh both(TriangleMesh first, const TriangleMesh& second) {
   first.append(second);
@@ -39,15 +36,6 @@ TriangleMesh deck(double from_x, double to_x, double from_y, double to_y, double
   MeshBuilder builder;
   builder.quad(builder.vertex({from_x, from_y, height}), builder.vertex({to_x, from_y, height}),
                builder.vertex({to_x, to_y, height}), builder.vertex({from_x, to_y, height}));
-  return builder.take();
-}
-
-TriangleMesh box(const Vec3& lower, const Vec3& upper) {
-  MeshBuilder builder;
-  for (int i = 0; i < 8; ++i)
-    builder.vertex({i & 1 ? upper.x() : lower.x(), i & 2 ? upper.y() : lower.y(), i & 4 ? upper.z() : lower.z()});
-  builder.quad(0, 2, 3, 1), builder.quad(4, 5, 7, 6), builder.quad(0, 1, 5, 4);
-  builder.quad(2, 6, 7, 3), builder.quad(0, 4, 6, 2), builder.quad(1, 3, 7, 5);
   return builder.take();
 }
 

@@ -8,18 +8,15 @@
 #include <cmath>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/geometry/mesh/mesh_builder.h"
+#include "sim/geometry/mesh/triangle_mesh.h"
 #include "sim/geometry/shapes/generators.h"
+#include "tests/sim/geometry/mesh_changes.h"
 
 namespace seaglint {
 namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-void flip(TriangleMesh& mesh, std::size_t triangle) {
-  std::swap(mesh.triangles[triangle][1], mesh.triangles[triangle][2]);
-}
 
 void add(TriangleMesh& mesh, std::array<std::uint32_t, 3> triangle) {
   mesh.triangles.push_back(triangle);
@@ -36,7 +33,7 @@ TEST(MeshDiagnostics, AreEmptyForAClosedMesh) {
 
 TEST(MeshDiagnostics, AndRepairAreTheSameAtOnce) {
   TriangleMesh mesh = make_sphere(1, 2);
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) flip(mesh, t);
+  mesh = testing_meshes::turned_over(mesh);
   add(mesh, mesh.triangles[5]);
   add(mesh, {7, 7, 8});
   const RepairedMesh repaired = diagnose_and_repair(mesh);
@@ -48,8 +45,7 @@ TEST(MeshDiagnostics, AndRepairAreTheSameAtOnce) {
 
 TEST(MeshDiagnostics, InvertAClosedSurfaceThatIsInsideOut) {
   const TriangleMesh sphere = make_sphere(1, 1);
-  TriangleMesh inverted = transformed(sphere, Mat3::Identity(), Vec3(0, 0, 50));
-  for (std::size_t t = 0; t < inverted.triangles.size(); ++t) flip(inverted, t);
+  const TriangleMesh inverted = testing_meshes::turned_over(transformed(sphere, Mat3::Identity(), Vec3(0, 0, 50)));
   TriangleMesh both = sphere;  // a valid one next to it is not changed
   both.append(inverted);
   const MeshDiagnostics health = diagnose(both);
@@ -70,7 +66,7 @@ TEST(MeshDiagnostics, CountHolesAndInconsistentTriangles) {
   EXPECT_EQ(diagnose(holed).open_edges, 3u);
   EXPECT_THAT(diagnostic_messages(diagnose(holed)), ElementsAre(HasSubstr("3 open edges; 1 of 1 surfaces are open")));
   TriangleMesh mixed = make_sphere(1, 1);
-  flip(mixed, 7);
+  std::swap(mixed.triangles[7][1], mixed.triangles[7][2]);
   EXPECT_EQ(diagnose(mixed).inconsistent_edges, 3u);
   EXPECT_EQ(diagnose(mixed).inverted_surfaces, 0u);
   EXPECT_THAT(diagnostic_messages(diagnose(mixed)),
@@ -154,21 +150,13 @@ TEST(MeshDiagnostics, CountEdgesOfThreeTriangles) {
   EXPECT_EQ(diagnose(fin).non_manifold_edges, 1u);
 }
 
-// A cube of edge 1 with its lower vertex here.
-TriangleMesh cube_at(const Vec3& lower) {
-  MeshBuilder builder;
-  for (int i = 0; i < 8; ++i) builder.vertex(lower + Vec3(i & 1, (i >> 1) & 1, i >> 2));
-  builder.quad(0, 2, 3, 1), builder.quad(4, 5, 7, 6), builder.quad(0, 1, 5, 4);
-  builder.quad(2, 6, 7, 3), builder.quad(0, 4, 6, 2), builder.quad(1, 3, 7, 5);
-  return builder.take();
-}
+TriangleMesh cube_at(const Vec3& lower) { return testing_meshes::box(lower, lower + Vec3::Constant(1)); }
 
 TEST(MeshDiagnostics, TreatBodiesThatTouchAlongAnEdgeSeparately) {
   const TriangleMesh first = cube_at(Vec3::Zero()), second = cube_at({1, 1, 0});
   ASSERT_NEAR(enclosed_volume(first), 1, 1e-12);
   for (const bool larger_first : {true, false}) {
-    TriangleMesh inverted = second;
-    for (std::size_t t = 0; t < inverted.triangles.size(); ++t) flip(inverted, t);
+    const TriangleMesh inverted = testing_meshes::turned_over(second);
     TriangleMesh both = larger_first ? first : inverted;
     both.append(larger_first ? inverted : first);
     both = welded(both);
@@ -196,7 +184,7 @@ TEST(MeshDiagnostics, TreatPiecesThatCloseOnlyTogetherAsOne) {
   const double volume = enclosed_volume(mesh);
   ASSERT_GT(volume, 1.0);
   EXPECT_THAT(diagnostic_messages(diagnose(mesh)), ElementsAre(HasSubstr("4 edges have three triangles or more")));
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) flip(mesh, t);
+  mesh = testing_meshes::turned_over(mesh);
   EXPECT_EQ(diagnose(mesh).inverted_triangles, 16u);
   EXPECT_NEAR(enclosed_volume(repair(mesh)), volume, 1e-12);
 }

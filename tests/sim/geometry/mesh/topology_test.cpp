@@ -11,24 +11,16 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/rotation.h"
-#include "sim/geometry/mesh/mesh_builder.h"
+#include "sim/geometry/mesh/triangle_mesh.h"
 #include "sim/geometry/shapes/generators.h"
+#include "tests/sim/geometry/mesh_changes.h"
 
 namespace seaglint {
 namespace {
 
-TriangleMesh unit_cube() {
-  MeshBuilder builder;
-  builder.begin_part("cube");
-  for (int i = 0; i < 8; ++i) builder.vertex({double(i & 1), double((i >> 1) & 1), double(i >> 2)});
-  builder.quad(0, 2, 3, 1);
-  builder.quad(4, 5, 7, 6);
-  builder.quad(0, 1, 5, 4);
-  builder.quad(2, 6, 7, 3);
-  builder.quad(0, 4, 6, 2);
-  builder.quad(1, 3, 7, 5);
-  return builder.take();
-}
+using namespace testing_meshes;
+
+TriangleMesh unit_cube() { return box(Vec3::Zero(), Vec3::Constant(1)); }
 
 TEST(Topology, OfACubeHasTwelveConvexRightWedges) {
   const TriangleMesh cube = unit_cube();
@@ -43,8 +35,7 @@ TEST(Topology, OfACubeHasTwelveConvexRightWedges) {
 }
 
 TEST(Topology, OfACubeTurnedInsideOutHasConcaveWedges) {
-  TriangleMesh cube = unit_cube();
-  for (auto& triangle : cube.triangles) std::swap(triangle[1], triangle[2]);
+  const TriangleMesh cube = turned_over(unit_cube());
   const Topology topology = topology_of(cube);
   EXPECT_TRUE(topology.part_closed[0]);
   for (const Wedge& wedge : wedges(cube, topology, radians(5))) EXPECT_NEAR(wedge.exterior_angle, 0.5 * kPi, 1e-15);
@@ -112,7 +103,7 @@ TEST(TriangleMesh, AppendMatchesPartsAndMaterialsByName) {
   other.materials = {Material{"paint"}};
   mesh.append(other);
   mesh.append(unit_cube());
-  EXPECT_EQ(mesh.part_names, (std::vector<std::string>{"cube", "mast"}));
+  EXPECT_EQ(mesh.part_names, (std::vector<std::string>{"body", "mast"}));
   ASSERT_EQ(mesh.materials.size(), 2u);
   EXPECT_EQ(mesh.triangle_part[12], 1);
   EXPECT_EQ(mesh.triangle_material[12], 1);
@@ -132,14 +123,7 @@ TEST(TriangleMesh, RotationAndTranslationKeepAreaAndVolume) {
 
 TEST(TriangleMesh, WeldingMakesASoupOfTrianglesClosedAgain) {
   const TriangleMesh sphere = make_sphere(1, 1);
-  MeshBuilder soup;
-  soup.begin_part("sphere");
-  for (const auto& [a, b, c] : sphere.triangles) {
-    const auto i = soup.vertex(sphere.vertices[a]), j = soup.vertex(sphere.vertices[b]),
-               k = soup.vertex(sphere.vertices[c]);
-    soup.triangle(i, j, k);
-  }
-  const TriangleMesh loose = soup.take();
+  const TriangleMesh loose = split_vertices(sphere);
   EXPECT_FALSE(topology_of(loose).part_closed[0]);
   const TriangleMesh mesh = welded(loose);
   EXPECT_EQ(mesh.vertices.size(), sphere.vertices.size());

@@ -4,9 +4,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "sim/core/process/error.h"
+#include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/shapes/generators.h"
-#include "sim/scenario/material_file.h"
+#include "sim/scenario/material_spec.h"
+#include "tests/refusal.h"
+#include "tests/temporary_folder.h"
 
 namespace seaglint {
 namespace {
@@ -26,12 +31,7 @@ TEST(TargetMesh, NamesThePlaceOfAnError) {
   source.loaded = std::make_shared<const TriangleMesh>(make_cylinder(0.5, 2, 16));
   source.materials_place = "targets.buoy";
   source.materials = {{"mast", "pec", ""}};
-  try {
-    load_target_mesh(source);
-    ADD_FAILURE() << "no error";
-  } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("targets.buoy: part 'mast'"));
-  }
+  EXPECT_THAT(refusal_of([&] { load_target_mesh(source); }), HasSubstr("targets.buoy: part 'mast'"));
 }
 
 TEST(TargetMesh, MaterialsAreAssignedByPartNames) {
@@ -92,6 +92,96 @@ TEST(TargetMesh, ReportsTheCostOfMillionsOfTriangles) {
   EXPECT_THAT(check_target(mesh, 10e9),
               ElementsAre(AllOf(HasSubstr("1.5 million triangles: expect 1 to 3 GB of memory"),
                                 HasSubstr("about 12 s before the first view and 1 to 33 s for every view"))));
+}
+
+// A mesh file with any axes, unit and origin becomes the same mesh in the body frame.
+
+// Axis of a word as the key's meaning says, written out.
+Vec3 axis(const std::string& word) {
+  const double sign = word[0] == '+' ? 1 : -1;
+  return word[1] == 'x' ? Vec3(sign, 0, 0) : word[1] == 'y' ? Vec3(0, sign, 0) : Vec3(0, 0, sign);
+}
+
+TEST(MeshPlacement, TurnsForwardToXAndUpToZByARotationForAllTwentyFourPairs) {
+  int pairs = 0;
+  for (const std::string forward : kMeshAxes) {
+    for (const std::string up : kMeshAxes) {
+      MeshPlacement placement;
+      placement.forward = forward;
+      placement.up = up;
+      if (forward[1] == up[1]) {
+        EXPECT_THROW(rotation_of(placement), InputError) << forward << up;
+        continue;
+      }
+      const Mat3 rotation = rotation_of(placement);
+      EXPECT_EQ(rotation * axis(forward), Vec3(1, 0, 0));
+      EXPECT_EQ(rotation * axis(up), Vec3(0, 0, 1));
+      EXPECT_EQ(rotation.determinant(), 1);  // no mirror image
+      ++pairs;
+    }
+  }
+  EXPECT_EQ(pairs, 24);
+  MeshPlacement wrong;
+  wrong.up = "z";
+  EXPECT_THROW(rotation_of(wrong), InputError);
+}
+
+// Bow along +y of the file: what is forward of the origin there is forward after it, port stays to port.
+TEST(MeshPlacement, IsUnitThenAxesThenScaleThenOffset) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "a.obj";
+  TriangleMesh mesh = make_plate(1, 1);
+  mesh.vertices = {Vec3(0, 1000, 0), Vec3(-500, 0, 0), Vec3(0, 0, 250), Vec3(0, 1000, 250)};
+  write_mesh(file, mesh);
+  MeshPlacement placement;
+  placement.unit = "mm";
+  placement.forward = "+y";
+  placement.scale = 2;
+  placement.offset_m = {10, 20, 30};
+  const std::vector<Vec3> expected{Vec3(12, 20, 30), Vec3(10, 21, 30), Vec3(10, 20, 30.5), Vec3(12, 20, 30.5)};
+  const TriangleMesh read = read_placed_mesh(file, placement);
+  ASSERT_EQ(read.vertices.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    EXPECT_LT((read.vertices[i] - expected[i]).norm(), 1e-14 * 40) << i;  // roundings of a millimetre's decimal
+  EXPECT_EQ(placement_text(placement), "unit mm forward +y up +z scale 2 offset_m 10,20,30");
+  EXPECT_EQ(placement_text({}), "unit m");
+}
+
+TEST(MeshPlacement, TurnsNormalsWithTheSurface) {
+  TriangleMesh sphere = make_sphere(1, 2);
+  for (const auto& triangle : sphere.triangles)
+    sphere.corner_normals.push_back(
+        {sphere.vertices[triangle[0]], sphere.vertices[triangle[1]], sphere.vertices[triangle[2]]});
+  MeshPlacement placement;
+  placement.forward = "-z";
+  placement.up = "+y";
+  placement.offset_m = {0, 0, 3};
+  const TriangleMesh turned = placed(sphere, placement);
+  EXPECT_NEAR(enclosed_volume(turned), enclosed_volume(sphere), 1e-13);
+  for (std::size_t t = 0; t < turned.triangles.size(); ++t) {
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_LT((turned.corner_normals[t][i] - (turned.vertices[turned.triangles[t][i]] - Vec3(0, 0, 3))).norm(),
+                1e-12);
+  }
+}
+
+TEST(MeshPlacement, OfAnotherScaleKeepsTheWaterline) {
+  MeshPlacement placement;
+  placement.scale = 2;
+  placement.offset_m = {0.5, 0, -1};
+  const MeshPlacement large = with_scale(placement, 6);
+  EXPECT_EQ(large.scale, 6);
+  EXPECT_EQ(large.offset_m, (std::array<double, 3>{1.5, 0, -3}));
+  const Bounds small_box = bounds(placed(make_sphere(1, 2), placement)), box = bounds(placed(make_sphere(1, 2), large));
+  EXPECT_NEAR(box.lower.z(), 3 * small_box.lower.z(), 1e-12);
+}
+
+TEST(MeshPlacement, ByDefaultLeavesTheMeshAsItIsToTheBit) {
+  const TriangleMesh sphere = make_sphere(1, 2);
+  EXPECT_EQ(placed(sphere, {}).vertices, sphere.vertices);
+  MeshPlacement twice;
+  twice.scale = 2;
+  EXPECT_EQ(placed(sphere, twice).vertices, enlarged(sphere, 2).vertices);
 }
 
 }  // namespace

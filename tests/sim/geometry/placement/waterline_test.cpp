@@ -9,56 +9,34 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "sim/core/numbers/constants.h"
 #include "sim/geometry/mesh/mesh_diagnostics.h"
 #include "sim/geometry/mesh/topology.h"
 #include "sim/geometry/shapes/generators.h"
+#include "tests/sim/geometry/mesh_changes.h"
 
 namespace seaglint {
 namespace {
 
-// Closed box; inwards: its triangles face its inside.
-TriangleMesh box(const Vec3& lower, const Vec3& upper, bool inwards = false) {
-  TriangleMesh mesh;
-  for (int i = 0; i < 8; ++i)
-    mesh.vertices.emplace_back(i & 1 ? upper.x() : lower.x(), i & 2 ? upper.y() : lower.y(),
-                               i & 4 ? upper.z() : lower.z());
-  mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
-                    {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
-  if (inwards)
-    for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
-  mesh.part_names = {"hull"};
-  mesh.materials = {Material{}};
-  mesh.triangle_part.assign(12, 0);
-  mesh.triangle_material.assign(12, 0);
-  return mesh;
-}
+using namespace testing_meshes;
 
 // Tube of square cross-section about z, 2 m wide with a shaft of 1 m, from z = -1 to 1.
 TriangleMesh tube() {
-  TriangleMesh mesh;
-  const std::array<Vec2, 4> round{Vec2(1, 1), Vec2(-1, 1), Vec2(-1, -1), Vec2(1, -1)};
+  MeshBuilder builder;
   for (const double z : {-1.0, 1.0}) {
     for (const double half : {1.0, 0.5})
-      for (const Vec2& p : round) mesh.vertices.emplace_back(half * p.x(), half * p.y(), z);
+      for (const auto& [x, y] : {std::pair{1, 1}, {-1, 1}, {-1, -1}, {1, -1}}) builder.vertex({half * x, half * y, z});
   }
-  const auto quad = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
-    mesh.triangles.push_back({a, b, c});
-    mesh.triangles.push_back({a, c, d});
-  };
   for (std::uint32_t i = 0; i < 4; ++i) {
     const std::uint32_t k = (i + 1) % 4;
-    quad(i, k, 8 + k, 8 + i);            // outer side
-    quad(4 + k, 4 + i, 12 + i, 12 + k);  // shaft
-    quad(k, i, 4 + i, 4 + k);            // below
-    quad(8 + i, 8 + k, 12 + k, 12 + i);  // above
+    builder.quad(i, k, 8 + k, 8 + i);            // outer side
+    builder.quad(4 + k, 4 + i, 12 + i, 12 + k);  // shaft
+    builder.quad(k, i, 4 + i, 4 + k);            // below
+    builder.quad(8 + i, 8 + k, 12 + k, 12 + i);  // above
   }
-  mesh.part_names = {"tube"};
-  mesh.materials = {Material{}};
-  mesh.triangle_part.assign(mesh.triangles.size(), 0);
-  mesh.triangle_material.assign(mesh.triangles.size(), 0);
-  return mesh;
+  return builder.take();
 }
 
 void expect_closed(const TriangleMesh& mesh) {
@@ -195,10 +173,9 @@ TEST(AboveWater, KeepsABottomInTheSurfaceAndRemovesADeckInIt) {
 
 TEST(AboveWater, GivesALidThePartAndMaterialOfTheHull) {
   TriangleMesh ship = box({-5, -2, -1}, {5, 2, 1});
-  ship.part_names.push_back("mast");
+  ship.part_names = {"hull", "mast"};
   ship.materials.push_back({"ram"});
-  TriangleMesh mast = box({0, 0, 1}, {0.2, 0.2, 9});
-  ship.append(mast);
+  ship.append(box({0, 0, 1}, {0.2, 0.2, 9}));
   for (std::size_t t = 0; t < 12; ++t) ship.triangle_material[t] = 1;
   const AboveWater above = above_water(ship, 0);
   double lid_m2 = 0;

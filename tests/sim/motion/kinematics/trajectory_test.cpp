@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <vector>
 
 #include "sim/core/numbers/constants.h"
 
@@ -83,6 +84,82 @@ TEST(Trajectory, AtRestIsConstant) {
     EXPECT_EQ((still.pose(t).p - Vec3(1, 2, 3)).norm(), 0);
     EXPECT_EQ((still.pose(t).R - Mat3::Identity()).norm(), 0);
   }
+}
+
+// Amplitudes at the turning points of a free decay from x = x0 at rest.
+std::vector<double> peaks_of_decay(const Oscillator& oscillator, double x0, double step, double duration) {
+  std::vector<double> peaks;
+  OscillatorState state{x0, 0};
+  for (double t = 0; t < duration; t += step) {
+    const OscillatorState next = advance(oscillator, state, 0, 0, 0, step);
+    if (state.rate != 0 && state.rate * next.rate <= 0) {
+      // The rate passes zero inside the step: the value there by a parabola through it.
+      const double fraction = state.rate / (state.rate - next.rate);
+      peaks.push_back(state.x + 0.5 * fraction * step * state.rate);
+    }
+    state = next;
+  }
+  return peaks;
+}
+
+TEST(Oscillator, DecaysWithTheLogarithmicDecrementOfLinearDamping) {
+  const double zeta = 0.075;
+  const Oscillator roll{2 * kPi / 10.9, zeta, 0};
+  const std::vector<double> peaks = peaks_of_decay(roll, 0.1, 0.02, 60);
+  ASSERT_GE(peaks.size(), 8u);
+  // ln(x_n / x_n+2) = 2 pi zeta / sqrt(1 - zeta^2); half a period per turning point.
+  const double decrement = kPi * zeta / std::sqrt(1 - zeta * zeta);
+  double last = 0.1;
+  for (const double peak : peaks) {
+    EXPECT_NEAR(std::log(std::abs(last / peak)), decrement, 1e-6);
+    last = peak;
+  }
+}
+
+// While x' > 0, p = x'^2 obeys dp/dx + 2 b p = -2 w0^2 x, so that between two turning points -X and X' the integral of
+// x e^{2 b x} vanishes: (2 b x - 1) e^{2 b x} has the same value at both. A downward swing is its mirror image.
+TEST(Oscillator, DecaysByTheFirstIntegralOfQuadraticDamping) {
+  const double b = 0.5;
+  const Oscillator roll{2 * kPi / 10.9, 0, b};
+  double last = 0.3;
+  for (const double signed_peak : peaks_of_decay(roll, 0.3, 0.02, 100)) {
+    const double peak = std::abs(signed_peak);
+    const auto integral = [b](double x) { return (2 * b * x - 1) * std::exp(2 * b * x); };
+    EXPECT_NEAR(integral(peak), integral(-last), 1e-6);
+    last = peak;
+  }
+  EXPECT_LT(last, 0.15);
+}
+
+TEST(Oscillator, ReachesItsSteadyResponse) {
+  const Oscillator roll{0.6, 0.1, 0};
+  const double omega = 0.8;
+  const Complex expected = linear_response(roll, omega);
+  OscillatorState state;
+  constexpr double kStep = 0.02;
+  constexpr int kSteps = 20000;  // e^{-0.1 0.6 400} = 4e-11
+  for (int n = 0; n < kSteps; ++n) {
+    const auto f = [&](double t) { return std::cos(omega * t); };
+    state = advance(roll, state, f(n * kStep), f((n + 0.5) * kStep), f((n + 1) * kStep), kStep);
+  }
+  const Complex phasor = expected * std::polar(1.0, omega * kSteps * kStep);
+  EXPECT_NEAR(state.x, phasor.real(), 1e-8);
+  EXPECT_NEAR(state.rate, -omega * phasor.imag(), 1e-8);
+}
+
+TEST(Oscillator, IsIntegratedToFourthOrder) {
+  const Oscillator swing{1, 0.05, 0.3};
+  const auto end = [&](int steps) {
+    OscillatorState state{0.2, 0.1};
+    const double step = 10.0 / steps;
+    for (int n = 0; n < steps; ++n) {
+      state = advance(swing, state, std::sin(n * step), std::sin((n + 0.5) * step), std::sin((n + 1) * step), step);
+    }
+    return state.x;
+  };
+  const double fine = end(12800);
+  // |x'| x' has a jump in its second derivative where the rate passes zero, which reduces the order a little.
+  EXPECT_GT(std::abs(end(50) - fine) / std::abs(end(100) - fine), 7);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/motion/ship/rao_table.h"
+#include "sim/motion/ship/responses.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -23,7 +23,6 @@
 namespace seaglint {
 namespace {
 
-constexpr Complex kJ{0, 1};
 const char* const kVeres = SEAGLINT_SOURCE_DIR "/tests/reference/ship_motion/s175_veres.re1";
 const char* const kWamit = SEAGLINT_SOURCE_DIR "/tests/reference/ship_motion/fpso.4";
 

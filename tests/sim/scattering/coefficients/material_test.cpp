@@ -9,14 +9,13 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/random.h"
 #include "sim/scattering/coefficients/material.h"
-#include "sim/scenario/material_file.h"
+#include "sim/scenario/material_spec.h"
 #include "tests/measured.h"
 
 namespace seaglint {
 namespace {
 
-constexpr double kRounding = 1e-12;  // a few complex operations
-constexpr Complex kJ(0, 1);
+constexpr double kFieldRounding = 1e-12;  // a few complex operations
 
 double wavenumber(double frequency_hz) { return 2 * kPi * frequency_hz / kSpeedOfLight; }
 
@@ -67,8 +66,8 @@ TEST(Material, ThickDielectricFollowsFresnelsFormulasInAngles) {
   for (const double degrees_in : {5.0, 30.0, 55.0, 80.0}) {
     const Complex i = radians(degrees_in), t = std::asin(std::sin(i) / index);
     const InterfaceCoefficients fields = glass.at(std::cos(i.real()));
-    EXPECT_LT(std::abs(fields.te + std::sin(i - t) / std::sin(i + t)), kRounding) << degrees_in;
-    EXPECT_LT(std::abs(fields.tm - std::tan(i - t) / std::tan(i + t)), kRounding) << degrees_in;
+    EXPECT_LT(std::abs(fields.te + std::sin(i - t) / std::sin(i + t)), kFieldRounding) << degrees_in;
+    EXPECT_LT(std::abs(fields.tm - std::tan(i - t) / std::tan(i + t)), kFieldRounding) << degrees_in;
   }
 }
 
@@ -77,7 +76,7 @@ TEST(Material, ReflectsNothingInThePlaneOfIncidenceAtBrewstersAngle) {
   for (const double thickness : {0.3, 1.7, 12.0}) {
     const InterfaceCoefficients fields =
         MaterialSurface(stack({layer(thickness, 4.0)}, Backing::kAir), 300).at(std::cos(std::atan(2.0)));
-    EXPECT_LT(std::abs(fields.tm), kRounding);
+    EXPECT_LT(std::abs(fields.tm), kFieldRounding);
     EXPECT_GT(std::abs(fields.te), 0.1);
   }
 }
@@ -102,8 +101,8 @@ TEST(Material, DallenbachLayerFollowsItsClosedFormAndHasItsNull) {
   for (const double thickness_mm : {0.2, 1.1, 1.35, 4.0}) {
     const Complex z = std::sqrt(mu / eps) * std::tanh(kJ * k * 1e-3 * thickness_mm * std::sqrt(mu * eps));
     const InterfaceCoefficients fields = MaterialSurface(stack({layer(thickness_mm, eps, mu)}, Backing::kPec), k).at(1);
-    EXPECT_LT(std::abs(fields.te - (z - 1.0) / (z + 1.0)), kRounding) << thickness_mm;
-    EXPECT_LT(std::abs(fields.te + fields.tm), kRounding) << thickness_mm;
+    EXPECT_LT(std::abs(fields.te - (z - 1.0) / (z + 1.0)), kFieldRounding) << thickness_mm;
+    EXPECT_LT(std::abs(fields.te + fields.tm), kFieldRounding) << thickness_mm;
   }
   // Thin magnetic absorber: Z = j k d mu, matched when k d mu'' = 1 and mu' = 0 as closely as possible: with mu =
   // mu'(small) - j / (k d).
@@ -118,19 +117,19 @@ TEST(Material, SheetOfHalfAWaveIsTransparent) {
   const double half_mm = 1e3 * kSpeedOfLight / f / 2 / kappa;
   const InterfaceCoefficients fields =
       MaterialSurface(stack({layer(half_mm, eps)}, Backing::kAir), wavenumber(f)).at(cosine);
-  EXPECT_LT(std::abs(fields.te), kRounding);
-  EXPECT_LT(std::abs(fields.tm), kRounding);
-  EXPECT_NEAR(std::abs(fields.te_transmission), 1, kRounding);
+  EXPECT_LT(std::abs(fields.te), kFieldRounding);
+  EXPECT_LT(std::abs(fields.tm), kFieldRounding);
+  EXPECT_NEAR(std::abs(fields.te_transmission), 1, kFieldRounding);
 }
 
 TEST(Material, SheetOfVacuumIsTransparent) {
   for (const double cosine : {1.0, 0.6, 0.05}) {
     const InterfaceCoefficients fields =
         MaterialSurface(stack({layer(3, 1.0), layer(0.7, 1.0)}, Backing::kAir), 335).at(cosine);
-    EXPECT_LT(std::abs(fields.te), kRounding);
-    EXPECT_LT(std::abs(fields.tm), kRounding);
-    EXPECT_LT(std::abs(fields.te_transmission - 1.0), kRounding);
-    EXPECT_LT(std::abs(fields.tm_transmission - 1.0), kRounding);
+    EXPECT_LT(std::abs(fields.te), kFieldRounding);
+    EXPECT_LT(std::abs(fields.tm), kFieldRounding);
+    EXPECT_LT(std::abs(fields.te_transmission - 1.0), kFieldRounding);
+    EXPECT_LT(std::abs(fields.tm_transmission - 1.0), kFieldRounding);
   }
 }
 
@@ -185,8 +184,8 @@ TEST(Material, PassiveStacksConserveEnergy) {
     const Backing backing = random.below(2) == 0 ? Backing::kAir : Backing::kPec;
     const InterfaceCoefficients fields =
         MaterialSurface(stack(layers, backing), 50 + 500 * random.uniform()).at(0.001 + 0.999 * random.uniform());
-    EXPECT_LE(std::norm(fields.te) + std::norm(fields.te_transmission), 1 + kRounding);
-    EXPECT_LE(std::norm(fields.tm) + std::norm(fields.tm_transmission), 1 + kRounding);
+    EXPECT_LE(std::norm(fields.te) + std::norm(fields.te_transmission), 1 + kFieldRounding);
+    EXPECT_LE(std::norm(fields.tm) + std::norm(fields.tm_transmission), 1 + kFieldRounding);
   }
 }
 
@@ -196,10 +195,10 @@ TEST(Material, LosslessSheetsConserveEnergyAndAreReciprocal) {
   for (const double cosine : {1.0, 0.7, 0.1}) {
     const InterfaceCoefficients one = MaterialSurface(stack(layers, Backing::kAir), 335).at(cosine),
                                 other = MaterialSurface(stack(reversed, Backing::kAir), 335).at(cosine);
-    EXPECT_NEAR(std::norm(one.te) + std::norm(one.te_transmission), 1, kRounding);
-    EXPECT_NEAR(std::norm(one.tm) + std::norm(one.tm_transmission), 1, kRounding);
-    EXPECT_LT(std::abs(one.te_transmission - other.te_transmission), kRounding);
-    EXPECT_LT(std::abs(one.tm_transmission - other.tm_transmission), kRounding);
+    EXPECT_NEAR(std::norm(one.te) + std::norm(one.te_transmission), 1, kFieldRounding);
+    EXPECT_NEAR(std::norm(one.tm) + std::norm(one.tm_transmission), 1, kFieldRounding);
+    EXPECT_LT(std::abs(one.te_transmission - other.te_transmission), kFieldRounding);
+    EXPECT_LT(std::abs(one.tm_transmission - other.tm_transmission), kFieldRounding);
   }
 }
 
@@ -224,8 +223,9 @@ TEST(Material, RoughnessReducesTheCoherentField) {
   rough.roughness_mm = 1.5;
   const double k = 335, cosine = 0.4;
   const MaterialSurface surface(rough, k);
-  EXPECT_NEAR(surface.roughness_factor(cosine, cosine), std::exp(-2 * std::pow(k * 1.5e-3 * cosine, 2)), kRounding);
-  EXPECT_NEAR(surface.roughness_factor(1, -1), 1, kRounding);  // forward direction, independent of heights
+  EXPECT_NEAR(surface.roughness_factor(cosine, cosine), std::exp(-2 * std::pow(k * 1.5e-3 * cosine, 2)),
+              kFieldRounding);
+  EXPECT_NEAR(surface.roughness_factor(1, -1), 1, kFieldRounding);  // forward direction, independent of heights
 }
 
 TEST(Material, DispersionIsADebyeSumOrATable) {
@@ -234,14 +234,14 @@ TEST(Material, DispersionIsADebyeSumOrATable) {
   spec.debye = {{5, 10}};
   spec.conductivity_s_m = 0.2;
   const Complex value = value_at(spec, 10e9);
-  EXPECT_NEAR(value.real(), 3 + 5 / 2.0, kRounding);
+  EXPECT_NEAR(value.real(), 3 + 5 / 2.0, kFieldRounding);
   // sigma / (2 pi f eps0) with 1 / (2 pi eps0) = 17.975 GHz m/S
   EXPECT_NEAR(value.imag(), -(5 / 2.0 + 0.2 * 17.975103 / 10), 1e-6);
   spec.table = {{2, 9, 1}, {8, 3, 4}};
-  EXPECT_LT(std::abs(value_at(spec, 4e9) - Complex(6, -2.5)), kRounding);  // half-way in the logarithm
-  EXPECT_LT(std::abs(value_at(spec, 1e9) - Complex(9, -1)), kRounding);
-  EXPECT_LT(std::abs(value_at(spec, 8e9) - Complex(3, -4)), kRounding);
-  EXPECT_LT(std::abs(value_at(spec, 80e9) - Complex(3, -4)), kRounding);
+  EXPECT_LT(std::abs(value_at(spec, 4e9) - Complex(6, -2.5)), kFieldRounding);  // half-way in the logarithm
+  EXPECT_LT(std::abs(value_at(spec, 1e9) - Complex(9, -1)), kFieldRounding);
+  EXPECT_LT(std::abs(value_at(spec, 8e9) - Complex(3, -4)), kFieldRounding);
+  EXPECT_LT(std::abs(value_at(spec, 80e9) - Complex(3, -4)), kFieldRounding);
 }
 
 // L. A. Klein and C. T. Swift, IEEE Trans. Antennas Propag. AP-25 (1977) 104-111, single Debye: another fit to other
@@ -321,8 +321,8 @@ TEST(MaterialLibrary, EveryMaterialIsReadAndPassive) {
     for (const double cosine : {1.0, 0.5, 0.03}) {
       for (const double ghz : {spec.lowest_ghz, std::sqrt(spec.lowest_ghz * spec.highest_ghz), spec.highest_ghz}) {
         const InterfaceCoefficients fields = MaterialSurface(spec, wavenumber(1e9 * ghz)).at(cosine);
-        EXPECT_LE(std::norm(fields.te) + std::norm(fields.te_transmission), 1 + kRounding) << spec.name;
-        EXPECT_LE(std::norm(fields.tm) + std::norm(fields.tm_transmission), 1 + kRounding) << spec.name;
+        EXPECT_LE(std::norm(fields.te) + std::norm(fields.te_transmission), 1 + kFieldRounding) << spec.name;
+        EXPECT_LE(std::norm(fields.tm) + std::norm(fields.tm_transmission), 1 + kFieldRounding) << spec.name;
       }
     }
     ++count;

@@ -32,12 +32,6 @@ std::array<Complex, 4> over_sea(const Scatterer& scatterer, const Vec3& r_hat, d
   return matrices_over_sea(scatterer, r_hat, {sea, height}, std::array{k}, {min_patch_m, 8})[0];
 }
 
-double largest(const std::array<Complex, 4>& s) {
-  double size = 0;
-  for (const Complex& x : s) size = std::max(size, std::abs(x));
-  return size;
-}
-
 // A sphere 10 m ahead of the origin and 10 m up, the radar some km from the water below the origin: the sum over the
 // four paths by their lengths.
 TEST(SeaReflection, RefersTheRangeToTheWaterBelow) {
@@ -231,7 +225,6 @@ TEST(SeaReflection, MatrixIsTheSumOfItsDirectAndMultipathParts) {
   for (int i = 0; i < 4; ++i) EXPECT_LT(std::abs(a[i] - d[i] - m[i]), 1e-12);
 }
 
-// The paper's interval: 8 carriers by 25 MHz, 40 frequencies each, 256 pulses by 250 us.
 // Relative L2 error, dB, of a body's response over the sea against fresh matrices at random pulses and frequencies.
 double error_against_independent_traces(const Scatterer& scatterer, const Trajectory& trajectory, const Vec3& r,
                                         const SeaReflection& sea, Polarisation polarisation, int spots) {
@@ -268,7 +261,7 @@ double error_against_independent_traces(const Scatterer& scatterer, const Trajec
 }
 
 // Sinusoids of attitude and heave with these rates (rad/s, m/s) at a period of 3 s.
-Trajectory rocking(const Vec3& angle_rates, double heave_rate, const Vec3& rest) {
+Trajectory heaving_and_rocking(const Vec3& angle_rates, double heave_rate, const Vec3& rest) {
   const double omega = 2 * kPi / 3;
   std::vector<MotionSample> samples;
   for (int i = 0; i <= 100; ++i) {
@@ -285,7 +278,7 @@ Trajectory rocking(const Vec3& angle_rates, double heave_rate, const Vec3& rest)
 
 TEST(SeaReflection, ResponseOverAnIntervalMatchesIndependentTraces) {
   const Scatterer reflector(make_icosahedral_reflector());
-  const Trajectory trajectory = rocking({0.3, -0.2, 0.4}, 0.6, {12, 5, 0.75});
+  const Trajectory trajectory = heaving_and_rocking({0.3, -0.2, 0.4}, 0.6, {12, 5, 0.75});
   const SeaReflection sea(SeaReflectionSpec{}, 0.1);
   const auto error_db = [&](Polarisation polarisation) {
     return error_against_independent_traces(reflector, trajectory, direction(20, 2), sea, polarisation, 20);
@@ -306,7 +299,7 @@ TEST(SeaReflection, ShipsResponseOverAnIntervalMatchesIndependentTraces) {
   std::vector<MaterialSpec> materials(mesh.materials.size());
   cut_at_sea_level(mesh, materials, 0);
   const Scatterer ship(mesh, materials);
-  const Trajectory trajectory = rocking({radians(0.8), radians(0.6), radians(0.3)}, 0.5, Vec3::Zero());
+  const Trajectory trajectory = heaving_and_rocking({radians(0.8), radians(0.6), radians(0.3)}, 0.5, Vec3::Zero());
   const double error_db = error_against_independent_traces(
       ship, trajectory, direction(50, 2), SeaReflection(SeaReflectionSpec{}, 0.1), Polarisation::kVv, 5);
   fmt::print("ship over the sea: {:.1f} dB\n", error_db);

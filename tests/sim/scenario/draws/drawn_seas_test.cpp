@@ -13,10 +13,10 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/dispersion.h"
 #include "sim/core/process/file.h"
-#include "sim/scenario/files/scatter_diagram.h"
-#include "sim/scenario/jonswap.h"
+#include "sim/scenario/cases.h"
+#include "sim/scenario/files/tables.h"
 #include "sim/scenario/sample_plan.h"
-#include "sim/scenario/writer.h"
+#include "sim/scenario/scenario.h"
 #include "tests/sim/scenario/parsing.h"
 #include "tests/temporary_folder.h"
 
@@ -186,8 +186,8 @@ TEST_F(DrawnPairs, OfMeanPeriodsHaveTheirPeakPeriods) {
     }
     const auto drawn = std::ranges::find(scenario.variations, fmt::format("sea.{}", key), &Variation::key_path);
     ASSERT_NE(drawn, scenario.variations.end()) << key;
-    const double text = std::stod(drawn_value(*drawn, scenario.seed, plan.draw_place({.realisation = 7})));
-    EXPECT_NEAR(text, ratio(2) * plan.sea_state({.realisation = 7}).peak_period_s, 1e-9) << key;
+    const double drawn_s = std::get<double>(drawn_value(*drawn, scenario.seed, plan.draw_place({.realisation = 7})));
+    EXPECT_NEAR(drawn_s, ratio(2) * plan.sea_state({.realisation = 7}).peak_period_s, 1e-9) << key;
     EXPECT_EQ(effective_yaml(parse_scenario(effective_yaml(scenario), folder_.path() / "t.yaml")),
               effective_yaml(scenario));
   }

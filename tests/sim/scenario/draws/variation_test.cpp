@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scenarios with drawn values: where they are drawn, what they depend on, how they are written and refused.
+// Drawn values: their distributions against closed moments, where they are drawn, what they depend on, how they are
+// written and refused.
 #include "sim/scenario/draws/variation.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <map>
 #include <set>
 #include <tuple>
 
+#include "sim/core/process/error.h"
+#include "sim/core/text/words.h"
 #include "sim/scenario/sample_plan.h"
-#include "sim/scenario/writer.h"
+#include "sim/scenario/scenario.h"
 #include "tests/sim/scenario/parsing.h"
 
 namespace seaglint {
@@ -19,6 +25,125 @@ using namespace testing_scenarios;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
+
+constexpr int kDraws = 40000;
+
+std::vector<std::string> draws_of(const std::string& text) {
+  const Distribution distribution = parse_distribution(text).value();
+  std::vector<std::string> values;
+  for (std::uint64_t i = 0; i < kDraws; ++i) {
+    Random random({7, Stream::kTest, i});
+    values.push_back(text_of(distribution.draw(random)));
+  }
+  return values;
+}
+
+std::vector<double> numbers_of(const std::string& text) {
+  std::vector<double> numbers;
+  for (const std::string& value : draws_of(text)) numbers.push_back(parse_number(value).value());
+  return numbers;
+}
+
+double mean(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
+double deviation(const std::vector<double>& values) {
+  const double centre = mean(values);
+  double sum = 0;
+  for (const double value : values) sum += (value - centre) * (value - centre);
+  return std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+// Mean and deviation within five standard errors; those of a deviation are at most its own over sqrt(2 n), which holds
+// for tails up to the normal one.
+void expect_moments(const std::string& text, double expected_mean, double expected_deviation) {
+  const std::vector<double> values = numbers_of(text);
+  EXPECT_NEAR(mean(values), expected_mean, 5 * expected_deviation / std::sqrt(kDraws)) << text;
+  EXPECT_NEAR(deviation(values), expected_deviation, 5 * expected_deviation / std::sqrt(2.0 * kDraws)) << text;
+}
+
+TEST(Distribution, HasTheMomentsOfItsDefinition) {
+  expect_moments("uniform(5, 9)", 7, 4 / std::sqrt(12.0));
+  expect_moments("uniform(-1.5,-0.5)", -1, 1 / std::sqrt(12.0));
+  expect_moments("normal(10, 2)", 10, 2);
+  expect_moments("integers(3, 30)", 16.5, std::sqrt((28.0 * 28 - 1) / 12));
+  // (b - a) / L and the second moment (b^2 - a^2) / (2 L) with L = ln(b / a).
+  const double length = std::log(20.0), average = 1.9 / length, square = (4 - 0.01) / (2 * length);
+  expect_moments("loguniform(0.1, 2)", average, std::sqrt(square - average * average));
+  // Truncated at one deviation on both sides: 1 - 2 phi(1) / (2 Phi(1) - 1).
+  expect_moments("normal(0, 1, -1, 1)", 0, std::sqrt(1 - 2 * 0.24197072451914337 / 0.6826894921370859));
+}
+
+TEST(Distribution, OfChoicesDrawsEachEquallyOften) {
+  std::map<std::string, int> counts;
+  for (const std::string& value : draws_of("choice(random, costas, linear, 4.5)")) ++counts[value];
+  ASSERT_EQ(counts.size(), 4u);
+  const double error = std::sqrt(kDraws * 0.25 * 0.75);
+  for (const auto& [value, count] : counts) EXPECT_NEAR(count, kDraws / 4.0, 5 * error) << value;
+}
+
+TEST(Distribution, DrawsStayWithinItsEnds) {
+  for (const char* text : {"uniform(5, 9)", "loguniform(0.1, 2)", "normal(3, 1)", "normal(0, 5, 1, 2)",
+                           "integers(1, 3)", "uniform(0.1, 0.30000000000000004)"}) {
+    const std::vector<std::string> ends = parse_distribution(text)->ends();
+    const double low = parse_number(ends[0]).value(), high = parse_number(ends[1]).value();
+    const std::vector<double> values = numbers_of(text);
+    EXPECT_GE(std::ranges::min(values), low) << text;
+    EXPECT_LE(std::ranges::max(values), high) << text;
+    const double middle = parse_number(parse_distribution(text)->middle()).value();
+    EXPECT_TRUE(low <= middle && middle <= high) << text;
+  }
+  const std::vector<double> whole = numbers_of("integers(1, 3)");
+  for (const double end : {1.0, 2.0, 3.0}) EXPECT_GT(std::ranges::count(whole, end), kDraws / 4) << end;
+}
+
+TEST(Distribution, IsWrittenAsItWasRead) {
+  for (const char* text : {"uniform(5, 9)", "normal(3, 1, 2, 4)", "choice(a, b-c, 4)", "loguniform(1e-3, 1e3)"}) {
+    const Distribution read = parse_distribution(text).value();
+    EXPECT_EQ(read.text(), text);
+    EXPECT_EQ(parse_distribution(read.text())->values, read.values);
+  }
+  EXPECT_EQ(parse_distribution("uniform(5 9)")->text(), "uniform(5, 9)");
+  EXPECT_EQ(parse_distribution("uniform( 5 ,9 )")->text(), "uniform(5, 9)");
+}
+
+TEST(Distribution, OfOtherTextsIsNone) {
+  for (const char* text : {"", "5", "uniform", "Uniform(1, 2)", "ship (old)", "(1, 2)", "5:9:1", "uniform [1, 2]"})
+    EXPECT_FALSE(parse_distribution(text)) << text;
+}
+
+TEST(Distribution, WithoutMassIsRefusedWithItsForm) {
+  const std::map<std::string, std::string> wrong = {
+      {"uniform(9, 5)", "a < b"},
+      {"uniform(5, 5)", "a < b"},
+      {"uniform(5)", "a < b"},
+      {"uniform(5, 9", "in quotes or with blanks for commas"},
+      {"uniform(5, nan)", "a < b"},
+      {"uniform(1e999, 2)", "a < b"},
+      {"loguniform(0, 2)", "0 < a < b"},
+      {"loguniform(-1, 2)", "0 < a < b"},
+      {"normal(1, 0)", "std > 0"},
+      {"normal(1, 1, 3, 2)", "low < high"},
+      {"normal(0, 1, 10, 11)", "at least 1 %"},
+      {"integers(1.5, 3)", "whole numbers"},
+      {"integers(0, 9999999999)", "whole numbers"},
+      {"choice(a)", "2 to 1000 different"},
+      {"choice(a, a)", "2 to 1000 different"},
+      {"choice()", "2 to 1000 different"},
+      {"choice(a, " + std::string(65, 'b') + ")", "at most 64 bytes"},
+  };
+  for (const auto& [text, reason] : wrong) {
+    try {
+      parse_distribution(text);
+      ADD_FAILURE() << text << " was read";
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr(reason)) << text;
+    }
+  }
+}
 
 const std::string kDrawn = R"yaml(seaglint: 1
 view: {azimuth_deg: uniform(10 170), elevation_deg: 2}
@@ -97,6 +222,45 @@ TEST(Variation, IsIndependentOfOtherKeysAndOfTheirOrder) {
   }
   const Scenario seeded = parse(kDrawn, {Override{"seed", "43"}});
   EXPECT_NE(drawn(scenario, 0).view.azimuth_deg, drawn(seeded, 0).view.azimuth_deg);
+}
+
+// Draws set the members of the table of fields: whatever key is drawn, the scenario is that with its value in the file.
+TEST(Variation, GivesTheScenarioThatIsReadWithTheDrawnValues) {
+  const std::string text = R"yaml(seaglint: 1
+view: {azimuth_deg: uniform(10 170), elevation_deg: loguniform(1 5)}
+radar: {hop_code: choice(random balanced stepped), pri_jitter_us: uniform(0 20), polarisation: choice(hh vv)}
+sea:
+  peak_period_s: choice(dnv_wind_sea 8 9.50)
+  gamma: choice(1 2.5 dnv_rule)
+  depth_m: uniform(20 50)
+  components: integers(10 20)
+  coming_from_deg: normal(100 5)
+  swell: {significant_wave_height_m: uniform(0.1 0.3), energy_period_s: uniform(9 11), coming_from_deg: uniform(0 90)}
+sea_reflection: {enabled: choice(true false), temperature_c: normal(10 2 5 15)}
+targets:
+  ship: {label: 1, mesh: choice(a.glb b.glb), scale: uniform(0.5 2), material: choice(pec steel), motion: {model: choice(ship rao), roll_damping: uniform(0 1)}, solver: {crease_deg: choice(auto 10), edges: choice(true false)}}
+  array:
+    label: 0
+    mesh: b.glb
+    unit: choice(m cm)
+    orientation: {forward: choice(+x -x)}
+    layout: {area: {shape: choice(ring random), count: integers(3 30)}, heights: {lowest_m: uniform(0 1), highest_m: uniform(1 2)}, seed: integers(0 1000000)}
+  points: {label: 0, points: [{position_m: [0, 0, 0]}, {position_m: [1, 0, 0], amplitude_m: uniform(1 2)}]}
+  other: {label: 0, mesh: b.glb, motion: {roll_damping: same(targets.ship.motion.roll_damping)}}
+clutter: {scr_db: uniform(10 25), sea_state: uniform(1 3), enabled: choice(true false)}
+dataset: {maps_per_case: 12, realisations_per_case: 4}
+)yaml";
+  const Scenario scenario = parse(text);
+  const SamplePlan plan(scenario);
+  for (std::size_t sample = 0; sample < plan.size(); ++sample) {
+    const DrawPlace place = plan.draw_place(plan.address(sample));
+    std::vector<Override> values;
+    for (const Variation& variation : scenario.variations)
+      values.push_back({variation.key_path, text_of(drawn_value(variation, scenario.seed, place))});
+    const Scenario one = drawn_scenario(scenario, place);
+    EXPECT_TRUE(one == parse(text, values)) << sample;
+    EXPECT_FALSE(one == scenario);
+  }
 }
 
 TEST(Variation, OfAScenarioWithoutDistributionsIsNone) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/scenario/files/hop_code_file.h"
+#include "sim/scenario/files/tables.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 namespace seaglint {
 namespace {
 
-std::string refusal(const std::string& text) {
+std::string code_refusal(const std::string& text) {
   try {
     parse_hop_code(text, "hops.txt", 4, 8);
   } catch (const InputError& error) {
@@ -52,21 +52,22 @@ TEST(HopCodeText, OfNumPysSavetxtIsThatOfPlainNumbers) {
 }
 
 TEST(HopCodeText, ThatCountsFromOneIsNamed) {
-  EXPECT_EQ(refusal("1 8\n4 2\n"),
+  EXPECT_EQ(code_refusal("1 8\n4 2\n"),
             "hops.txt:1:3: '8': must be a carrier's number, 0 to 7 (radar.hop_count - 1); the file counts from 1 to 8 "
             "and has no 0: subtract 1 from each number");
   for (const char* text : {"1 8 0 2", "1 9 4 2", "-1 8 4 2"})
-    EXPECT_THAT(refusal(text), testing::Not(testing::HasSubstr("counts from 1"))) << text;
+    EXPECT_THAT(code_refusal(text), testing::Not(testing::HasSubstr("counts from 1"))) << text;
 }
 
 TEST(HopCodeText, IsRefusedWithThePlaceOfItsMistake) {
-  EXPECT_EQ(refusal("0 7\n3 8\n"), "hops.txt:2:3: '8': must be a carrier's number, 0 to 7 (radar.hop_count - 1)");
+  EXPECT_EQ(code_refusal("0 7\n3 8\n"), "hops.txt:2:3: '8': must be a carrier's number, 0 to 7 (radar.hop_count - 1)");
   for (const char* word : {"-1", "1.5", "1x", "0x1", "+-1", "1e-1", "1e400", "nan", "1:2"})
-    EXPECT_THAT(refusal(std::string("0 1 2 ") + word), testing::HasSubstr("hops.txt:1:7: '" + std::string(word) + "'"));
-  EXPECT_EQ(refusal("0 1 2"), "hops.txt: 3 carrier numbers: must be radar.pulses, 4, or a multiple of them");
-  EXPECT_THAT(refusal(std::string("\xff\xfe"
-                                  "0\0 \0",
-                                  6)),
+    EXPECT_THAT(code_refusal(std::string("0 1 2 ") + word),
+                testing::HasSubstr("hops.txt:1:7: '" + std::string(word) + "'"));
+  EXPECT_EQ(code_refusal("0 1 2"), "hops.txt: 3 carrier numbers: must be radar.pulses, 4, or a multiple of them");
+  EXPECT_THAT(code_refusal(std::string("\xff\xfe"
+                                       "0\0 \0",
+                                       6)),
               testing::HasSubstr("UTF-16"));
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Scatter diagrams as they are printed and exported are read, and drawn as often as they count.
-#include "sim/scenario/files/scatter_diagram.h"
+#include "sim/scenario/files/tables.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -18,7 +18,7 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-std::string refusal(const std::string& text) {
+std::string diagram_refusal(const std::string& text) {
   try {
     parse_scatter_diagram(text, "s.csv");
   } catch (const InputError& error) {
@@ -73,7 +73,7 @@ TEST(ScatterDiagram, IsRefusedWithThePlaceOfItsMistake) {
       {"Hs/Tp,5,7\n0,1,0\n1,1,0\n", "s.csv:2:1: '0': its cell, -0.5 to 0.5, begins below 0"},
       {"hs_m,tp_s,count\n0.5,5,10\n0.5,5,30\n1.5,7,20\n", "this pair of height and period appears twice"},
       {"hs_m,tp_s,count\n0.5,5,10\n1.5,7,-1\n", "must be"}};
-  for (const auto& [text, message] : cases) EXPECT_THAT(refusal(text), HasSubstr(message)) << text;
+  for (const auto& [text, message] : cases) EXPECT_THAT(diagram_refusal(text), HasSubstr(message)) << text;
 }
 
 // Pearson's statistic of 4 cells has 3 degrees of freedom: 21.1 is exceeded with probability 1e-4; the means of u over

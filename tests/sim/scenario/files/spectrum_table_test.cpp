@@ -13,9 +13,8 @@
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/core/text/names.h"
-#include "sim/scenario/jonswap.h"
+#include "sim/scenario/cases.h"
 #include "sim/scenario/scenario.h"
-#include "sim/scenario/writer.h"
 
 namespace seaglint {
 namespace {

@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/scenario/writer.h"
+#include "sim/scenario/scenario.h"
 #include "tests/sim/scenario/parsing.h"
 
 namespace seaglint {
