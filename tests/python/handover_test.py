@@ -506,7 +506,7 @@ def test_pyaedt_files_are_read_back_as_the_same_sweep(sweep, tmp_path):
 def test_a_folder_of_pyaedt_files_names_its_geometry(tmp_path):
     """Neither a target nor a list of files is needed; the folder's own results are no exports."""
     pytest.importorskip("tables", reason="needs the package python3-tables")
-    exports, dihedral = tmp_path / "exports", pathlib.Path("tests/cases/exports/dihedral.obj")
+    exports, dihedral = tmp_path / "exports", pathlib.Path(__file__).resolve().parents[1] / "cases/exports/dihedral.obj"
     (exports / "geometry").mkdir(parents=True)
     text = dihedral.read_text()
     vertices = text[:text.index("f 1")]
