@@ -10,6 +10,7 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/random.h"
 #include "sim/scattering/observation/observation.h"
+#include "tests/tools/compare/grid.h"
 
 namespace seaglint {
 namespace {
@@ -48,12 +49,6 @@ std::vector<AlignmentPoint> sweep(const std::vector<double>& ghz, const std::vec
     }
   }
   return points;
-}
-
-std::vector<double> grid(double from, double step, int count) {
-  std::vector<double> values;
-  for (int i = 0; i < count; ++i) values.push_back(from + step * i);
-  return values;
 }
 
 // The reference as another program would write it: 0.7 dB higher, about another origin, with a constant phase, with

@@ -13,6 +13,7 @@
 #include "sim/core/numbers/real_functions.h"
 #include "sim/core/process/error.h"
 #include "sim/scattering/observation/observation.h"
+#include "tests/tools/compare/grid.h"
 
 namespace seaglint {
 namespace {
