@@ -70,13 +70,8 @@ double douglas_sea_state(double significant_wave_height_m);
 // the two-way width of a Gaussian antenna beam, sqrt(pi / (8 ln 2)) of its one-way half-power width.
 double clutter_patch_area_m2(const RadarSpec& radar, double grazing_rad, double range_extent_m);
 
-// Regularised incomplete gamma functions P(a, x) and Q = 1 - P, a > 0, x >= 0; relative error below 1e-12 for a <=
-// 1000.
-double gamma_p(double a, double x);
-double gamma_q(double a, double x);
-
 // Quantile Phi(normal) of the gamma distribution with mean 1 and the given shape (0.1 <= shape <= 1000); monotone in
-// normal, so that correlated normal values give correlated texture. Relative error below 1e-9 for |normal| <= 6.
+// normal, so that correlated normal values give correlated texture. Relative error below 1e-11 for |normal| <= 8.
 double gamma_texture(double shape, double normal);
 
 // Gamma-distributed texture of mean 1 and shape spec.texture_shape on `cells` points of a ring at one time. Correlation

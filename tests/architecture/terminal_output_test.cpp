@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <regex>
 #include <set>
 #include <string>
 #include <vector>
@@ -27,11 +28,14 @@ std::vector<std::string> prints_in(const SourceFile& file) {
   static const std::set<std::string> names{"cout",    "cerr",     "clog",    "wcout", "wcerr",  "printf", "fprintf",
                                            "vprintf", "vfprintf", "dprintf", "puts",  "fputs",  "putc",   "fputc",
                                            "putchar", "perror",   "psignal", "print", "println"};
+  static const std::regex literal(R"("([^"\\]|\\.)*"|//.*)");
   std::vector<std::string> found;
-  const std::vector<Token> tokens = Tokeniser(file.text).tokens();
-  for (std::size_t i = 0; i < tokens.size(); ++i) {
-    if (names.contains(tokens[i].text))
-      found.push_back(file.path + ":" + std::to_string(tokens[i].line) + ": " + tokens[i].text);
+  int number = 0;
+  for (const std::string& line : lines_of(file.text)) {
+    ++number;
+    const std::string code = line.starts_with('#') ? "" : std::regex_replace(line, literal, "");
+    for (const auto& word : matches_in(code, R"(\w+)"))
+      if (names.contains(word[0])) found.push_back(file.path + ":" + std::to_string(number) + ": " + word.str());
   }
   return found;
 }

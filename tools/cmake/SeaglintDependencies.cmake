@@ -3,6 +3,7 @@
 find_package(Threads REQUIRED)
 find_package(fmt 9 CONFIG REQUIRED)
 find_package(Eigen3 3.4 CONFIG REQUIRED)
+find_package(Boost 1.74 REQUIRED)
 find_package(yaml-cpp 0.7 CONFIG REQUIRED)
 find_package(OpenMesh REQUIRED)
 find_package(TinyGLTF CONFIG REQUIRED)

@@ -67,5 +67,5 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME seaglint-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 # Packages of tools/packages.txt that SeaglintDependencies.cmake finds.
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-    "seaglint (= ${PROJECT_VERSION}), libembree-dev, libtbb-dev, libopenmesh-dev, libtinygltf-dev, libeigen3-dev, libfftw3-dev, libyaml-cpp-dev, libxgboost-dev, libhdf5-dev, libssl-dev, libzip-dev, libcli11-dev, libfmt-dev, libpng-dev, nlohmann-json3-dev, zlib1g-dev, pkg-config")
+    "seaglint (= ${PROJECT_VERSION}), libembree-dev, libtbb-dev, libopenmesh-dev, libtinygltf-dev, libeigen3-dev, libboost-dev, libfftw3-dev, libyaml-cpp-dev, libxgboost-dev, libhdf5-dev, libssl-dev, libzip-dev, libcli11-dev, libfmt-dev, libpng-dev, nlohmann-json3-dev, zlib1g-dev, pkg-config")
 include(CPack)

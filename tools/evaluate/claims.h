@@ -31,11 +31,6 @@ struct Estimate {
 // not. NaN without an interval.
 Estimate estimate_of(const Scores& scores);
 
-// t of Student's distribution with P(T <= t) = probability, 0.5 <= probability < 1, within 1e-9 of t; fractional
-// degrees of freedom, >= 1, are rounded down, which gives the wider interval; infinitely many give the normal
-// distribution.
-double student_quantile(double probability, double degrees_of_freedom);
-
 // Half of the interval that misses the true value with probability `level`: the quantile at 1 - level / 2 with the
 // estimate's degrees of freedom, times its standard error.
 double half_width(const Estimate& estimate, double level = 0.05);

@@ -65,6 +65,7 @@ def all_steps():
         Step("clean-root", 30, ("tests/install/clean_root_test.sh", "build/release"), "the Debian package on a system of its own"),
         Step("tidy", 120, built("tidy"), "clang-tidy on every file"),
         Step("dev", 45, built("dev"), "warnings of gcc are errors"),
+        Step("definitions", 30, built("definitions"), "one definition of every type"),
         *fuzz_steps(),
         Step("tidy-clang", 120, built("tidy-clang"), "clang-tidy on what clang compiles", by_default=False),
         Step("sweep", 600, ("tools/measure", "sweep"), "two ships every 0.05 deg, nine hours", by_default=False),

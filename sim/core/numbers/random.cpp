@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <boost/math/distributions/students_t.hpp>
+#include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 
 #include "sim/core/numbers/reproducible_functions.h"
@@ -118,6 +120,23 @@ double normal_quantile(double p) {
   const double x =
       r <= 5 ? polynomial(c, r - 1.6) / polynomial(d, r - 1.6) : polynomial(e, r - 5) / polynomial(f, r - 5);
   return q < 0 ? -x : x;
+}
+
+namespace {
+// The functions of Boost.Math by operations in double precision, the same on every platform.
+using InDouble = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
+}  // namespace
+
+double gamma_of_normal(double shape, double normal) {
+  SEAGLINT_CHECK(shape > 0, fmt::format("shape = {}", shape));
+  const double tail = 0.5 * std::erfc(std::abs(normal) / std::sqrt(2.0));  // the smaller one, which loses no digits
+  return normal < 0 ? boost::math::gamma_p_inv(shape, tail, InDouble())
+                    : boost::math::gamma_q_inv(shape, tail, InDouble());
+}
+
+double student_quantile(double p, double degrees_of_freedom) {
+  SEAGLINT_CHECK(p > 0 && p < 1 && degrees_of_freedom > 0, fmt::format("p = {}, {} degrees", p, degrees_of_freedom));
+  return quantile(boost::math::students_t_distribution<double, InDouble>(degrees_of_freedom), p);
 }
 
 }  // namespace seaglint

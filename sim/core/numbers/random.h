@@ -75,4 +75,11 @@ void shuffle(std::vector<T>& values, Random& random) {
 // Quantile of the normal distribution, |error| < 1e-15 relative (Wichura 1988, AS 241, PPND16); p in (0, 1).
 double normal_quantile(double p);
 
+// The gamma variate of scale 1 that is exceeded as often as a standard normal variate exceeds `normal`: maps a Gaussian
+// field to a gamma field of equal ranks. shape > 0.
+double gamma_of_normal(double shape, double normal);
+
+// Quantile of Student's distribution; p in (0, 1), degrees of freedom > 0, also fractions and infinity.
+double student_quantile(double p, double degrees_of_freedom);
+
 }  // namespace seaglint

@@ -37,26 +37,6 @@ TEST(HolmIntervals, OfFewSeasAreThoseOfStudentsDistribution) {
   }
 }
 
-// Tables of Student's distribution (Abramowitz and Stegun 1964, table 26.10; two-sided 5 % and 0.5 %, and 0.1 %).
-TEST(StudentQuantile, IsThatOfTheTables) {
-  struct Row {
-    double degrees, at_975, at_9975, at_9995;
-  };
-  for (const Row& row : {Row{1, 12.706, 127.321, 636.619}, Row{2, 4.303, 14.089, 31.599}, Row{3, 3.182, 7.453, 12.924},
-                         Row{4, 2.776, 5.598, 8.610}, Row{5, 2.571, 4.773, 6.869}, Row{9, 2.262, 3.690, 4.781},
-                         Row{20, 2.086, 3.153, 3.850}, Row{29, 2.045, 3.038, 3.659}, Row{60, 2.000, 2.915, 3.460},
-                         Row{120, 1.980, 2.860, 3.373}}) {
-    EXPECT_NEAR(student_quantile(0.975, row.degrees), row.at_975, 6e-4) << row.degrees;
-    EXPECT_NEAR(student_quantile(0.9975, row.degrees), row.at_9975, 6e-4) << row.degrees;
-    EXPECT_NEAR(student_quantile(0.9995, row.degrees), row.at_9995, 6e-4) << row.degrees;
-  }
-  constexpr double kNormal = std::numeric_limits<double>::infinity();
-  EXPECT_NEAR(student_quantile(0.975, kNormal), 1.959963984540054, 1e-12);
-  EXPECT_EQ(student_quantile(0.975, 9.99), student_quantile(0.975, 9));
-  // Both formulas at their border: the difference of one degree of freedom.
-  EXPECT_NEAR(student_quantile(0.9995, 299) / student_quantile(0.9995, 300), 1 + 3.29 * 3.29 / (4 * 299 * 300), 1e-5);
-}
-
 // Welch's example of equal errors has twice the degrees of freedom; one error alone has its own.
 TEST(DifferenceOfEstimates, HasTheDegreesOfFreedomOfWelch) {
   const Estimate equal = difference_of({0.8, 0.03, 9}, {0.7, 0.03, 9});

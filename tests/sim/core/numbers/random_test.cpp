@@ -135,5 +135,36 @@ TEST(NormalQuantile, IsOddAboutOneHalfAndRejectsInvalidProbabilities) {
   }
 }
 
+// Tables of Student's distribution (Abramowitz and Stegun 1964, table 26.10; two-sided 5 % and 0.5 %, and 0.1 %).
+TEST(StudentQuantile, IsThatOfTheTables) {
+  struct Row {
+    double degrees, at_975, at_9975, at_9995;
+  };
+  for (const Row& row : {Row{1, 12.706, 127.321, 636.619}, Row{2, 4.303, 14.089, 31.599}, Row{3, 3.182, 7.453, 12.924},
+                         Row{4, 2.776, 5.598, 8.610}, Row{5, 2.571, 4.773, 6.869}, Row{9, 2.262, 3.690, 4.781},
+                         Row{20, 2.086, 3.153, 3.850}, Row{29, 2.045, 3.038, 3.659}, Row{60, 2.000, 2.915, 3.460},
+                         Row{120, 1.980, 2.860, 3.373}}) {
+    EXPECT_NEAR(student_quantile(0.975, row.degrees), row.at_975, 6e-4) << row.degrees;
+    EXPECT_NEAR(student_quantile(0.9975, row.degrees), row.at_9975, 6e-4) << row.degrees;
+    EXPECT_NEAR(student_quantile(0.9995, row.degrees), row.at_9995, 6e-4) << row.degrees;
+  }
+  constexpr double kNormal = std::numeric_limits<double>::infinity();
+  EXPECT_NEAR(student_quantile(0.975, kNormal), 1.959963984540054, 1e-12);
+  EXPECT_GT(student_quantile(0.975, 9), student_quantile(0.975, 9.5));
+  EXPECT_GT(student_quantile(0.975, 9.5), student_quantile(0.975, 10));
+}
+
+// Shape 1 is exponential: x = -ln Q. Shape 3: Q = e^{-x} (1 + x + x^2 / 2). Shape 1/2: P = erf(sqrt x). Equal tails
+// within the rounding of Q or P, 1e-16 over the tail's slope.
+TEST(GammaOfNormal, HasTheElementaryDistributions) {
+  for (const double y : {-6.0, -2.0, -0.1, 0.0, 0.1, 2.0, 6.0}) {
+    const double above = 0.5 * std::erfc(y / std::sqrt(2.0)), below = 0.5 * std::erfc(-y / std::sqrt(2.0));
+    const double one = gamma_of_normal(1, y), three = gamma_of_normal(3, y), half = gamma_of_normal(0.5, y);
+    EXPECT_NEAR(one / (y < 0 ? -std::log1p(-below) : -std::log(above)), 1, 1e-12) << y;
+    EXPECT_NEAR(std::exp(-three) * (1 + three + three * three / 2) / above, 1, 1e-12) << y;
+    EXPECT_NEAR(std::erf(std::sqrt(half)) / below, 1, 1e-12) << y;
+  }
+}
+
 }  // namespace
 }  // namespace seaglint
