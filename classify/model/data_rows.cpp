@@ -197,7 +197,7 @@ Condition condition_of(std::span<const DataRow> rows, const std::string& name) {
   return {name, column.unit, bins_of(column, most_values, kMostBins)};
 }
 
-std::vector<Condition> drawn_conditions(std::span<const DataRow> rows) {
+std::vector<Condition> conditions_of(std::span<const DataRow> rows) {
   if (rows.empty()) return {};
   std::vector<Condition> conditions{condition_of(rows, kWaveHeightColumn)};
   std::set<std::string> keys;
@@ -206,6 +206,13 @@ std::vector<Condition> drawn_conditions(std::span<const DataRow> rows) {
   keys.erase("sea.significant_wave_height_m");
   std::erase_if(keys, [](const std::string& key) { return key.ends_with("seed"); });  // their order has no meaning
   for (const std::string& key : keys) conditions.push_back(condition_of(rows, key));
+  for (const auto& [name, key] : {std::pair{"azimuth_deg", "view.azimuth_deg"},
+                                  {"elevation_deg", "view.elevation_deg"},
+                                  {"peak_period_s", "sea.peak_period_s"}}) {
+    if (keys.contains(key)) continue;
+    Condition swept = condition_of(rows, name);
+    if (swept.bins.size() > 1) conditions.push_back(std::move(swept));
+  }
   return conditions;
 }
 

@@ -72,8 +72,9 @@ struct Condition {
 // column_of().
 Condition condition_of(std::span<const DataRow> rows, const std::string& name);
 
-// The significant wave height, then every key that the scenarios draw, but that of the wave height and seeds.
-std::vector<Condition> drawn_conditions(std::span<const DataRow> rows);
+// The significant wave height, then every key that the scenarios draw, but that of the wave height and seeds; then
+// azimuth, elevation and peak period where they are swept.
+std::vector<Condition> conditions_of(std::span<const DataRow> rows);
 
 inline constexpr const char* kWaveHeightColumn = "significant_wave_height_m";
 

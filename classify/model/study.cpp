@@ -192,7 +192,7 @@ void refit(Study& study, const LearningTable& table, const LearningSpec& spec, s
 
 // Bootstrap keys: a block of 1000 per evaluation, in the order primary and alternative of the random, then of the group
 // protocol, of each group of features; then the probes. Within a block: the total, the bins of the wave height, from
-// kFirstDrawn on kMostBins for each drawn key.
+// kFirstDrawn on kMostBins for each drawn key, then the swept quantities.
 constexpr std::uint64_t kBootstrapBlock = 1000;
 constexpr std::uint64_t kFirstDrawn = kMostSweptBins + 1;
 
@@ -202,7 +202,7 @@ class Evaluator {
       : spec_(spec), seed_(seed), conditions_(std::move(conditions)) {}
 
   Evaluation operator()(const std::vector<Prediction>& predictions, std::size_t train_rows,
-                        std::vector<ConditionScores>* by_drawn = nullptr) {
+                        std::vector<ConditionScores>* by_condition = nullptr) {
     const std::uint64_t index = kBootstrapBlock * next_++;
     Evaluation evaluation{score(predictions, spec_.bootstrap_samples, seed_, index), {}, train_rows};
     if (conditions_.empty()) return evaluation;
@@ -210,8 +210,11 @@ class Evaluator {
       return score_by(condition, predictions, spec_.bootstrap_samples, seed_, index + first);
     };
     evaluation.by_wave_height = by(conditions_.front(), 1).bins;
-    for (std::size_t i = 1; by_drawn != nullptr && i < conditions_.size(); ++i)
-      by_drawn->push_back(by(conditions_[i], kFirstDrawn + kMostBins * (i - 1)));
+    std::uint64_t first = kFirstDrawn;
+    for (std::size_t i = 1; by_condition != nullptr && i < conditions_.size(); ++i) {
+      by_condition->push_back(by(conditions_[i], first));
+      first += std::max(kMostBins, conditions_[i].bins.size());
+    }
     return evaluation;
   }
   // An evaluation that is left out keeps its block.
@@ -220,9 +223,20 @@ class Evaluator {
  private:
   const LearningSpec& spec_;
   std::uint64_t seed_;
-  std::vector<Condition> conditions_;  // the wave height, then the drawn keys; empty without columns of the maps
+  std::vector<Condition> conditions_;  // conditions_of(); empty without columns of the maps
   std::uint64_t next_ = 0;
 };
+
+// Rows that a prediction of several splits gets wrong are listed once, by the surest one.
+std::vector<Prediction> surest_errors(std::vector<Prediction> predictions) {
+  std::erase_if(predictions, [](const Prediction& prediction) { return prediction.decision() == prediction.label; });
+  std::ranges::stable_sort(predictions, {}, [](const Prediction& wrong) { return -wrong.of(wrong.decision()); });
+  std::vector<Prediction> errors;
+  for (const Prediction& wrong : predictions)
+    if (errors.size() < kMostWrong && std::ranges::find(errors, wrong.row, &Prediction::row) == errors.end())
+      errors.push_back(wrong);
+  return errors;
+}
 
 std::vector<ProbeResult> run_probes(const LearningTable& table, const LearningSpec& spec, double train_fraction,
                                     std::uint64_t seed, StudyScope scope, Evaluator& evaluate, Progress& progress,
@@ -339,13 +353,16 @@ Study run_study(const LearningTable& table, const LearningSpec& spec, double tra
       const auto& more = (done[first + repeat].*kind)[group];
       predictions.insert(predictions.end(), more.begin(), more.end());
     }
-    if (primary != nullptr) primary->roc = roc_curves(predictions);
-    return evaluate(predictions, done[first].train_rows[group], primary ? &primary->by_drawn : nullptr);
+    if (primary != nullptr) {
+      primary->roc = roc_curves(predictions);
+      primary->wrong = surest_errors(predictions);
+    }
+    return evaluate(predictions, done[first].train_rows[group], primary ? &primary->by_condition : nullptr);
   };
 
   Study study;
   study.classes = table.classes;
-  Evaluator evaluate(spec, seed, drawn_conditions(table.maps));
+  Evaluator evaluate(spec, seed, conditions_of(table.maps));
   for (std::size_t group = 0; group < kModels; ++group) {
     FeatureGroupResult result;
     result.name = kModelNames[group];
@@ -507,8 +524,13 @@ ordered_json to_json(const Study& study, const LearningSpec& spec) {
         entry[name(outcome.protocol)]["by_wave_height"][i]["roc"] =
             to_object(outcome.primary.by_wave_height[i].roc, study.classes);
       entry[name(outcome.protocol)]["logistic_regression"] = to_object(outcome.linear, study.classes);
-      for (const ConditionScores& condition : outcome.by_drawn)
-        entry[name(outcome.protocol)]["by_drawn"].push_back(to_object(condition, study.classes));
+      for (const ConditionScores& condition : outcome.by_condition)
+        entry[name(outcome.protocol)]["by_condition"].push_back(to_object(condition, study.classes));
+      for (const Prediction& wrong : outcome.wrong)
+        entry[name(outcome.protocol)]["wrong"].push_back({{"row", wrong.row},
+                                                          {"label", wrong.label},
+                                                          {"declared", wrong.decision()},
+                                                          {"probability", wrong.of(wrong.decision())}});
       if (outcome.alternative) others[name(outcome.protocol)] = to_object(*outcome.alternative, study.classes);
     }
     if (!others.empty()) entry[network ? fusion_name(other) : "fewer_rows"] = others;

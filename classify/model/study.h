@@ -25,6 +25,7 @@ namespace seaglint {
 // Trees on hand-made features, on the network's outputs, on both, on hand-made and motion_features().
 inline constexpr std::array kModelNames{"handmade", "cnn", "fused", "extended"};
 inline constexpr std::size_t kModels = kModelNames.size();
+inline constexpr std::size_t kMostWrong = 12;
 
 struct Evaluation {
   Scores scores;
@@ -41,7 +42,8 @@ struct Outcome {
   std::optional<Evaluation> alternative;   // absent in StudyScope::kPrimary
   Evaluation linear;                       // logistic regression in place of the trees of the primary
   std::vector<std::vector<RocPoint>> roc;  // of the primary: roc_curves()
-  std::vector<ConditionScores> by_drawn;   // of the primary, by each drawn key
+  std::vector<ConditionScores> by_condition;  // of the primary, by conditions_of() after the wave height
+  std::vector<Prediction> wrong;  // of the primary, the surest first: at most kMostWrong rows, each once
 };
 
 struct FeatureGroupResult {

@@ -589,6 +589,11 @@ void visit(LearningSpec& spec, FieldVisitor& v) {
             "Bootstrap samples of the confidence intervals.");
 }
 
+void visit(ReportSpec& spec, FieldVisitor& v) {
+  v.choice("claims", spec.claims, {"none", "paper"},
+           "paper: also judge the claims of Yuan et al., Corner Reflector Array Jamming Discrimination.");
+}
+
 }  // namespace
 
 bool Bound::holds(double value) const {
@@ -646,6 +651,7 @@ void visit_fields(Scenario& scenario, FieldVisitor& v) {
   v.section("dataset", scenario.dataset, visit, "Size and division of the data set.");
   v.section("features", scenario.features, visit, "Scattering centres and their features.");
   v.section("learning", scenario.learning, visit, "Training of network and trees.");
+  v.section("report", scenario.report, visit, "Contents of the report.");
 }
 
 }  // namespace seaglint

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The `dataset`, `features` and `learning` sections of a scenario.
+// The `dataset`, `features`, `learning` and `report` sections of a scenario.
 
 #include <string>
 #include <vector>
@@ -80,6 +80,15 @@ struct LearningSpec {
   int bootstrap_samples = 1000;
 
   bool operator==(const LearningSpec&) const = default;
+};
+
+// kPaper: the report also judges the claims of the paper whose pipeline this is.
+enum class ReportClaims { kNone, kPaper };
+
+struct ReportSpec {
+  ReportClaims claims = ReportClaims::kNone;
+
+  bool operator==(const ReportSpec&) const = default;
 };
 
 }  // namespace seaglint

@@ -44,6 +44,7 @@ struct Scenario : ScenarioOrigin {
   DatasetSpec dataset;
   FeatureSpec features;
   LearningSpec learning;
+  ReportSpec report;
   // Keys that are drawn; the fields have the middles of their distributions (drawn_scenario()).
   std::vector<Variation> variations;
 

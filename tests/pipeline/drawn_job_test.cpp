@@ -314,7 +314,7 @@ class DrawnJob : public testing::Test {
       ASSERT_NE(by, evaluation.at("by").end());
       EXPECT_LE(by->at("bins").size(), 8u);
       if (key.key == "sea.significant_wave_height_m" || key.path().ends_with("seed")) continue;
-      const json& drawn = metrics.at("fused").at("group").at("by_drawn");
+      const json& drawn = metrics.at("fused").at("group").at("by_condition");
       EXPECT_TRUE(std::ranges::any_of(drawn, [&](const json& c) { return c.at("column") == key.path(); }));
     }
     EXPECT_LE(metrics.at("handmade").at("group").at("by_wave_height").size(), 8u);
@@ -394,7 +394,7 @@ TEST_F(DrawnJob, IsDoneWithPairsOfAScatterDiagram) {
   write_report(run, scenario, 1, nullptr);
   const json metrics = json::parse(read_file(run / "metrics.json"));
   std::vector<std::string> drawn;
-  for (const json& condition : metrics.at("fused").at("group").at("by_drawn")) drawn.push_back(condition.at("column"));
+  for (const json& condition : metrics.at("fused").at("group").at("by_condition")) drawn.push_back(condition.at("column"));
   EXPECT_THAT(drawn, testing::ElementsAre("sea.peak_period_s", "view.azimuth_deg"));
 }
 

@@ -372,7 +372,7 @@ TEST_F(StoredEchoFeatures, RefuseWhatNeedsOtherEchoes) {
     EXPECT_FALSE(fs::exists(place())) << set;
     return result.err;
   };
-  EXPECT_THAT(complaint("sea.peak_period_s=9"), HasSubstr("only clutter, map, features and learning can be set"));
+  EXPECT_THAT(complaint("sea.peak_period_s=9"), HasSubstr("only clutter, map, features, learning and report can be set"));
   EXPECT_THAT(complaint("seed=3"), HasSubstr("`seed: 42` there, `seed: 3` here"));
   EXPECT_THAT(complaint("dataset.maps_per_case=12"), HasSubstr("maps_per_case: 6` there, `  maps_per_case: 12` here"));
   EXPECT_THAT(complaint("map.range_span_m=900"),

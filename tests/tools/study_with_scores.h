@@ -41,8 +41,8 @@ inline Study study_of(const std::vector<double>& handmade, const std::vector<dou
     FeatureGroupResult group;
     group.name = name;
     const Evaluation random = evaluation_of(std::vector<double>(values.size(), 0.99));
-    group.outcomes = {{Protocol::kRandom, random, {}, random, {}, {}},
-                      {Protocol::kGroup, evaluation_of(values), {}, evaluation_of(linear), {}, {}}};
+    group.outcomes = {{Protocol::kRandom, random, {}, random, {}, {}, {}},
+                      {Protocol::kGroup, evaluation_of(values), {}, evaluation_of(linear), {}, {}, {}}};
     study.groups.push_back(group);
   }
   const Evaluation chance = evaluation_of({0.5});

@@ -76,6 +76,9 @@ void make_data_set(const Pipeline& pipeline, const std::string& directory, const
   if (result.missing > 0)
     print_out("{} shards of other parts are still missing or damaged; the last part writes the manifest\n",
               result.missing);
+  else
+    print_out("Next: `seaglint verify {0}`, `seaglint train {0} -o MODEL`, or seaglint.Dataset(\"{0}\") in Python\n",
+              directory);
 }
 
 void generate(const GenerateArguments& arguments, const CommandContext& context) {

@@ -91,7 +91,8 @@ void add_train(CommandOptions& program, CommandContext& context) {
       for (const std::string& data : arguments->data) request.data_sets.push_back(find_data_set(data));
       const TrainedModel model = train_model(request);
       warn(model.warnings);
-      print_out("{}\n{}: network, trees and {}\n", accuracy_table(model.study), arguments->model, kMetricsFile);
+      print_out("{}\n{}: network, trees and {}\nNext: `seaglint evaluate {} DATA_SET` on another data set\n",
+                accuracy_table(model.study), arguments->model, kMetricsFile, arguments->model);
     };
   });
 }

@@ -124,6 +124,7 @@ Scenario without_maps(Scenario scenario) {
   scenario.map = {};
   scenario.features = {};
   scenario.learning = {};
+  scenario.report = {};
   const DatasetSpec standard;
   scenario.dataset.train_fraction = standard.train_fraction;
   scenario.dataset.complex_maps = scenario.dataset.echoes = false;
@@ -173,7 +174,7 @@ void require_same_echoes(const Pipeline& pipeline, const Scenario& stored) {
   const Scenario there = without_maps(stored), here = without_maps(pipeline.scenario());
   if (there != here) {
     throw InputError(fmt::format(
-        "--set: only clutter, map, features and learning can be set, the stored echoes depend on the rest: {}",
+        "--set: only clutter, map, features, learning and report can be set, the stored echoes depend on the rest: {}",
         first_difference(effective_yaml(there), effective_yaml(here))));
   }
   const double before_m = pipeline.window_m_of(stored);

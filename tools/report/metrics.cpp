@@ -82,11 +82,27 @@ class StudyReader {
       outcome.linear = evaluation(of_protocol.at("logistic_regression"));
       outcome.roc = curves(of_protocol.at("roc"));
       if (json.contains(other)) outcome.alternative = evaluation(json.at(other).at(member));
-      if (!of_protocol.contains("by_drawn")) continue;
-      for (const ordered_json& condition : of_protocol.at("by_drawn"))
-        outcome.by_drawn.push_back({condition.at("column"), condition.at("units"), bins(condition.at("bins"), "mean")});
+      if (of_protocol.contains("wrong"))
+        for (const ordered_json& wrong : of_protocol.at("wrong")) outcome.wrong.push_back(error_of(wrong));
+      if (!of_protocol.contains("by_condition")) continue;
+      for (const ordered_json& condition : of_protocol.at("by_condition"))
+        outcome.by_condition.push_back(
+            {condition.at("column"), condition.at("units"), bins(condition.at("bins"), "mean")});
     }
     return group;
+  }
+
+  // The probabilities of other classes than the declared one are not stored.
+  Prediction error_of(const ordered_json& json) const {
+    Prediction error{json.at("row"), 0, json.at("label"), 0, {}};
+    const std::size_t declared = json.at("declared");
+    const double probability = json.at("probability");
+    if (classes_.size() == 2) error.probability = declared == 1 ? probability : 1 - probability;
+    if (classes_.size() > 2) {
+      error.by_class.assign(classes_.size(), 0);
+      error.by_class.at(declared) = probability;
+    }
+    return error;
   }
 
   Evaluation evaluation(const ordered_json& json) const {

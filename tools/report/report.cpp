@@ -7,7 +7,6 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <numeric>
 #include <string_view>
 
 #include "classify/model/data_rows.h"
@@ -19,6 +18,7 @@
 #include "tools/page/html.h"
 #include "tools/pipeline/scene.h"
 #include "tools/pipeline/warnings.h"
+#include "tools/report/finding.h"
 
 namespace seaglint {
 
@@ -51,54 +51,6 @@ std::vector<Protocol> protocols_of(const Study& study) {
 std::string probe_accuracy(const Study& study, std::string_view name) {
   const auto probe = std::ranges::find(study.probes, name, &ProbeResult::name);
   return percent(probe == study.probes.end() ? std::nan("") : probe->of_group().scores.accuracy);
-}
-
-// Accuracies from the class frequencies alone.
-struct Guessing {
-  double least = 0.5, most = 0.5;
-
-  std::string text() const {
-    const std::string high = fmt::format("{:.1f} %", 100 * most);
-    return most - least < 5e-4 ? high : fmt::format("{:.1f} to {}", 100 * least, high);
-  }
-};
-
-Guessing guessing(const Scores& scores) {
-  std::vector<double> rows;
-  for (const std::vector<std::size_t>& of_truth : scores.confusion)
-    rows.push_back(static_cast<double>(std::accumulate(of_truth.begin(), of_truth.end(), std::size_t{0})));
-  const double all = std::accumulate(rows.begin(), rows.end(), 0.0), even = 1 / static_cast<double>(rows.size());
-  if (!(all > 0)) return {even, even};
-  double squares = 0;
-  for (const double count : rows) squares += count / all * (count / all);
-  return {squares, *std::ranges::max_element(rows) / all};
-}
-
-// independent: of a probe that is random by construction, which is away from chance below guessing, too. Any other
-// probe separates nothing there: what it learnt does not hold on unseen rows.
-bool scores_as_chance(const Scores& scores, bool independent, int repeats) {
-  constexpr double kDeviations = 2.576;  // 99 % of a normal distribution, two-sided
-  const Guessing guess = guessing(scores);
-  if (!independent && std::isfinite(scores.accuracy_95.low)) return scores.accuracy_95.low <= guess.most;
-  const double rows = static_cast<double>(scores.rows) / repeats;
-  const double off = std::max({scores.accuracy - guess.most, independent ? guess.least - scores.accuracy : 0.0, 0.0});
-  return off <= kDeviations * std::sqrt(guess.most * (1 - guess.most) / rows);
-}
-
-bool as_chance(const ProbeResult& probe, int repeats) {
-  return std::ranges::all_of(probe.evaluations, [&](const Evaluation& evaluation) {
-    return scores_as_chance(evaluation.scores, probe.kind == ProbeKind::kBlind, repeats);
-  });
-}
-
-// Those of clutter and noise whose level does not follow the target's; empty if both do. The target's level then
-// determines which of its centres exceed the threshold, and so affects the features.
-std::string not_scaled(const ClutterSpec& clutter) {
-  const bool sea = clutter.enabled && clutter.level == ClutterLevel::kNrl;
-  const bool receiver = clutter.noise_level == NoiseLevel::kThermal;
-  if (sea && receiver) return "Clutter and receiver noise are";
-  if (sea) return "The clutter is";
-  return receiver ? "The receiver’s noise is" : "";
 }
 
 // Interpretation of a probe's accuracy by its kind.
@@ -146,7 +98,7 @@ std::array<const Outcome*, 3> outcomes_of(const Study& study, Protocol protocol)
 }
 
 std::string heading_of(Protocol protocol, const DivisionWords& division) {
-  return protocol == Protocol::kRandom ? "Random split of the maps (the paper’s protocol)"
+  return protocol == Protocol::kRandom ? "Random split of the maps (maps of one sea on both sides)"
                                        : escape_html(division.heading);
 }
 
@@ -163,22 +115,22 @@ std::string heights_table(const Study& study, Protocol protocol) {
   return html_table(rows);
 }
 
-// Accuracy by the bins of every drawn key; empty without drawn keys.
-std::string drawn_table(const Study& study, Protocol protocol, const DivisionWords& division) {
-  Rows rows{{"drawn key", "values", "hand-made", "CNN", "fused", "test predictions", "test seas"}};
+// Accuracy by the bins of every drawn key and swept quantity; empty without any.
+std::string conditions_table(const Study& study, Protocol protocol, const DivisionWords& division) {
+  Rows rows{{"quantity", "values", "hand-made", "CNN", "fused", "test predictions", "test seas"}};
   const auto [a, b, c] = outcomes_of(study, protocol);
-  if (a->by_drawn.empty()) return "";
-  for (std::size_t key = 0; key < a->by_drawn.size(); ++key) {
-    const ConditionScores& condition = a->by_drawn[key];
+  if (a->by_condition.empty()) return "";
+  for (std::size_t key = 0; key < a->by_condition.size(); ++key) {
+    const ConditionScores& condition = a->by_condition[key];
     const bool has_unit = !condition.unit.empty() && condition.unit != "1";
     for (std::size_t bin = 0; bin < condition.bins.size(); ++bin) {
-      const auto scores = [&](const Outcome* outcome) { return &outcome->by_drawn[key].bins[bin].scores; };
+      const auto scores = [&](const Outcome* outcome) { return &outcome->by_condition[key].bins[bin].scores; };
       rows.push_back({escape_html(condition.name),
                       escape_html(condition.bins[bin].text + (has_unit ? " " + condition.unit : ""))});
       add_accuracies(rows.back(), {scores(a), scores(b), scores(c)});
     }
   }
-  return fmt::format("<details><summary>By drawn quantity, {}</summary>\n{}</details>\n",
+  return fmt::format("<details><summary>By drawn and swept quantities, {}</summary>\n{}</details>\n",
                      protocol == Protocol::kRandom ? "random split" : escape_html(division.heading), html_table(rows));
 }
 
@@ -231,7 +183,7 @@ std::string accuracy_tables(const Study& study, const Scenario& scenario, const 
   std::string html;
   for (const Protocol protocol : protocols_of(study))
     html += fmt::format("<h3>{}</h3>\n", heading_of(protocol, division)) + heights_table(study, protocol);
-  for (const Protocol protocol : protocols_of(study)) html += drawn_table(study, protocol, division);
+  for (const Protocol protocol : protocols_of(study)) html += conditions_table(study, protocol, division);
   html += "<h3>Further figures of merit, all wave heights</h3>\n" + merits_table(study, scenario, division);
   const ClassNames classes = class_names(scenario);
   return classes.size() > 2 ? html + confusion_table(study, classes, division) : html;
@@ -476,38 +428,38 @@ std::string report_body(const RunResults& results, const Scenario& scenario, con
   };
   double seconds = 0;
   for (const auto& [stage, of_stage] : numbers.run.seconds) seconds += of_stage;
-  PageValues values{
-      {"question", scenario.dataset.classes == default_classes() ? "Ship or corner-reflector array"
-                                                                 : fmt::format("{}", fmt::join(classes, " or "))},
-      {"the_classes", classes.size() == 2 ? "two" : "classes"},
-      {"scenario", scenario.name},
-      {"seed", fmt::format("{}", scenario.seed)},
-      {"version", numbers.version},
-      {"maps", number(data.rows.size())},
-      {"handmade", accuracy("handmade")},
-      {"network", accuracy("cnn")},
-      {"fused", accuracy("fused")},
-      {"fused_random", both_protocols ? accuracy("fused", Protocol::kRandom) : ""},
-      {"unseen", division.unseen},
-      {"by", division.by},
-      {"by_sea", division.by_sea ? "yes" : ""},
-      {"run_seconds", fmt::format("{:.0f}", seconds)},
-      {"explorer", explorer_of(data)},
-      {"accuracy_tables", accuracy_tables(study, scenario, division)},
-      {"pooled", pooled ? "yes" : ""},
-      {"repeats", fmt::format("{}", scenario.learning.split_repeats)},
-      {"both_protocols", both_protocols ? "yes" : ""},
-      {"both_fusions", outcome_of(study, "fused").alternative ? "yes" : ""},
-      {"claims", claims_table(study, scenario)},
-      {"feature_table", feature_table(data, classes)},
-      {"even_chance", fmt::format("{:.0f}", 100.0 / static_cast<double>(classes.size()))},
-      {"probes", probes_table(study, scenario)},
-      {"missing", parts.missing},
-      {"hot_spots", parts.hot_spots.json},
-      {"hot_spots_about", parts.hot_spots.about},
-      {"provenance", provenance_table(numbers, scenario)},
-      {"effective_scenario", effective_yaml(scenario)}};
-  for (const char* section : {"maps", "accuracy", "scatter", "features", "aspects", "sea", "targets"}) {
+  PageValues values{{"the_question", capital(fmt::format("{}", fmt::join(classes.rbegin(), classes.rend(), " or ")))},
+                    {"finding", finding(study, scenario)},
+                    {"the_classes", classes.size() == 2 ? "two" : "classes"},
+                    {"scenario", scenario.name},
+                    {"seed", fmt::format("{}", scenario.seed)},
+                    {"version", numbers.version},
+                    {"maps", number(data.rows.size())},
+                    {"handmade", accuracy("handmade")},
+                    {"network", accuracy("cnn")},
+                    {"fused", accuracy("fused")},
+                    {"fused_random", both_protocols ? accuracy("fused", Protocol::kRandom) : ""},
+                    {"unseen", division.unseen},
+                    {"by", division.by},
+                    {"by_sea", division.by_sea ? "yes" : ""},
+                    {"run_seconds", fmt::format("{:.0f}", seconds)},
+                    {"explorer", explorer_of(data)},
+                    {"accuracy_tables", accuracy_tables(study, scenario, division)},
+                    {"pooled", pooled ? "yes" : ""},
+                    {"repeats", fmt::format("{}", scenario.learning.split_repeats)},
+                    {"both_protocols", both_protocols ? "yes" : ""},
+                    {"both_fusions", outcome_of(study, "fused").alternative ? "yes" : ""},
+                    {"claims", scenario.report.claims == ReportClaims::kPaper ? claims_table(study, scenario) : ""},
+                    {"feature_table", feature_table(data, classes)},
+                    {"even_chance", fmt::format("{:.0f}", 100.0 / static_cast<double>(classes.size()))},
+                    {"probes", probes_table(study, scenario)},
+                    {"missing", parts.missing},
+                    {"hot_spots", parts.hot_spots.json},
+                    {"hot_spots_about", parts.hot_spots.about},
+                    {"provenance", provenance_table(numbers, scenario)},
+                    {"effective_scenario", effective_yaml(scenario)}};
+  for (const char* section :
+       {"maps", "accuracy", "wrong", "scatter", "features", "neighbours", "aspects", "sea", "targets"}) {
     const bool replaced = section == std::string_view("maps") || section == std::string_view("scatter");
     values[fmt::format("{}_figures", section)] = figures_of(parts.figures, section, replaced);
   }

@@ -21,11 +21,7 @@ namespace seaglint {
 
 inline constexpr const char* kReportFile = "report.html";
 
-// The quantities that could reveal the class with their accuracies, and what these say, as HTML. Accuracies are
-// compatible with guessing under all protocols that the study has, or tell. Of a probe that is random by construction
-// and so independent from map to map: 99 % binomial interval of one split's rows (repeats reuse the same maps). Of any
-// other: its bootstrap interval over seas; below guessing it does not tell either. Guessing: from the class frequencies
-// of the tested rows, in proportion to them to always naming the largest class.
+// The quantities that could reveal the class with their accuracies, and what these say (as_chance()), as HTML.
 std::string probes_table(const Study& study, const Scenario& scenario);
 
 // Accuracies of baselines and floor, in total and by wave height, and claims, as HTML; with a link to the benchmark's

@@ -19,6 +19,7 @@
 #include "tools/figure/mesh_picture.h"
 #include "tools/figure/tsne.h"
 #include "tools/page/html.h"
+#include "tools/pipeline/generate.h"
 #include "tools/pipeline/scene.h"
 #include "tools/report/explorer.h"
 #include "tools/report/report_data.h"
@@ -37,11 +38,14 @@ std::string split_name(const SplitSpec& split, Protocol protocol) {
   return split.by == "sea" ? "split by sea realisation" : "split by " + split.by;
 }
 
+constexpr double kFewestAlarms = 0.1;  // %, left end of the ROC's logarithmic axis
+
+// Points of fewer false alarms, none among them, stand at kFewestAlarms.
 Series curve_of(std::string name, const std::vector<RocPoint>& points) {
   Series series;
   series.name = std::move(name);
   for (const RocPoint& point : points) {
-    series.x.push_back(100 * point.false_alarms);
+    series.x.push_back(std::max(100 * point.false_alarms, kFewestAlarms));
     series.y.push_back(100 * point.detections);
   }
   return series;
@@ -51,12 +55,17 @@ Series curve_of(std::string name, const std::vector<RocPoint>& points) {
 LinePlot empty_roc_plot(std::string title) {
   LinePlot plot;
   plot.title = std::move(title);
-  plot.x = {"false alarms: label 0 declared label 1 (%)", AxisRange{0, 100}, false};
+  plot.x = {"false alarms: label 0 declared label 1 (%)", AxisRange{kFewestAlarms, 100}, true};
   plot.y = {"detections: label 1 declared label 1 (%)", AxisRange{0, 102}, false};
   return plot;
 }
 
-Series chance() { return {"chance", {0, 100}, {0, 100}, {}, SeriesStyle::kLines}; }
+Series chance() {
+  Series series{"chance", {}, {}, {}, SeriesStyle::kLines};
+  for (int i = 0; i <= 60; ++i) series.x.push_back(kFewestAlarms * std::pow(10, i / 20.0));
+  series.y = series.x;
+  return series;
+}
 
 // Accuracy of each group of features, %, with 95 % intervals, over the means of the bins of bins_of(group).
 LinePlot binned_accuracy_plot(std::string title, FigureAxis axis,
@@ -98,18 +107,18 @@ LinePlot accuracy_plot(const Study& study, const SplitSpec& split, Protocol prot
       });
 }
 
-// The same under the group protocol over the drawn keys of numbers, by key: over the means of their bins.
-std::vector<std::pair<std::string, LinePlot>> drawn_accuracy_plots(const Study& study, const SplitSpec& split) {
+// The same under the group protocol over the drawn and swept quantities that are numbers: over the means of their bins.
+std::vector<std::pair<std::string, LinePlot>> condition_accuracy_plots(const Study& study, const SplitSpec& split) {
   std::vector<std::pair<std::string, LinePlot>> plots;
-  const std::vector<ConditionScores>& drawn = outcome_of(study, "handmade").by_drawn;
-  for (std::size_t i = 0; i < drawn.size() && plots.size() < kMostDrawnPlots; ++i) {
-    const auto& [key, units, bins] = drawn[i];
+  const std::vector<ConditionScores>& conditions = outcome_of(study, "handmade").by_condition;
+  for (std::size_t i = 0; i < conditions.size() && plots.size() < kMostDrawnPlots; ++i) {
+    const auto& [key, units, bins] = conditions[i];
     if (bins.size() < 2 || !std::isfinite(bins.front().mean)) continue;  // words and single values have no axis
     plots.emplace_back(
         key, binned_accuracy_plot(
                  "Accuracy, " + split_name(split, Protocol::kGroup),
                  {units == "1" ? key : fmt::format("{} ({})", key, units), {}, false},
-                 [&](const char* group) -> const auto& { return outcome_of(study, group).by_drawn[i].bins; }));
+                 [&](const char* group) -> const auto& { return outcome_of(study, group).by_condition[i].bins; }));
   }
   return plots;
 }
@@ -175,8 +184,13 @@ class FigureList {
                         std::move(alternative),
                         ""};
     if constexpr (std::is_same_v<Plot, LinePlot>) figure.plot = plot_json(plot);
-    drawings_.push_back(
-        {std::move(figure), [plot = std::move(plot), size](const fs::path& file) { write_figure(plot, file, size); }});
+    if constexpr (std::is_same_v<Plot, PlotPanels>) figure.plot = plot_json(plot.plots, plot.columns);
+    drawings_.push_back({std::move(figure), [plot = std::move(plot), size](const fs::path& file) {
+                           if constexpr (std::is_same_v<Plot, PlotPanels>)
+                             write_figure("", plot, file);
+                           else
+                             write_figure(plot, file, size);
+                         }});
   }
 
   void add_picture(const std::string& section, const std::string& name, std::function<void(const fs::path&)> draw,
@@ -228,26 +242,31 @@ std::array<double, 4> centre_box(const ShownMap& shown) {
           std::min(box[3], velocity.back())};
 }
 
+Heatmap heatmap_of(const ShownMap& shown) {
+  const SampleRecord& record = shown.sample.record;
+  Heatmap map;
+  map.title = fmt::format("{}, azimuth {:g} deg, Hs {:g} m", record.target_name, record.azimuth_deg,
+                          record.significant_wave_height_m);
+  map.x.label = "range relative to the target's reference (m)";
+  map.y.label = "velocity, positive = receding (m/s)";
+  map.colour = {"|RV| below the strongest cell (dB)", AxisRange{kMapFloorDb, 0}, false};
+  map.x_cells = shown.axes.range_m;
+  map.y_cells = shown.axes.velocity_mps;
+  for (const float value : shown.sample.magnitude) {
+    map.values.push_back(20 * std::log10(std::max<double>(value, 1e-12) / std::max(record.peak_m, 1e-12)));
+  }
+  for (const StoredCentre& centre : shown.sample.centre_list) map.markers.push_back({centre[0], centre[1]});
+  map.marker_name = "scattering centres";
+  if (!shown.sample.centre_list.empty()) map.boxes.push_back(centre_box(shown));
+  return map;
+}
+
 void add_maps(FigureList& list, const ReportData& data) {
   for (const ShownMap& shown : data.shown) {
     const SampleRecord& record = shown.sample.record;
-    Heatmap map;
-    map.title = fmt::format("{}, azimuth {:g} deg, Hs {:g} m", record.target_name, record.azimuth_deg,
-                            record.significant_wave_height_m);
-    map.x.label = "range relative to the target's reference (m)";
-    map.y.label = "velocity, positive = receding (m/s)";
-    map.colour = {"|RV| below the strongest cell (dB)", AxisRange{kMapFloorDb, 0}, false};
-    map.x_cells = shown.axes.range_m;
-    map.y_cells = shown.axes.velocity_mps;
-    for (const float value : shown.sample.magnitude) {
-      map.values.push_back(20 * std::log10(std::max<double>(value, 1e-12) / std::max(record.peak_m, 1e-12)));
-    }
-    for (const StoredCentre& centre : shown.sample.centre_list) map.markers.push_back({centre[0], centre[1]});
-    map.marker_name = "scattering centres";
-    if (!shown.sample.centre_list.empty()) map.boxes.push_back(centre_box(shown));
     const LineFit line = fit_line(shown.sample.centre_list);
     list.add(
-        "maps", fmt::format("map_{}_{:g}deg", file_word(record.target_name), record.azimuth_deg), std::move(map),
+        "maps", fmt::format("map_{}_{:g}deg", file_word(record.target_name), record.azimuth_deg), heatmap_of(shown),
         {720, 450},
         fmt::format("<b>{}</b>, azimuth {:g}°, H<sub>s</sub> {:g} m (sample {}). Strongest cell {:.3g} m ({:.1f} "
                     "dBsm), {} centres, "
@@ -262,6 +281,28 @@ void add_maps(FigureList& list, const ReportData& data) {
   }
 }
 
+// Maps that the fused features get wrong on unseen seas, the surest first.
+void add_wrong_maps(FigureList& list, const ReportData& data, const Study& study, const ClassNames& classes,
+                    const fs::path& directory) {
+  constexpr std::size_t kMost = 4;
+  const std::vector<Prediction>& wrong = outcome_of(study, "fused").wrong;
+  if (wrong.empty()) return;
+  const DatasetReader reader(directory / "data");
+  for (std::size_t i = 0; i < std::min(kMost, wrong.size()); ++i) {
+    const std::int64_t sample = data.rows.at(wrong[i].row).record.sample;
+    const ShownMap shown{stored_sample(reader, static_cast<std::size_t>(sample)).sample, data.axes};
+    const SampleRecord& record = shown.sample.record;
+    list.add(
+        "wrong", fmt::format("wrong_map_{}", i + 1), heatmap_of(shown), {720, 450},
+        fmt::format("Sample {}: <b>{}</b> declared <b>{}</b> with probability {:.2f}. {} centres, MWR {:.3g} (m/s)², "
+                    "CCF {:.2f}.",
+                    sample, escape_html(classes.at(static_cast<std::size_t>(wrong[i].label))),
+                    escape_html(classes.at(static_cast<std::size_t>(wrong[i].decision()))),
+                    wrong[i].of(wrong[i].decision()), record.centres, record.mwr, record.ccf),
+        fmt::format("Range-velocity map of sample {}, wrongly classified", sample), false);
+  }
+}
+
 void add_scores(FigureList& list, const Study& study, const SplitSpec& split) {
   const DivisionWords division = division_words(split, study.division);
   const std::string unseen = escape_html(division.unseen), by = escape_html(division.by);
@@ -270,16 +311,16 @@ void add_scores(FigureList& list, const Study& study, const SplitSpec& split) {
     const bool random = outcome.protocol == Protocol::kRandom;
     list.add("accuracy", fmt::format("accuracy_{}", name(outcome.protocol)),
              accuracy_plot(study, split, outcome.protocol), {640, 400},
-             random ? "Random split: the paper's protocol. Maps of the same sea lie on both sides. Bars: 95 % "
+             random ? "Random split: maps of the same sea lie on both sides. Bars: 95 % "
                       "bootstrap over seas."
                     : fmt::format("Split {}: tested on {}. No bar where a height has one test sea only.", by, unseen),
              fmt::format("Accuracy against wave height, {} split", name(outcome.protocol)));
   }
-  for (auto& [key, plot] : drawn_accuracy_plots(study, split)) {
+  for (auto& [key, plot] : condition_accuracy_plots(study, split)) {
     list.add(
         "accuracy", "accuracy_by_" + file_word(key), std::move(plot), {640, 400},
-        fmt::format("The same for {} by <code>{}</code>, which is drawn: at most {} bins of equal numbers of maps, "
-                    "at the means of their values.",
+        fmt::format("The same for {} by <code>{}</code>: swept values each, drawn ones in at most {} bins of equal "
+                    "numbers of maps, at the means of their values.",
                     unseen, escape_html(key), kMostBins),
         "Accuracy against " + key);
   }
@@ -288,8 +329,8 @@ void add_scores(FigureList& list, const Study& study, const SplitSpec& split) {
              {640, 400},
              outcome.protocol == Protocol::kRandom
                  ? "Receiver operating characteristic over the threshold of the trees' probability, all test "
-                   "predictions of the random split."
-                 : fmt::format("{} for {}. Maps of one sea are not independent.",
+                   "predictions of the random split; no false alarm stands at 0.1 %."
+                 : fmt::format("{} for {}; no false alarm stands at 0.1 %. Maps of one sea are not independent.",
                                outcomes.size() > 1 ? "The same" : "Receiver operating characteristic", unseen),
              fmt::format("ROC, {} split", name(outcome.protocol)));
   }
@@ -318,6 +359,60 @@ LinePlot class_scatter(const ReportData& data, const ClassNames& classes,
   return plot;
 }
 
+// The share of each class's maps, %, over the values of one quantity, as steps; bins of equal ratios where the axis is
+// logarithmic. Undefined values are left out.
+LinePlot histogram(const ReportData& data, const ClassNames& classes, const FigureAxis& axis,
+                   const std::function<double(const ReportRow&)>& value) {
+  constexpr int kBins = 24;
+  const auto place = [&](double x) { return axis.logarithmic ? std::log10(std::max(x, 1e-6)) : x; };
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  for (const ReportRow& row : data.rows) {
+    if (!std::isfinite(value(row))) continue;
+    least = std::min(least, place(value(row)));
+    most = std::max(most, place(value(row)));
+  }
+  LinePlot plot;
+  plot.title = axis.label;
+  plot.x = axis;
+  plot.y = {"maps of the class (%)", {}, false};
+  const double width = most > least ? (most - least) / kBins : 1;
+  for (int label = 0; label < data.classes; ++label) {
+    std::vector<double> counts(kBins, 0.0);
+    double all = 0;
+    for (const ReportRow& row : data.rows) {
+      if (row.record.label != label || !std::isfinite(value(row))) continue;
+      const double bin = (place(value(row)) - least) / width;
+      counts[static_cast<std::size_t>(std::clamp(bin, 0.0, kBins - 1.0))] += 1;
+      all += 1;
+    }
+    Series series{classes[static_cast<std::size_t>(label)], {}, {}, {}, SeriesStyle::kLines};
+    for (int edge = 0; edge <= kBins; ++edge) {
+      const double x = least + edge * width;
+      for (const int bin : {edge - 1, edge}) {
+        series.x.push_back(axis.logarithmic ? std::pow(10, x) : x);
+        const bool is_inside = bin >= 0 && bin < kBins && all > 0;
+        series.y.push_back(is_inside ? 100 * counts[static_cast<std::size_t>(bin)] / all : 0);
+      }
+    }
+    plot.series.push_back(std::move(series));
+  }
+  return plot;
+}
+
+PlotPanels feature_histograms(const ReportData& data, const ClassNames& classes) {
+  const std::pair<FigureAxis, double (*)(const ReportRow&)> quantities[] = {
+      {{"MWR ((m/s)^2)", {}, true}, [](const ReportRow& row) { return row.record.mwr; }},
+      {{"CCF", {}, false}, [](const ReportRow& row) { return row.record.ccf; }},
+      {{"sigma_r (m)", {}, false}, [](const ReportRow& row) { return row.record.sigma_r_m; }},
+      {{"sigma_v (m/s)", {}, false}, [](const ReportRow& row) { return row.record.sigma_v_mps; }},
+      {{"number of centres", {}, false}, [](const ReportRow& row) { return static_cast<double>(row.record.centres); }},
+      {{"velocity variance explained by the line (%)", {}, false},
+       [](const ReportRow& row) { return 100 * row.line.explained; }}};
+  PlotPanels panels{{}, 2, {1100, 1000}};
+  for (const auto& [axis, value] : quantities) panels.plots.push_back(histogram(data, classes, axis, value));
+  return panels;
+}
+
 // At most `most` rows, evenly spaced.
 std::vector<std::size_t> thinned(std::size_t rows, std::size_t most) {
   std::vector<std::size_t> chosen;
@@ -338,7 +433,8 @@ void add_features(FigureList& list, const ReportData& data, const ClassNames& cl
   residual.x = {"MWR ((m/s)^2)", {}, true};
   residual.y = {"CCF", AxisRange{0, 1.02}, false};
   list.add("scatter", "features_mwr_ccf", std::move(residual), {640, 400},
-           "The paper's two new features, every map a point; a residual of zero stands at 1e-6.",
+           "Residual of the line (MWR) and contrast of the spreads (CCF), every map a point; a residual of zero stands "
+           "at 1e-6.",
            "Scatter of MWR and CCF by class");
   LinePlot spreads = class_scatter(
       data, classes,
@@ -353,6 +449,11 @@ void add_features(FigureList& list, const ReportData& data, const ClassNames& cl
            "Standard deviations of the centres' ranges and velocities.",
            "Scatter of range and velocity spread by class");
 
+  list.add(
+      "features", "feature_histograms", feature_histograms(data, classes), {},
+      "Share of each class's maps by feature, in 24 intervals from the smallest to the largest value; those of MWR "
+      "are equal on a logarithmic axis.",
+      "Histograms of the features by class");
   const std::vector<std::size_t> few = thinned(data.rows.size(), kMaxNeighbours);
   for (const auto& [name, matrix, title] :
        {std::tuple{"tsne_handmade", &data.handmade, "t-SNE of the hand-made features"},
@@ -365,7 +466,7 @@ void add_features(FigureList& list, const ReportData& data, const ClassNames& cl
     plot.title = title;
     plot.x.label = "t-SNE 1";
     plot.y.label = "t-SNE 2";
-    list.add("features", name, std::move(plot), {640, 400},
+    list.add("neighbours", name, std::move(plot), {640, 400},
              fmt::format("{}: neighbours stay neighbours, distances between clusters mean nothing. {} maps, training "
                          "and test together.",
                          title, few.size()),
@@ -437,7 +538,7 @@ LinePlot angle_plot(const std::string& title, const Trajectory& body, const std:
   return plot;
 }
 
-// The sea of the first map that is shown.
+// The sea of the first map that is shown, above the angles of every target's first body, on one time axis.
 void add_sea(FigureList& list, const Scenario& scenario, const SamplePlan& plan, const std::vector<Target>& targets,
              const SampleRecord& record) {
   constexpr double kExcerptS = 60;
@@ -450,24 +551,26 @@ void add_sea(FigureList& list, const Scenario& scenario, const SamplePlan& plan,
   LinePlot waves;
   waves.title = fmt::format("Sea surface at the reference point, Hs {:g} m, Tp {:g} s",
                             record.significant_wave_height_m, record.peak_period_s);
-  waves.x.label = "time (s)";
+  waves.x = {"time (s)", AxisRange{0, kExcerptS}, false};
   waves.y.label = "elevation (m)";
   Series full{scenario.sea.order == 2 ? "second order" : "linear", times, {}, {}, SeriesStyle::kLines};
   for (const double t : times) full.y.push_back(scene.sea.surface(0, 0, t).elevation);
   waves.series.push_back(std::move(full));
-  list.add("sea", "sea_surface", std::move(waves), {640, 330},
-           fmt::format("One minute of sea realisation {}, common to all targets and aspects.", choice.realisation + 1),
-           "Elevation of the sea against time");
+  PlotPanels panels{{std::move(waves)}, 1, {}};
   for (std::size_t t = 0; t < targets.size(); ++t) {
     if (scene.bodies[t].empty()) continue;
     const bool is_one_of_many = scene.bodies[t].size() > 1 && !is_raft(targets[t].spec.layout);
-    const std::string who = targets[t].spec.name + (is_one_of_many ? ", first body" : "");
-    list.add("sea", fmt::format("motion_{}", file_word(targets[t].spec.name)),
-             angle_plot(fmt::format("Motion of {}", who), scene.bodies[t].front(), times), {640, 330},
-             fmt::format("Angles of <b>{}</b> in that sea (right-handed: pitch &gt; 0 puts the bow down).",
-                         escape_html(who)),
-             fmt::format("Angles of {} against time", who));
+    panels.plots.push_back(
+        angle_plot(fmt::format("Motion of {}{}", targets[t].spec.name, is_one_of_many ? ", first body" : ""),
+                   scene.bodies[t].front(), times));
+    panels.plots.back().x.range = AxisRange{0, kExcerptS};
   }
+  panels.size = {1000, static_cast<int>(90 + 230 * panels.plots.size())};
+  list.add("sea", "sea_and_motion", std::move(panels), {},
+           fmt::format("One minute of sea realisation {}, common to all targets and aspects, and the angles of the "
+                       "targets in it (right-handed: pitch &gt; 0 puts the bow down).",
+                       choice.realisation + 1),
+           "Elevation of the sea and angles of the targets against time");
 }
 
 void add_targets(FigureList& list, const std::vector<Target>& targets) {
@@ -497,6 +600,7 @@ std::vector<ReportFigure> draw_report_figures(const ReportRequest& request) {
   const ClassNames classes = class_names(scenario);
   add_maps(list, data);
   add_scores(list, numbers.study, scenario.learning.split);
+  add_wrong_maps(list, data, numbers.study, classes, request.directory);
   add_features(list, data, classes, scenario.seed);
   add_aspects(list, data, classes);
   if (!data.shown.empty()) add_sea(list, scenario, request.plan, request.targets, data.shown.front().sample.record);

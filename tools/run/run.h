@@ -35,7 +35,7 @@ struct RunOptions {
 
 struct RunResult {
   Study study;
-  std::string times;  // seconds per stage, maps that were there already, path of the report
+  std::string times;  // seconds per stage, maps that were there already, finding(), path of the report
 };
 
 // Without `resume` the directory must be new or empty.

@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::chrono::seconds kQuiet{2};          // shorter work shows nothing
 constexpr std::chrono::milliseconds kRedraw{200};  // redraw interval
+constexpr std::chrono::minutes kLogged{1};         // from line to line where standard error is no terminal
 constexpr double kForecastAfter_s = 1;             // steps are timed for so long
 constexpr double kLeastForecast_s = 10;            // shorter work is not announced
 
@@ -60,8 +61,9 @@ Progress::Progress(std::string what, std::size_t total, std::string steps)
       steps_(std::move(steps)),
       total_(total),
       start_(std::chrono::steady_clock::now()),
-      next_draw_(start_ + kQuiet),
-      terminal_(::isatty(STDERR_FILENO) == 1) {}
+      terminal_(::isatty(STDERR_FILENO) == 1) {
+  next_draw_ = terminal_ ? start_ + kQuiet : start_ + kLogged;
+}
 
 Progress::~Progress() {
   if (shown_) {
@@ -93,15 +95,15 @@ void Progress::announce_when_due(std::size_t done) {
 void Progress::advance(std::size_t steps) {
   const std::size_t done = done_ += steps;
   if (announces_) announce_when_due(done);
-  if (!terminal_) return;
   // Skips drawing when another thread is drawing.
   const std::unique_lock lock(mutex_, std::try_to_lock);
   const auto now = std::chrono::steady_clock::now();
   if (!lock || now < next_draw_) return;
-  next_draw_ = now + kRedraw;
-  shown_ = true;
   const double elapsed_s = std::chrono::duration<double>(now - start_).count();
-  std::fputs(fmt::format("\r{}\033[K", progress_line(what_, done, total_, elapsed_s, steps_)).c_str(), stderr);
+  const std::string line = progress_line(what_, done, total_, elapsed_s, steps_);
+  next_draw_ = terminal_ ? now + kRedraw : now + kLogged;
+  shown_ = terminal_;
+  std::fputs((terminal_ ? "\r" + line + "\033[K" : line + "\n").c_str(), stderr);
   std::fflush(stderr);
 }
 

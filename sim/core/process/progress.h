@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Progress bar with remaining time, shown on a terminal only and only for work longer than two seconds.
+// Progress with remaining time: on a terminal a bar, for work longer than two seconds; elsewhere a line a minute.
 
 #include <atomic>
 #include <chrono>

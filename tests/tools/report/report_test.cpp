@@ -192,7 +192,10 @@ TEST(PapersClaims, HaveOneVerdictOnThePageAndInTheBenchmarksFile) {
   const TemporaryFolder folder;
   for (const double fused : {0.8, 0.93, 0.99}) {
     const Study study = study_of({0.9, 0.93}, {0.9, 0.93}, {fused, fused}, {0.92, 0.92}, fused - 0.35);
-    const std::string page = page_of(study, {}), text = benchmark_json({"a<b", true, 1, 120, 30, 2}, study);
+    Scenario scenario;
+    EXPECT_THAT(page_of(study, scenario), Not(HasSubstr("id=\"paper\"")));
+    scenario.report.claims = ReportClaims::kPaper;
+    const std::string page = page_of(study, scenario), text = benchmark_json({"a<b", true, 1, 120, 30, 2}, study);
     const std::filesystem::path file = folder.path() / kBenchmarkFile;
     write_file(file, text);
     const std::string section = benchmark_section(read_benchmark_file(file));
