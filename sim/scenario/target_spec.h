@@ -89,7 +89,7 @@ struct PointSpec {
 };
 
 // Default and maximum number of bounces. On the ship the error of 8 bounces is up to -11 dB, of 40 below -39 dB
-// (tests/README.md, "High-order bounces").
+// (tests/accuracy.md, "High-order bounces").
 inline constexpr int kDefaultBounces = 40, kMaxBounces = 200;
 
 // How the reflectors of every path are found: by beams, or by shooting and bouncing rays (sim/scattering/tracing).

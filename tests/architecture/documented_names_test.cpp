@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <regex>
 #include <set>
@@ -19,8 +21,8 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-// Every name that a document uses exists: filters of tests and benchmarks in all files; programs, commands and scripts
-// in READMEs.
+// Every name that a document uses exists: filters of tests and benchmarks in all files; programs, commands and scripts,
+// links to files, stages and rooms, and the places of recipes in documents.
 
 // Everything that is run by name.
 struct Runnable {
@@ -162,6 +164,118 @@ TEST(DocumentedNames, ThatDoNotExistAreFound) {
   EXPECT_THAT(of("    srun build/release/seaglint simulate"), ElementsAre(HasSubstr("no command simulate")));
   EXPECT_THAT(of("`build/release/test_attic`"), ElementsAre(HasSubstr("no program test_attic")));
   EXPECT_THAT(of("run ./tools/attic, once"), ElementsAre(HasSubstr("no tools/attic")));
+}
+
+// Links: every file that a document links to, relative to its folder.
+
+Faults missing_links(const SourceFile& file) {
+  static const std::regex link(R"re(\]\(([^)#\s]+)[^)]*\))re");
+  const std::filesystem::path folder = (std::filesystem::path(SEAGLINT_SOURCE_DIR) / file.path).parent_path();
+  Faults faults;
+  for (std::sregex_iterator match(file.text.begin(), file.text.end(), link), end; match != end; ++match) {
+    const std::string target = (*match)[1];
+    if (target.find("://") == std::string::npos && !std::filesystem::exists(folder / target))
+      faults.push_back(file.path + ": no " + target);
+  }
+  return faults;
+}
+
+TEST(DocumentedNames, FilesOfLinksExist) {
+  Faults faults;
+  for (const SourceFile& file : source_files()) {
+    if (!file.path.ends_with(".md")) continue;
+    for (const std::string& fault : missing_links(file)) faults.push_back(fault);
+  }
+  EXPECT_THAT(faults, IsEmpty());
+  EXPECT_THAT(missing_links({"tests/x.md", "[a](README.md#b), [c](../README.md), [d](https://e.f), ![g](h.png)"}),
+              ElementsAre("tests/x.md: no h.png"));
+}
+
+// The tree in CONTRIBUTING.md: a row for each stage, or for several without rooms, in their order; rooms in theirs.
+
+// Text of a row's last cell, links by their words.
+std::string last_cell(const std::string& row) {
+  static const std::regex link(R"re(\[([^\]]*)\]\([^)]*\))re");
+  const std::size_t end = row.rfind('|'), begin = row.rfind('|', end - 1) + 1;
+  std::string cell = std::regex_replace(row.substr(begin, end - begin), link, "$1");
+  const std::size_t first = cell.find_first_not_of(' '), last = cell.find_last_not_of(' ');
+  return first == std::string::npos ? "" : cell.substr(first, last - first + 1);
+}
+
+TEST(DocumentedTree, HasTheStagesAndTheirRooms) {
+  const auto file = std::ranges::find(source_files(), "CONTRIBUTING.md", &SourceFile::path);
+  ASSERT_NE(file, source_files().end());
+  std::size_t place = 0;
+  for (const std::string& stage : stage_list()) {
+    const std::size_t found = file->text.find("](" + stage + "/README.md)", place);
+    ASSERT_NE(found, std::string::npos) << stage << " has no row in its place";
+    place = found;
+    std::string rooms;
+    for (const std::string& room : room_list()) {
+      if (room.starts_with(stage + "/")) rooms += (rooms.empty() ? "" : ", ") + room.substr(stage.size() + 1);
+    }
+    const std::size_t begin = file->text.rfind('\n', place) + 1;
+    EXPECT_EQ(last_cell(file->text.substr(begin, file->text.find('\n', place) - begin)), rooms) << stage;
+  }
+}
+
+// Recipes of CONTRIBUTING.md: numbered lines that name files, and in the text behind them names that stand in these.
+
+// The texts of the files whose paths a line names between back quotes; other quoted words without blanks and dashes.
+struct RecipeLine {
+  std::vector<std::string> paths, names;
+};
+
+RecipeLine recipe_line(const std::string& line) {
+  static const std::regex quoted("`([^`]+)`");
+  RecipeLine found;
+  for (std::sregex_iterator match(line.begin(), line.end(), quoted), end; match != end; ++match) {
+    const std::string item = (*match)[1];
+    if (item.find(' ') != std::string::npos || item.starts_with("-")) continue;  // commands, options
+    (item.find('/') != std::string::npos ? found.paths : found.names).push_back(item);
+  }
+  return found;
+}
+
+Faults recipe_faults(const std::string& text) {
+  static const std::regex step(R"re([0-9]+\. .*)re");
+  Faults faults;
+  bool in_recipes = false;
+  for (const std::string& line : lines_of(text)) {
+    if (line.starts_with("## ")) in_recipes = line == "## Recipes";
+    if (!in_recipes || !std::regex_match(line, step)) continue;
+    const RecipeLine named = recipe_line(line);
+    if (named.paths.empty()) faults.push_back("no place: " + line);
+    std::string texts;
+    for (const std::string& path : named.paths) {
+      const std::filesystem::path file = std::filesystem::path(SEAGLINT_SOURCE_DIR) / path;
+      if (!std::filesystem::exists(file)) faults.push_back("no " + path);
+      if (!std::filesystem::is_regular_file(file)) continue;
+      std::ifstream stream(file, std::ios::binary);
+      texts.append(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
+    }
+    for (const std::string& name : named.names) {
+      const std::regex word("(^|[^A-Za-z0-9_])" + name + "($|[^A-Za-z0-9_])");
+      if (!std::regex_search(texts, word)) faults.push_back("no " + name + ": " + line);
+    }
+  }
+  return faults;
+}
+
+TEST(Recipes, NameFilesAndWhatStandsInThem) {
+  for (const SourceFile& file : source_files()) {
+    if (file.path != "CONTRIBUTING.md") continue;
+    EXPECT_GT(std::ranges::count(file.text, '\n'), 50) << "the test finds no recipes";
+    EXPECT_THAT(recipe_faults(file.text), IsEmpty());
+  }
+}
+
+TEST(Recipes, ThatNameWhatIsNotThereAreFound) {
+  EXPECT_THAT(
+      recipe_faults("1. `no/file`: before the recipes\n## Recipes\n1. `tools/main.cpp`: `main` and `--help`\n"
+                    "2. `tools/attic.cpp`: `main`\n3. `run_command_line`\n4. `tools/main.cpp`: `mai`\n"),
+      ElementsAre("no tools/attic.cpp", "no main: 2. `tools/attic.cpp`: `main`", "no place: 3. `run_command_line`",
+                  "no run_command_line: 3. `run_command_line`", "no mai: 4. `tools/main.cpp`: `mai`"));
 }
 
 // A filter by a suite's name selects the tests of one file.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The measured tables of the READMEs show the records in tests/figures, which hold the figures that tests record.
+// The measured tables of the documents show the records in tests/figures, which hold the figures that tests record.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -140,7 +140,7 @@ TEST(MeasuredTables, ShowTheRecords) {
   std::set<std::string> missing;
   for (const auto& [name, text] : templates) missing.insert(name);
   for (const char* document :
-       {"README.md", "tests/README.md", "tests/bench/README.md", "sim/scattering/radiation/README.md"}) {
+       {"README.md", "tests/accuracy.md", "tests/bench/README.md", "sim/scattering/radiation/README.md"}) {
     for (const auto& [name, shown] : tables_in(text_of(document))) {
       EXPECT_EQ(missing.erase(name), 1u) << document << ": table " << name << " has no template, or stands twice";
       const auto text = templates.find(name);

@@ -62,6 +62,15 @@ def check_contents(pages, seaglint, source):
     assert tables == 0, "a table stands as text"
 
 
+def check_first_scenario(seaglint, source, folder):
+    """The scenario of the first page is one."""
+    text = (source / "README.md").read_text(encoding="utf-8")
+    file = folder.with_name("study.yaml")
+    file.write_text(text.split("```yaml\n")[1].split("```")[0], encoding="utf-8")
+    checked = subprocess.run([seaglint, "check", file], capture_output=True, text=True)
+    assert checked.returncode == 0 and "warning" not in checked.stderr, checked.stderr
+
+
 def check_in_browser(folder, picture):
     from selenium import webdriver
     from selenium.webdriver.chrome.service import Service
@@ -124,6 +133,7 @@ def main(seaglint, source, picture=None):
         check_refusal(seaglint, source, folder.with_name("other"))
         pages = check_links(folder)
         check_contents(pages, seaglint, source)
+        check_first_scenario(seaglint, source, folder)
         check_in_browser(folder, picture)
         print(f"{len(pages)} pages, {sum(file.stat().st_size for file in folder.rglob('*') if file.is_file()) / 1e6:.1f} MB")
     return 0

@@ -480,7 +480,7 @@ TEST_F(CompareSettings, StatesTheExactValueOfASphere) {
   EXPECT_THAT(result.out, HasSubstr(": seaglint is closer"));
   const auto known = exports()[0]["known"];
   EXPECT_NEAR(known["export_bias_db"].get<double>(), -1.05, 1e-3);
-  EXPECT_LT(std::abs(known["compared_bias_db"].get<double>()), 0.15);  // of the solver, CHANGELOG's table of spheres
+  EXPECT_LT(std::abs(known["compared_bias_db"].get<double>()), 0.15);  // of the solver for spheres (tests/accuracy.md)
   EXPECT_EQ(known["verdict"], "seaglint is closer");
   EXPECT_THAT(read_file(path("compared/compare.html")), HasSubstr("Against the known value"));
   EXPECT_THAT(read_file(path("compared/compare.csv")), HasSubstr("compared_im,known_dbsm\n"));

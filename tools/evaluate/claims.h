@@ -94,7 +94,7 @@ struct BenchmarkRecord {
 // `claims`. Fractions; null where undefined.
 std::string benchmark_json(const BenchmarkRecord& record, const Study& study);
 
-// The same as a table for the terminal, and as a row of scenarios/README.md.
+// The same as a table for the terminal, and as a row of scenarios/benchmarks.md.
 std::string benchmark_text(const Study& study);
 std::string benchmark_row(const BenchmarkRecord& record, const Study& study);
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Records of measured figures and the tables of the READMEs that show them, for tools/measure."""
+"""Records of measured figures and the tables of the documents that show them, for tools/measure."""
 import pathlib
 import re
 import subprocess
@@ -7,7 +7,7 @@ import subprocess
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 FIGURES = ROOT / "tests/figures"
 RECORDS = ("accuracy", "speed")
-DOCUMENTS = ("README.md", "tests/README.md", "tests/bench/README.md", "sim/scattering/radiation/README.md")
+DOCUMENTS = ("README.md", "tests/accuracy.md", "tests/bench/README.md", "sim/scattering/radiation/README.md")
 BLOCK = re.compile(r"(<!-- table ([a-z_]+), written by tools/measure -->\n)(.*?)(<!-- end of table -->)", re.DOTALL)
 PLACEHOLDER = re.compile(r"\{([a-z][a-z0-9_]*)\}")
 

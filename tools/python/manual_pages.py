@@ -44,24 +44,26 @@ input.addEventListener("input", () => {
 """
 
 CURRENT = ' aria-current="page"'
-TUTORIALS = ("data_set", "mesh", "sea_states")
+TUTORIALS = ("by_task", "data_set", "mesh", "sea_states")
+CHAPTERS = ("scenarios/benchmarks.md", "tests/accuracy.md", "tests/experiments.md")  # beside the READMEs
 STAGES = ("sim/core", "sim/scenario", "sim/geometry", "sim/sea", "sim/motion", "sim/scattering", "sim/canonical", "sim/cavity", "sim/field_tables", "sim/field_export",
           "radar/README.md", "radar/waveform", "radar/echo", "radar/rvmap", "classify/dataset", "classify/features", "classify/cnn", "classify/model")
 
 
 def documents():
     """(group, Markdown files) in the order of the contents."""
-    readmes = sorted(path.relative_to(ROOT) for path in ROOT.glob("**/README.md") if path.relative_to(ROOT).parts[0] != "build" and path.parent != ROOT)
+    readmes = [path.relative_to(ROOT) for path in ROOT.glob("**/README.md") if path.relative_to(ROOT).parts[0] != "build" and path.parent != ROOT]
+    chapters = sorted(readmes + [pathlib.Path(name) for name in CHAPTERS], key=lambda path: (path.parent, path.name != "README.md", path.name))
 
     def below(*folders):
-        return [path for folder in folders for path in readmes if path.is_relative_to(folder)]
+        return [path for folder in folders for path in chapters if path.is_relative_to(folder)]
 
     return [("Tutorials", [pathlib.Path(f"tools/tutorials/{name}.md") for name in TUTORIALS]),
             ("Reference", [pathlib.Path("keys"), pathlib.Path("commands"), pathlib.Path("CONVENTIONS.md"), *below("scenarios", "assets")]),
             ("The pipeline", below(*STAGES)),
             ("Tools", below("tools")),
             ("Tests", below("tests")),
-            ("Project", [pathlib.Path("README.md"), pathlib.Path("CHANGELOG.md")])]
+            ("Project", [pathlib.Path(name) for name in ("README.md", "CHANGELOG.md", "CONTRIBUTING.md", "RELEASING.md")])]
 
 
 def page_name(path):
