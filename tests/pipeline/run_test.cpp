@@ -3,11 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <set>
 
 #include "tests/pipeline/program.h"
 
@@ -42,6 +44,36 @@ TEST_F(RunOutput, PrintsTheAccuracyTableAndWhereTheReportIs) {
   EXPECT_THAT(result_.out, HasSubstr("hand-made"));
   EXPECT_THAT(result_.out, HasSubstr("fused"));
   EXPECT_THAT(result_.out, HasSubstr("Report: " + (directory_ / "report.html").string()));
+}
+
+TEST_F(RunOutput, EndsInTheFindingThatTheReportBeginsWith) {
+  const std::size_t at = result_.out.find("On unseen seas the fused features ");
+  ASSERT_NE(at, std::string::npos) << result_.out;
+  const std::string finding = result_.out.substr(at, result_.out.find('\n', at) - at);
+  EXPECT_THAT(read_file(directory_ / "report.html"), HasSubstr("<p class=\"finding\">" + finding + "</p>"));
+}
+
+// Every listed row is wrong and listed once, the surest first, and none is missing.
+TEST_F(RunOutput, ListsTheMapsThatAreClassifiedWrongly) {
+  const nlohmann::json metrics = metrics_of(directory_);
+  for (const char* group : {"handmade", "cnn", "fused"}) {
+    const auto& entry = metrics.at(group).at("group");
+    const std::size_t errors =
+        entry.at("rows").get<std::size_t>() -
+        static_cast<std::size_t>(std::lround(entry.at("accuracy").get<double>() * entry.at("rows").get<double>()));
+    const nlohmann::json wrong = entry.value("wrong", nlohmann::json::array());
+    EXPECT_EQ(wrong.empty(), errors == 0);
+    EXPECT_LE(wrong.size(), std::min<std::size_t>(errors, 12));
+    std::set<int> rows;
+    double last = 1;
+    for (const nlohmann::json& map : wrong) {
+      EXPECT_NE(map.at("label"), map.at("declared"));
+      EXPECT_TRUE(rows.insert(map.at("row").get<int>()).second);
+      EXPECT_LE(map.at("probability"), last);
+      EXPECT_GE(map.at("probability"), 0.5);
+      last = map.at("probability");
+    }
+  }
 }
 
 TEST_F(RunOutput, HasMetricsOfThreeGroupsByWaveHeightUnderBothProtocols) {

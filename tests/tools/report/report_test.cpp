@@ -181,7 +181,7 @@ TEST(RocPlot, ShowsEveryGroupWithItsAreaBesideChance) {
   const LinePlot plot = roc_plot(study, {}, Protocol::kGroup);
   ASSERT_EQ(plot.series.size(), 4u);
   EXPECT_EQ(plot.series[2].name, "fused, AUC 0.750");
-  EXPECT_EQ(plot.series[2].x, (std::vector<double>{0, 50, 100}));
+  EXPECT_EQ(plot.series[2].x, (std::vector<double>{0.1, 50, 100}));
   EXPECT_EQ(plot.series[2].y, (std::vector<double>{0, 100, 100}));
   EXPECT_EQ(plot.series[3].name, "chance");
 }
