@@ -137,9 +137,6 @@ Maker maker() {
   return loaded;
 }
 
-// The weights are the library's until parameters() are set.
-std::unique_ptr<Layers> make_layers(const LayerSizes& sizes) { return std::unique_ptr<Layers>(maker()(sizes)); }
-
 constexpr std::uint32_t kFormat = 0x53474e34;  // "SGN4"
 constexpr std::uint32_t kMostClasses = 10;
 using Head = std::array<std::uint32_t, 5>;  // of the file
@@ -161,9 +158,10 @@ void initialise(Layers& layers, const RandomKey& key) {
 // Maps whose gradient one thread computes; the sum over them is always formed in this division.
 constexpr std::size_t kPart = 8;
 
+// The weights are the library's until parameters() are set.
 std::unique_ptr<Layers> new_layers(int embedding_size, std::size_t classes) {
   const int outputs = classes == 2 ? 1 : static_cast<int>(classes);
-  return make_layers({kInputChannels, kInputRows, kInputColumns, embedding_size, outputs});
+  return std::unique_ptr<Layers>(maker()({kInputChannels, kInputRows, kInputColumns, embedding_size, outputs}));
 }
 
 std::vector<float> weights_of(Layers& layers) {

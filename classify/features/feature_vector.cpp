@@ -118,11 +118,7 @@ VelocityLine robust_velocity_line(std::span<const ScatteringCentre> centres) {
   return line;
 }
 
-namespace {
-
 constexpr double kOnLine_mps = 0.01;
-
-}  // namespace
 
 MotionFeatures motion_features(std::span<const ScatteringCentre> centres) {
   MotionFeatures features;

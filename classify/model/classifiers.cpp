@@ -4,13 +4,13 @@
 #include <fmt/format.h>
 #include <xgboost/c_api.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <optional>
 #include <vector>
 
@@ -314,113 +314,115 @@ namespace {
 constexpr int kMostSteps = 100;
 constexpr double kGradientPerRow = 1e-9;
 
-// log(1 + e^x) without overflow
-double softplus(double x) { return std::max(x, 0.0) + std::log1p(std::exp(-std::abs(x))); }
-
 double logistic(double x) { return 1 / (1 + std::exp(-x)); }
 
-using StandardisedRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-// Standardised columns, and a last one of ones for the offset.
-StandardisedRows standardised(const FeatureMatrix& features, std::span<const double> means,
-                              std::span<const double> scales) {
-  const auto rows = static_cast<Eigen::Index>(features.rows()), columns = static_cast<Eigen::Index>(means.size());
-  StandardisedRows z(rows, columns + 1);
-  for (Eigen::Index i = 0; i < rows; ++i) {
-    const std::span<const float> row = features.row(static_cast<std::size_t>(i));
-    for (Eigen::Index k = 0; k < columns; ++k)
-      z(i, k) = (static_cast<double>(row[static_cast<std::size_t>(k)]) - means[static_cast<std::size_t>(k)]) *
-                scales[static_cast<std::size_t>(k)];
-    z(i, columns) = 1;
+// Solves a x = b for a symmetric, positive definite matrix of b.size() rows; `a` becomes its Cholesky factor.
+void solve(std::vector<double>& a, std::vector<double>& b) {
+  const std::size_t n = b.size();
+  for (std::size_t j = 0; j < n; ++j) {
+    for (std::size_t i = j; i < n; ++i) {
+      double rest = a[i * n + j];
+      for (std::size_t k = 0; k < j; ++k) rest -= a[i * n + k] * a[j * n + k];
+      a[i * n + j] = i == j ? std::sqrt(rest) : rest / a[j * n + j];
+    }
   }
-  return z;
-}
-
-// Moves w against a direction of Newton's method, by a half, a quarter, ... of it where the whole does not lower the
-// objective, whose value at w is `value`. False, with w unchanged, when none does.
-template <class Objective, class Weights>
-bool descend(const Objective& objective, const Weights& direction, Weights& w, double& value) {
-  double length = 1, next = objective(w - direction);
-  while (!(next <= value) && length > 1e-6) {
-    length /= 2;
-    next = objective(w - length * direction);
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t k = 0; k < i; ++k) b[i] -= a[i * n + k] * b[k];
+    b[i] /= a[i * n + i];
   }
-  if (!(next <= value)) return false;
-  w -= length * direction;
-  value = next;
-  return true;
-}
-
-// Weights of the columns of z, the last that of the offset.
-Eigen::VectorXd binary_weights(const StandardisedRows& z, std::span<const int> labels) {
-  const std::size_t rows = labels.size();
-  Eigen::VectorXd truth(z.rows()), w = Eigen::VectorXd::Zero(z.cols()), penalty = Eigen::VectorXd::Ones(z.cols());
-  for (std::size_t i = 0; i < rows; ++i) truth[static_cast<Eigen::Index>(i)] = labels[i];
-  penalty[z.cols() - 1] = 1e-12;  // the offset is free; with one class only it stays finite
-
-  const auto objective = [&](const Eigen::VectorXd& at) {
-    const Eigen::VectorXd x = z * at;
-    double sum = 0.5 * at.cwiseAbs2().dot(penalty);
-    for (Eigen::Index i = 0; i < x.size(); ++i) sum += softplus(x[i]) - truth[i] * x[i];
-    return sum;
-  };
-  double value = objective(w);
-  for (int step = 0; step < kMostSteps; ++step) {
-    const Eigen::VectorXd p = (z * w).unaryExpr(&logistic);
-    const Eigen::VectorXd gradient = z.transpose() * (p - truth) + penalty.cwiseProduct(w);
-    if (gradient.cwiseAbs().maxCoeff() < kGradientPerRow * static_cast<double>(rows)) break;
-    const Eigen::VectorXd curvature = p.array() * (1 - p.array());
-    Eigen::MatrixXd hessian = z.transpose() * curvature.asDiagonal() * z;
-    hessian.diagonal() += penalty;
-    const Eigen::VectorXd direction = hessian.ldlt().solve(gradient);
-    if (!descend(objective, direction, w, value)) break;
+  for (std::size_t i = n; i-- > 0;) {
+    for (std::size_t k = i + 1; k < n; ++k) b[i] -= a[k * n + i] * b[k];
+    b[i] /= a[i * n + i];
   }
-  return w;
 }
 
-// Probabilities of the classes, [row][class], from their exponents.
-Eigen::MatrixXd softmax(const Eigen::MatrixXd& exponents) {
-  Eigen::MatrixXd p = (exponents.colwise() - exponents.rowwise().maxCoeff()).array().exp();
-  const Eigen::VectorXd sums = p.rowwise().sum();
-  p.array().colwise() /= sums.array();
-  return p;
-}
+// Rows of standardised columns, of which the last is 1 for the offset, and their labels. One output: the probability of
+// label 1 over that of label 0.
+struct LogisticRows {
+  std::span<const double> values;
+  std::span<const int> labels;
+  std::size_t columns, outputs;
+};
 
-// [column][class], the last row those of the offsets. Equal shifts of all offsets change no probability: the term
-// (sum of offsets)^2 / 2 makes the minimum unique without moving it.
-Eigen::MatrixXd multinomial_weights(const StandardisedRows& z, std::span<const int> labels, std::size_t classes) {
-  const Eigen::Index columns = z.cols(), count = static_cast<Eigen::Index>(classes), last = columns - 1;
-  Eigen::MatrixXd truth = Eigen::MatrixXd::Zero(z.rows(), count), w = Eigen::MatrixXd::Zero(columns, count);
-  for (Eigen::Index i = 0; i < z.rows(); ++i) truth(i, labels[static_cast<std::size_t>(i)]) = 1;
-  const auto objective = [&](const Eigen::MatrixXd& at) {
-    const Eigen::MatrixXd x = z * at;
-    const Eigen::VectorXd highest = x.rowwise().maxCoeff();
-    const Eigen::VectorXd sums = (x.colwise() - highest).array().exp().rowwise().sum();
-    return 0.5 * at.topRows(last).squaredNorm() + 0.5 * std::pow(at.row(last).sum(), 2) +
-           (highest.array() + sums.array().log()).sum() - truth.cwiseProduct(x).sum();
-  };
-  double value = objective(w);
-  for (int step = 0; step < kMostSteps; ++step) {
-    const Eigen::MatrixXd p = softmax(z * w);
-    Eigen::MatrixXd gradient = z.transpose() * (p - truth);
-    gradient.topRows(last) += w.topRows(last);
-    gradient.row(last).array() += w.row(last).sum();
-    if (gradient.cwiseAbs().maxCoeff() < kGradientPerRow * static_cast<double>(z.rows())) break;
-    Eigen::MatrixXd hessian(columns * count, columns * count);
-    for (Eigen::Index a = 0; a < count; ++a) {
-      for (Eigen::Index b = 0; b < count; ++b) {
-        const Eigen::VectorXd curvature = p.col(a).array() * ((a == b ? 1.0 : 0.0) - p.col(b).array());
-        auto block = hessian.block(a * columns, b * columns, columns, columns);
-        block = z.transpose() * curvature.asDiagonal() * z;
-        if (a == b) block.diagonal().head(last).array() += 1;
-        block(last, last) += 1;
+// Penalised -log likelihood at weights [output][column], its gradient and the lower triangle of its Hessian.
+struct LogisticPoint {
+  std::vector<double> weights;
+  double value = 0;
+  std::vector<double> gradient, hessian;
+
+  LogisticPoint(const LogisticRows& rows, std::vector<double> at)
+      : weights(std::move(at)), gradient(weights.size()), hessian(weights.size() * weights.size()) {
+    add_penalty(rows);
+    for (std::size_t i = 0; i < rows.labels.size(); ++i) add_row(rows, i);
+  }
+
+ private:
+  // The offset of two classes is free, but with one class only it stays finite. Equal shifts of all offsets of more
+  // classes change no probability: the term (sum of offsets)^2 / 2 makes the minimum unique without moving it.
+  void add_penalty(const LogisticRows& rows) {
+    const double of_offsets = rows.outputs == 1 ? 1e-12 : 1;
+    const std::size_t n = weights.size(), last = rows.columns - 1;
+    double offsets = 0;
+    for (std::size_t a = last; a < n; a += rows.columns) offsets += weights[a];
+    value = 0.5 * of_offsets * offsets * offsets;
+    for (std::size_t a = 0; a < n; ++a) {
+      const bool is_offset = a % rows.columns == last;
+      gradient[a] = is_offset ? of_offsets * offsets : weights[a];
+      if (!is_offset) value += 0.5 * weights[a] * weights[a];
+      if (!is_offset) hessian[a * n + a] = 1;
+      for (std::size_t b = last; is_offset && b <= a; b += rows.columns) hessian[a * n + b] = of_offsets;
+    }
+  }
+
+  void add_row(const LogisticRows& rows, std::size_t i) {
+    const std::size_t columns = rows.columns, outputs = rows.outputs, n = weights.size();
+    const bool is_binary = outputs == 1;
+    const std::span<const double> z = rows.values.subspan(i * columns, columns);
+    const auto own = static_cast<std::size_t>(rows.labels[i]) - (is_binary ? 1 : 0);  // output of the label
+    std::vector<double> p(outputs);
+    for (std::size_t a = 0; a < outputs; ++a)
+      p[a] = std::inner_product(z.begin(), z.end(), weights.begin() + static_cast<std::ptrdiff_t>(a * columns), 0.0);
+    const double highest = is_binary ? std::max(p[0], 0.0) : std::ranges::max(p);
+    double sum = is_binary ? std::exp(-highest) : 0;
+    value += highest - (own < outputs ? p[own] : 0);
+    for (double& x : p) sum += x = std::exp(x - highest);
+    value += std::log(sum);
+    for (double& x : p) x /= sum;
+    for (std::size_t a = 0; a < outputs; ++a) {
+      for (std::size_t k = 0; k < columns; ++k) gradient[a * columns + k] += (p[a] - (a == own ? 1 : 0)) * z[k];
+      for (std::size_t b = 0; b <= a; ++b) {
+        const double curvature = p[a] * ((a == b ? 1 : 0) - p[b]);
+        for (std::size_t k = 0; k < columns; ++k) {
+          double* const row = &hessian[(a * columns + k) * n + b * columns];
+          for (std::size_t l = 0; l < columns; ++l) row[l] += curvature * z[k] * z[l];
+        }
       }
     }
-    const Eigen::VectorXd solved = hessian.ldlt().solve(gradient.reshaped());
-    const Eigen::MatrixXd direction = solved.reshaped(columns, count);
-    if (!descend(objective, direction, w, value)) break;
   }
-  return w;
+};
+
+// Weights at the minimum by Newton's method, with a half, a quarter, ... of a step where the whole does not lower the
+// value.
+std::vector<double> fitted_weights(const LogisticRows& rows) {
+  LogisticPoint here(rows, std::vector<double>(rows.outputs * rows.columns));
+  const auto is_steep = [&](double g) {
+    return std::abs(g) >= kGradientPerRow * static_cast<double>(rows.labels.size());
+  };
+  for (int i = 0; i < kMostSteps && std::ranges::any_of(here.gradient, is_steep); ++i) {
+    std::vector<double> step = here.gradient;
+    solve(here.hessian, step);
+    const double before = here.value;
+    const std::vector<double> from = here.weights;
+    double length = 1;
+    do {
+      std::vector<double> to = from;
+      for (std::size_t k = 0; k < to.size(); ++k) to[k] -= length * step[k];
+      here = LogisticPoint(rows, std::move(to));
+      length /= 2;
+    } while (!(here.value <= before) && length > 5e-7);
+    if (!(here.value <= before)) return from;
+  }
+  return here.weights;
 }
 
 }  // namespace
@@ -429,6 +431,7 @@ LogisticModel LogisticModel::train(const FeatureMatrix& features, std::span<cons
   const std::size_t rows = features.rows(), columns = features.columns();
   SEAGLINT_CHECK(rows > 0 && labels.size() == rows, "one label per row");
   LogisticModel model;
+  std::vector<double> standardised(rows * (columns + 1), 1.0);
   for (std::size_t k = 0; k < columns; ++k) {
     double sum = 0, squares = 0;
     for (std::size_t i = 0; i < rows; ++i) sum += static_cast<double>(features.row(i)[k]);
@@ -437,13 +440,13 @@ LogisticModel LogisticModel::train(const FeatureMatrix& features, std::span<cons
     const double deviation = std::sqrt(squares / static_cast<double>(rows));
     model.means_.push_back(mean);
     model.scales_.push_back(deviation > 0 ? 1 / deviation : 0);
+    for (std::size_t i = 0; i < rows; ++i)
+      standardised[i * (columns + 1) + k] = (static_cast<double>(features.row(i)[k]) - mean) * model.scales_[k];
   }
-  const StandardisedRows z = standardised(features, model.means_, model.scales_);
-  const Eigen::MatrixXd w =
-      classes == 2 ? Eigen::MatrixXd(binary_weights(z, labels)) : multinomial_weights(z, labels, classes);
-  for (Eigen::Index k = 0; k < w.cols(); ++k) {
-    model.weights_.insert(model.weights_.end(), w.col(k).data(), w.col(k).data() + columns);
-    model.offsets_.push_back(w(z.cols() - 1, k));
+  const std::vector<double> w = fitted_weights({standardised, labels, columns + 1, classes == 2 ? 1 : classes});
+  for (auto of_output = w.begin(); of_output != w.end(); of_output += static_cast<std::ptrdiff_t>(columns) + 1) {
+    model.weights_.insert(model.weights_.end(), of_output, of_output + static_cast<std::ptrdiff_t>(columns));
+    model.offsets_.push_back(of_output[static_cast<std::ptrdiff_t>(columns)]);
   }
   return model;
 }

@@ -133,14 +133,6 @@ std::string text_of(const DivisionRequest& request) {
   return fmt::format("tested on {} only; {}", fmt::join(values, ", "), text);
 }
 
-// Where the rows of a unit go.
-enum class Side { kTrain, kTest, kDivided };
-
-Side side_of(std::size_t with, std::size_t without) {
-  if (with > 0 && without == 0) return Side::kTest;
-  return with == 0 && without > 0 ? Side::kTrain : Side::kDivided;
-}
-
 }  // namespace
 
 DivisionRequest division_request(const SplitSpec& split) {
@@ -203,14 +195,12 @@ Split divide(const Division& division, Protocol protocol, double train_fraction,
   std::vector<RowGroup> divided_units;
   for (std::size_t row = 0; row < division.units.size(); ++row) {
     const Count& count = counts[division.units[row].group];
-    switch (side_of(count.with, count.without)) {
-      case Side::kTrain: train.push_back(row); break;
-      case Side::kTest: test.push_back(row); break;
-      case Side::kDivided:
-        divided.push_back(row);
-        divided_units.push_back(division.units[row]);
-        break;
+    if ((count.with == 0) != (count.without == 0)) {
+      (count.with > 0 ? test : train).push_back(row);
+      continue;
     }
+    divided.push_back(row);
+    divided_units.push_back(division.units[row]);
   }
   if (!divided.empty()) {
     const Split split = split_rows(divided_units, protocol, train_fraction, seed, repeat);

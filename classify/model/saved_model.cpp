@@ -115,19 +115,15 @@ std::map<std::string, SectionSettings> settings_of(const Scenario& scenario) {
 std::string settings_difference(const std::map<std::string, SectionSettings>& settings,
                                 const std::map<std::string, SectionSettings>& of_model) {
   for (const char* section : {"map", "features"}) {
-    const auto as_map = [section](const std::map<std::string, SectionSettings>& all) {
-      const SectionSettings& entries = all.at(section);
-      return std::map<std::string, std::string>(entries.begin(), entries.end());
-    };
-    const std::map<std::string, std::string> here = as_map(settings), there = as_map(of_model);
-    const auto value = [](const std::map<std::string, std::string>& values, const std::string& key) {
-      const auto found = values.find(key);
-      return found == values.end() ? std::string("absent") : found->second;
-    };
-    for (const auto* keys : {&here, &there})
-      for (const auto& [key, unused] : *keys)
-        if (value(here, key) != value(there, key))
-          return fmt::format("{}.{}: {} instead of {}", section, key, value(here, key), value(there, key));
+    std::map<std::string, std::pair<std::string, std::string>> values;  // here and of the model
+    for (const auto& [key, value] : settings.at(section)) values[key].first = value;
+    for (const auto& [key, value] : of_model.at(section)) values[key].second = value;
+    for (const auto& [key, value] : values) {
+      const auto& [here, there] = value;
+      if (here != there)
+        return fmt::format("{}.{}: {} instead of {}", section, key, here.empty() ? "absent" : here,
+                           there.empty() ? "absent" : there);
+    }
   }
   return "";
 }
@@ -242,8 +238,8 @@ std::string tree_file(const char* name) { return fmt::format("{}.json", name); }
 
 // The files that model.json has checksums of.
 std::vector<std::string> checked_files() {
-  std::vector<std::string> files{kNetworkFile, kSplitsFile};
-  for (const char* name : kModelNames) files.push_back(tree_file(name));
+  std::vector<std::string> files = model_files();
+  std::erase(files, kModelFile);
   return files;
 }
 

@@ -428,10 +428,9 @@ ordered_json to_object(const Evaluation& evaluation, const std::vector<std::stri
   json["train_rows"] = evaluation.train_rows;
   json["by_wave_height"] = ordered_json::array();
   for (const BinnedScores& entry : evaluation.by_wave_height) {
-    ordered_json row{
-        {kWaveHeightColumn, entry.mean}, {"bin", entry.text}, {"lowest", entry.lowest}, {"highest", entry.highest}};
-    row.update(to_object(entry.scores, classes));
-    json["by_wave_height"].push_back(row);
+    json["by_wave_height"].push_back(
+        {{kWaveHeightColumn, entry.mean}, {"bin", entry.text}, {"lowest", entry.lowest}, {"highest", entry.highest}});
+    json["by_wave_height"].back().update(to_object(entry.scores, classes));
   }
   return json;
 }
@@ -509,7 +508,6 @@ ordered_json to_object(const std::vector<std::vector<RocPoint>>& curves, const s
 
 ordered_json to_json(const Study& study, const LearningSpec& spec) {
   ordered_json json;
-  const Fusion other = spec.fusion == Fusion::kSplit ? Fusion::kInSample : Fusion::kSplit;
   for (const FeatureGroupResult& group : study.groups) {
     ordered_json entry;
     entry["columns"] = group.columns;
@@ -533,7 +531,7 @@ ordered_json to_json(const Study& study, const LearningSpec& spec) {
                                                           {"probability", wrong.of(wrong.decision())}});
       if (outcome.alternative) others[name(outcome.protocol)] = to_object(*outcome.alternative, study.classes);
     }
-    if (!others.empty()) entry[network ? fusion_name(other) : "fewer_rows"] = others;
+    if (!others.empty()) entry[network ? fusion_name(other_fusion(spec.fusion)) : "fewer_rows"] = others;
     json[group.name] = entry;
   }
   json["probes"] = ordered_json::array();

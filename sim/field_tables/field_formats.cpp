@@ -9,7 +9,6 @@
 
 #include "sim/core/process/error.h"
 #include "sim/field_tables/export_text.h"
-#include "sim/field_tables/pandas_table.h"
 
 namespace seaglint {
 namespace {

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <string_view>
+#include <vector>
 
 #include "sim/core/text/text_source.h"
 #include "sim/field_tables/field_table.h"
@@ -88,6 +89,26 @@ bool is_pyaedt_json(std::string_view text);
 // table's geometry where all of them are in the folder `geometry` beside the JSON, or beside it. Throws InputError
 // naming the file.
 void read_pyaedt_file(const std::filesystem::path& file, const FieldTableSettings& settings, FieldTable& table);
+
+// The HDF5 table that pandas writes of a monostatic sweep, DataFrame.to_hdf(FILE, key="df", format="table") with the
+// index levels Freq, IWavePhi and IWaveTheta and one column of complex values. Only one thread at a time may use HDF5.
+struct PandasRow {
+  double frequency = 0;  // in a unit that the file does not state
+  double theta_deg = 0, phi_deg = 0;
+  Complex value;
+};
+
+// Whether a file begins as HDF5 does; false too if it cannot be read.
+bool is_hdf5_file(const std::filesystem::path& file);
+
+// The rows of /df/table, all of them finite. The file may be damaged in any way or made to deceive: the table is
+// reached by hard links and stored uncompressed in this file, in no more bytes than the file has. Throws InputError
+// naming the file and what is missing or wrong.
+std::vector<PandasRow> read_pandas_table(const std::filesystem::path& file);
+
+// Whether the free list of every local heap in the file, where names of groups' members lie, ends within its heap and
+// the heap within the file: HDF5 1.10 follows the list without end if it is a circle (section III.D).
+bool has_sound_heaps(const std::filesystem::path& file);
 
 // Tables in columns: those of `seaglint rcs` with the keys of the transmitter in their head, levels with or without
 // phases in named columns, and four columns without names.

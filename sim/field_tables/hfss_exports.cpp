@@ -21,7 +21,6 @@
 #include "sim/core/text/text_table.h"
 #include "sim/core/text/words.h"
 #include "sim/field_tables/export_text.h"
-#include "sim/field_tables/pandas_table.h"
 
 namespace seaglint {
 namespace {
@@ -37,18 +36,16 @@ struct NamedPlace {
 
 enum class Component { kTheta, kPhi, kTotal };
 
-// A column of values and its unit.
+// A column of values and its unit: of levels; in metres, degrees or radians.
 struct Level {
   std::size_t column = 0;
   LevelUnit unit;
 };
-struct Length {
+struct ScaledColumn {
   std::size_t column = 0;
-  double unit_m = 1;
-};
-struct Phase {
-  std::size_t column = 0;
-  bool in_degrees = true;
+  double unit = 1;
+
+  double value(const TextTable& rows, std::size_t row) const { return rows.number(row, column) * unit; }
 };
 
 // Columns of one component at one named place.
@@ -56,10 +53,9 @@ struct Result {
   NamedPlace place;
   Component component = Component::kTheta;  // received
   std::optional<Level> level;
-  std::optional<Length> magnitude, re, im;
-  std::optional<Phase> phase;
+  std::optional<ScaledColumn> magnitude_m, re_m, im_m, phase_rad;
 
-  bool has_value() const { return level || magnitude || (re && im); }
+  bool has_value() const { return level || magnitude_m || (re_m && im_m); }
 };
 
 std::optional<std::string_view> quoted_value(std::string_view name, std::string_view word) {
@@ -189,15 +185,13 @@ class HfssTable {
                                     : angle(named.wave_phi_deg, wave_phi_, row, "IWavePhi"),
                  frequency_hz = frequency(result, row, given_frequency_hz);
     const int line = rows_.line(row);
-    if (result.re && result.im) {
-      const Complex root_area(rows_.number(row, result.re->column) * result.re->unit_m,
-                              rows_.number(row, result.im->column) * result.im->unit_m);
+    if (result.re_m && result.im_m) {
+      const Complex root_area(result.re_m->value(rows_, row), result.im_m->value(rows_, row));
       return field_value(element, frequency_hz, theta, phi, root_area / std::sqrt(4 * kPi), line);
     }
     const double level = level_dbsm(result, row);
-    if (result.phase) {
-      const double phase = rows_.number(row, result.phase->column);
-      const Complex s = std::polar(amplitude_of_dbsm(level), result.phase->in_degrees ? radians(phase) : phase);
+    if (result.phase_rad) {
+      const Complex s = std::polar(amplitude_of_dbsm(level), result.phase_rad->value(rows_, row));
       FieldValue value = field_value(element, frequency_hz, theta, phi, s, line);
       value.level_dbsm = level;
       return value;
@@ -219,12 +213,6 @@ class HfssTable {
   }
 
  private:
-  // A column of angles and degrees in its unit.
-  struct Angle {
-    std::size_t column = 0;
-    double unit_deg = 1;
-  };
-
   void place_column(std::size_t k) {
     const std::string_view name = head_.names[k];
     if (const std::optional<ResultName> result = result_name(name)) return place_result(k, *result);
@@ -252,17 +240,17 @@ class HfssTable {
       result.level = Level{k, LevelUnit(source_, head_.line, head_.names[k], unit, 0)};
       if (result.level->unit.is_field()) fail_unit(k, name, "must be an area");
     } else if (name.is_complex && (f == "mag" || f == "abs" || (f.empty() && !name.unit.empty()))) {
-      result.magnitude = length_column(k, name);
+      result.magnitude_m = length_column(k, name);
     } else if (name.is_complex && f == "re") {
-      result.re = length_column(k, name);
+      result.re_m = length_column(k, name);
     } else if (name.is_complex && f == "im") {
-      result.im = length_column(k, name);
+      result.im_m = length_column(k, name);
     } else if (name.is_complex && (f.starts_with("ang") || f.starts_with("cang"))) {
       const bool in_degrees = f.ends_with("_deg");
       if (!in_degrees && !f.ends_with("_rad")) return add_unread(k);
       if (!name.unit.empty() && name.unit != (in_degrees ? "deg" : "rad"))
         fail_unit(k, name, "must agree with its name");
-      result.phase = Phase{k, in_degrees};
+      result.phase_rad = ScaledColumn{k, in_degrees ? radians(1) : 1};
     } else {
       add_unread(k);
     }
@@ -271,7 +259,7 @@ class HfssTable {
     if (!unread_.empty()) unread_ += ", ";
     unread_ += head_.names[k];
   }
-  Length length_column(std::size_t k, const ResultName& name) const {
+  ScaledColumn length_column(std::size_t k, const ResultName& name) const {
     const std::optional<double> unit_m = name.unit.empty() ? 1.0 : length_unit_m(name.unit);
     if (!unit_m) fail_unit(k, name, "sqrt(sigma) must be in metres, [meter], or another length");
     return {k, *unit_m};
@@ -280,11 +268,11 @@ class HfssTable {
     source_.fail(head_.line, fmt::format("unit {} of {}: {}", in_quotes(name.unit), shown(head_.names[k]), wanted));
   }
 
-  void place_angle(std::optional<Angle>& place, std::size_t k) {
+  void place_angle(std::optional<ScaledColumn>& place, std::size_t k) {
     const std::string unit = unit_in(head_.names[k]);
     if (!unit.starts_with("deg") && unit != "rad")
       source_.fail(head_.line, fmt::format("{}: must be in [deg] or [rad]", shown(head_.names[k])));
-    place = Angle{k, unit == "rad" ? degrees(1) : 1};
+    place = ScaledColumn{k, unit == "rad" ? degrees(1) : 1};
   }
   void place_frequency(std::size_t k) {
     const std::string unit = unit_in(head_.names[k]);
@@ -305,14 +293,14 @@ class HfssTable {
 
   double level_dbsm(const Result& result, std::size_t row) const {
     if (result.level) return result.level->unit.level_dbsm(rows_, row, result.level->column);
-    const double length_m = rows_.number(row, result.magnitude->column, 0) * result.magnitude->unit_m;
+    const double length_m = rows_.number(row, result.magnitude_m->column, 0) * result.magnitude_m->unit;
     return dbsm_of_area(length_m * length_m);
   }
-  double angle(const std::optional<double>& named_deg, const std::optional<Angle>& place, std::size_t row,
+  double angle(const std::optional<double>& named_deg, const std::optional<ScaledColumn>& place, std::size_t row,
                const char* name) const {
     if (named_deg) return *named_deg;
     if (!place) source_.fail(head_.line, fmt::format("no column {} [deg], nor {} in a result's name", name, name));
-    return rows_.number(row, place->column) * place->unit_deg;
+    return place->value(rows_, row);
   }
   double frequency(const Result& result, std::size_t row, std::optional<double> given) const {
     if (frequency_) return rows_.positive(row, *frequency_) * to_hz_;
@@ -324,7 +312,7 @@ class HfssTable {
   const TextSource& source_;
   Head head_;
   TextTable rows_;
-  std::optional<Angle> wave_theta_, wave_phi_, theta_, phi_;
+  std::optional<ScaledColumn> wave_theta_, wave_phi_, theta_, phi_;  // degrees
   std::optional<std::size_t> frequency_;
   double to_hz_ = 1;
   bool is_bistatic_ = false;

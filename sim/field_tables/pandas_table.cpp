@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/field_tables/pandas_table.h"
+#include "sim/field_tables/field_formats.h"
 
 #include <fmt/format.h>
 #include <hdf5.h>

@@ -196,12 +196,6 @@ Scenario read_fields(const ScenarioDocument& document, ErrorList& errors);
 // The same for another table.
 void read_fields(const ScenarioDocument& document, ErrorList& errors, const Fields& fields);
 
-// The value of a key: a number, or a word as it is written.
-struct KeyValue {
-  std::string key_path;
-  ScalarValue value;
-};
-
 // Sets the members of these keys; a word is read as in the document, and its error recorded. A key may be one that the
 // scenario has by another value only.
 void assign(Scenario& scenario, const std::vector<KeyValue>& values, const ScenarioDocument& document,

@@ -5,7 +5,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -15,6 +14,7 @@
 #include "sim/core/process/error.h"
 #include "sim/core/process/printable.h"
 #include "sim/core/text/names.h"
+#include "sim/core/text/words.h"
 #include "sim/scenario/fields.h"
 
 namespace seaglint {
@@ -99,12 +99,6 @@ std::string general_key(std::string_view key) {
   }
   if (words.size() > 1 && words[0] == "targets") words[1] = "NAME";
   return fmt::format("{}", fmt::join(words, "."));
-}
-
-std::string lower_case(std::string_view text) {
-  std::string lower(text);
-  std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return lower;
 }
 
 // The rows of a key, of a section, or with a text in key or meaning, the first of these that has any.

@@ -59,25 +59,16 @@ void visit(MaterialSpec& spec, FieldVisitor& v) {
   v.number("lowest_ghz", spec.lowest_ghz, within(0.001, 1000), "");
   v.number("highest_ghz", spec.highest_ghz, within(0.001, 1000), "");
   v.number("roughness_mm", spec.roughness_mm, within(0, 100), "");
-  if (v.optional("conductivity_s_m", spec.kind == SurfaceKind::kConductor)) {
-    v.number("conductivity_s_m", spec.conductivity_s_m, within(1, 1e9), "");
-  }
-  if (v.optional("resistance", spec.kind == SurfaceKind::kImpedance)) {
-    v.number("resistance", spec.resistance, within(0, 1e6), "");
-  }
-  if (v.optional("reactance", spec.kind == SurfaceKind::kImpedance)) {
-    v.number("reactance", spec.reactance, within(-1e6, 1e6), "");
-  }
-  if (v.optional("backing", spec.kind == SurfaceKind::kLayers)) {
-    v.choice("backing", spec.backing, {"pec", "air"}, "");
-  }
+  const auto only = [&](SurfaceKind kind, const char* key, double& value, const Bound& bound) {
+    if (v.optional(key, spec.kind == kind)) v.number(key, value, bound, "");
+  };
+  only(SurfaceKind::kConductor, "conductivity_s_m", spec.conductivity_s_m, within(1, 1e9));
+  only(SurfaceKind::kImpedance, "resistance", spec.resistance, within(0, 1e6));
+  only(SurfaceKind::kImpedance, "reactance", spec.reactance, within(-1e6, 1e6));
+  if (v.optional("backing", spec.kind == SurfaceKind::kLayers)) v.choice("backing", spec.backing, {"pec", "air"}, "");
   v.list("layers", spec.layers, kMaxLayers, visit, "");
-  if (v.optional("temperature_c", spec.kind == SurfaceKind::kSeaWater)) {
-    v.number("temperature_c", spec.temperature_c, within(-2, 29), "");
-  }
-  if (v.optional("salinity_psu", spec.kind == SurfaceKind::kSeaWater)) {
-    v.number("salinity_psu", spec.salinity_psu, within(0, 40), "");
-  }
+  only(SurfaceKind::kSeaWater, "temperature_c", spec.temperature_c, within(-2, 29));
+  only(SurfaceKind::kSeaWater, "salinity_psu", spec.salinity_psu, within(0, 40));
 }
 
 void check_dispersion(const DispersionSpec& spec, const std::string& path, bool magnetic,

@@ -34,6 +34,8 @@ std::string place_of(const Scenario& scenario, const std::string& key_path) {
 
 namespace {
 
+constexpr std::size_t kMaxTableBytes = 10'000'000, kMaxHopCodeBytes = std::size_t{64} << 20;
+
 // Default name of a scenario: its file name, printable characters only.
 std::string name_of_file(const fs::path& file) {
   std::string name = file.stem().string();
@@ -54,8 +56,8 @@ std::shared_ptr<const SpectrumTable> find_spectrum_table(const Scenario& scenari
   const auto file_and_time = [](const SeaSpec& sea) { return std::pair(sea.table, sea.table_time); };
   if (known && known->sea.table_values && file_and_time(known->sea) == file_and_time(scenario.sea))
     return known->sea.table_values;
-  return std::make_shared<SpectrumTable>(
-      read_spectrum_table(file_of(scenario, scenario.sea.table, "sea.table"), scenario.sea.table_time));
+  return std::make_shared<SpectrumTable>(read_spectrum_table(
+      TextSource::read(file_of(scenario, scenario.sea.table, "sea.table"), kMaxTableBytes), scenario.sea.table_time));
 }
 
 // Reads the file of `radar.hop_code_file`, likewise.
@@ -64,7 +66,8 @@ std::shared_ptr<const std::vector<int>> find_hop_codes(const Scenario& scenario,
   if (radar.hop_code != HopCode::kFile || radar.hop_code_file.empty()) return nullptr;
   if (known && known->radar.hop_codes) return known->radar.hop_codes;
   const fs::path file = file_of(scenario, radar.hop_code_file, "radar.hop_code_file");
-  return std::make_shared<std::vector<int>>(read_hop_code(file, radar.pulses, radar.carrier_count));
+  return std::make_shared<std::vector<int>>(
+      read_hop_code(TextSource::read(file, kMaxHopCodeBytes), radar.pulses, radar.carrier_count));
 }
 
 // Reads the tables that the keys name unless `known` has them, and records the contradictions between keys.
@@ -129,8 +132,8 @@ std::shared_ptr<ScatterDiagram> find_scatter_diagram(const ScenarioDocument& doc
   std::shared_ptr<ScatterDiagram> diagram;
   errors.check({kScatterKey}, [&] {
     const fs::path folder = fs::path(document.file_name).parent_path();
-    diagram = std::make_shared<ScatterDiagram>(
-        read_scatter_diagram(find_file(node->text, folder, document.place_of(kScatterKey))));
+    diagram = std::make_shared<ScatterDiagram>(read_scatter_diagram(
+        TextSource::read(find_file(node->text, folder, document.place_of(kScatterKey)), kMaxTableBytes)));
   });
   for (const Alternatives& group : kAlternatives) {
     if (std::ranges::find(group.keys, kScatterDiagram) == std::end(group.keys)) continue;
@@ -224,76 +227,14 @@ void check_scatter(const ScenarioDocument& document, const Scenario& scenario, c
   }
 }
 
-}  // namespace
-
-Scenario read_scenario(const fs::path& file, const std::vector<Override>& overrides) {
-  return parse_scenario(read_file(file, kMaxYamlBytes), file.string(), overrides);
+// The scenario with these values of keys and without variations; records errors.
+Scenario with_key_values(const Scenario& scenario, const std::vector<KeyValue>& values, ErrorList& errors) {
+  Scenario other = scenario;
+  other.variations.clear();
+  assign(other, values, *scenario.document, errors);
+  complete(other, *scenario.document, errors, &scenario);
+  return other;
 }
-
-Scenario parse_scenario(const std::string& yaml, const std::string& file_name, const std::vector<Override>& overrides) {
-  const auto read = std::make_shared<ScenarioDocument>(ScenarioDocument{file_name, {}, parse_yaml(yaml, file_name)});
-  ScenarioDocument& document = *read;
-  ErrorList errors(document);
-  for (const Override& override_value : overrides)
-    errors.attempt({override_value.key_path}, [&] { apply_override(document, override_value); });
-  copy_fixed_values(document);
-  std::vector<Variation> variations = find_variations(document, errors);
-  for (const Variation& variation : variations) document.drawn_keys.push_back(variation.key_path);
-  const std::shared_ptr<ScatterDiagram> diagram = find_scatter_diagram(document, errors);
-  if (diagram && errors.check({kScatterKey}, [&] { exclude_breaking(document, variations, *diagram); })) {
-    for (Variation& of_pair : scatter_variations(diagram)) variations.push_back(std::move(of_pair));
-    std::ranges::sort(variations, {}, &Variation::key_path);
-  }
-  Scenario scenario = read_values(with_values(document, variations, middles(variations)), errors);
-  errors.throw_if_any();
-  scenario.document = read;
-  scenario.variations = std::move(variations);
-  std::set<std::string> companions;  // with any drawn values
-  const auto collect = [&companions](const Scenario& of) {
-    for (const TargetSpec& target : of.targets) {
-      for (const CompanionSpec& companion : target.companions) companions.insert(companion.target);
-    }
-  };
-  collect(scenario);
-  visit_ends(document, scenario, errors, collect);
-  if (diagram) check_scatter(document, scenario, *diagram, errors);
-  errors.check({"targets"}, [&] { check_parts(scenario, companions, document); });
-  errors.throw_if_any();
-  return scenario;
-}
-
-Scenario drawn_scenario(const Scenario& scenario, const DrawPlace& place) {
-  if (scenario.variations.empty()) return scenario;
-  std::vector<KeyValue> values;
-  for (const Variation& variation : scenario.variations)
-    values.push_back({variation.key_path, drawn_value(variation, scenario.seed, place)});
-  const ScenarioDocument& document = *scenario.document;
-  ErrorList errors(document);
-  Scenario drawn = scenario;
-  drawn.variations.clear();
-  assign(drawn, values, document, errors);
-  complete(drawn, document, errors, &scenario);
-  if (errors.is_empty()) return drawn;
-  // Messages quote the drawn values.
-  std::vector<std::string> texts, all;
-  for (const KeyValue& value : values) {
-    texts.push_back(text_of(value.value));
-    all.push_back(fmt::format("{} {}", value.key_path, texts.back()));
-  }
-  const ScenarioDocument with_texts = with_values(document, scenario.variations, texts);
-  ErrorList quoting(with_texts);
-  read_values(with_texts, quoting, &scenario);
-  const std::string end = fmt::format("; of the drawn values {}", fmt::join(all, ", "));
-  quoting.throw_if_any(end);
-  errors.throw_if_any(end);
-  return drawn;
-}
-
-fs::path find_mesh(const Scenario& scenario, const TargetSpec& target) {
-  return file_of(scenario, target.mesh, fmt::format("targets.{}.mesh", target.name));
-}
-
-namespace {
 
 // Those of the scenario itself. Records an error for each that is missing.
 void add_input_files(const Scenario& scenario, std::vector<InputFile>& files, ErrorList& errors) {
@@ -328,6 +269,76 @@ void add_input_files(const Scenario& scenario, std::vector<InputFile>& files, Er
 }
 
 }  // namespace
+
+Scenario read_scenario(const fs::path& file, const std::vector<Override>& overrides) {
+  return parse_scenario(read_file(file, kMaxYamlBytes), file.string(), overrides);
+}
+
+Scenario parse_scenario(const std::string& yaml, const std::string& file_name, const std::vector<Override>& overrides) {
+  const auto read = std::make_shared<ScenarioDocument>(ScenarioDocument{file_name, {}, parse_yaml(yaml, file_name)});
+  ScenarioDocument& document = *read;
+  ErrorList errors(document);
+  for (const Override& override_value : overrides)
+    errors.attempt({override_value.key_path}, [&] { apply_override(document, override_value); });
+  std::vector<Variation> variations = find_variations(document, errors);
+  for (const Variation& variation : variations) document.drawn_keys.push_back(variation.key_path);
+  const std::shared_ptr<ScatterDiagram> diagram = find_scatter_diagram(document, errors);
+  if (diagram && errors.check({kScatterKey}, [&] { exclude_breaking(document, variations, *diagram); })) {
+    for (Variation& of_pair : scatter_variations(diagram)) variations.push_back(std::move(of_pair));
+    std::ranges::sort(variations, {}, &Variation::key_path);
+  }
+  Scenario scenario = read_values(with_values(document, variations, middles(variations)), errors);
+  errors.throw_if_any();
+  scenario.document = read;
+  scenario.variations = std::move(variations);
+  std::set<std::string> companions;  // with any drawn values
+  const auto collect = [&companions](const Scenario& of) {
+    for (const TargetSpec& target : of.targets) {
+      for (const CompanionSpec& companion : target.companions) companions.insert(companion.target);
+    }
+  };
+  collect(scenario);
+  visit_ends(document, scenario, errors, collect);
+  if (diagram) check_scatter(document, scenario, *diagram, errors);
+  errors.check({"targets"}, [&] { check_parts(scenario, companions, document); });
+  errors.throw_if_any();
+  return scenario;
+}
+
+Scenario drawn_scenario(const Scenario& scenario, const DrawPlace& place) {
+  if (scenario.variations.empty()) return scenario;
+  std::vector<KeyValue> values;
+  for (const Variation& variation : scenario.variations)
+    values.push_back({variation.key_path, drawn_value(variation, scenario.seed, place)});
+  const ScenarioDocument& document = *scenario.document;
+  ErrorList errors(document);
+  Scenario drawn = with_key_values(scenario, values, errors);
+  if (errors.is_empty()) return drawn;
+  // Messages quote the drawn values.
+  std::vector<std::string> texts, all;
+  for (const KeyValue& value : values) {
+    texts.push_back(text_of(value.value));
+    all.push_back(fmt::format("{} {}", value.key_path, texts.back()));
+  }
+  const ScenarioDocument with_texts = with_values(document, scenario.variations, texts);
+  ErrorList quoting(with_texts);
+  read_values(with_texts, quoting, &scenario);
+  const std::string end = fmt::format("; of the drawn values {}", fmt::join(all, ", "));
+  quoting.throw_if_any(end);
+  errors.throw_if_any(end);
+  return drawn;
+}
+
+Scenario scenario_with(const Scenario& scenario, const std::vector<KeyValue>& values) {
+  ErrorList errors(*scenario.document);
+  Scenario other = with_key_values(scenario, values, errors);
+  errors.throw_if_any();
+  return other;
+}
+
+fs::path find_mesh(const Scenario& scenario, const TargetSpec& target) {
+  return file_of(scenario, target.mesh, fmt::format("targets.{}.mesh", target.name));
+}
 
 std::vector<InputFile> input_files(const Scenario& scenario) {
   const ScenarioDocument none;

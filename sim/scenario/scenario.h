@@ -62,6 +62,10 @@ Scenario parse_scenario(const std::string& yaml, const std::string& file_name,
 // variations. Throws InputError for drawn values that contradict each other.
 Scenario drawn_scenario(const Scenario& scenario, const DrawPlace& place);
 
+// A scenario that was read, with these values of keys and without variations. Throws InputError for values out of their
+// bounds and for those that contradict each other.
+Scenario scenario_with(const Scenario& scenario, const std::vector<KeyValue>& values);
+
 // What a text states of a key: "uniform(0.5, 2), drawn per sea" where the scenario draws it, else `value`.
 std::string value_text(const Scenario& scenario, const std::string& key_path, std::string value);
 

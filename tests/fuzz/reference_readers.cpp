@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "sim/core/process/file.h"
+#include "sim/field_tables/field_formats.h"
 #include "sim/field_tables/field_table.h"
-#include "sim/field_tables/pandas_table.h"
 #include "tests/fuzz/readers.h"
 
 namespace seaglint {

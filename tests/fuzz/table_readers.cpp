@@ -37,25 +37,25 @@ void fuzz_numbers(const std::string& bytes) {
 
 void fuzz_spectrum(const std::string& bytes) {
   is_refused([&] {
-    const SpectrumTable table = parse_spectrum_table(bytes, "spectrum.csv");
+    const SpectrumTable table = read_spectrum_table({"spectrum.csv", bytes});
     SEAGLINT_CHECK(ascends(table.omega) && table.omega.size() == table.density.size(), "no spectrum");
     table.energy();
     table.peak_omega();
   });
-  is_refused([&] { parse_spectrum_table(bytes, "spectrum.csv", "2018-01-01 01:40"); });
+  is_refused([&] { read_spectrum_table({"spectrum.csv", bytes}, "2018-01-01 01:40"); });
 }
 
 void fuzz_hop_code(const std::string& bytes) {
   is_refused([&] {
     constexpr int kCarriers = 16;
-    for (const int carrier : parse_hop_code(bytes, "code.txt", 4, kCarriers))
+    for (const int carrier : read_hop_code({"code.txt", bytes}, 4, kCarriers))
       SEAGLINT_CHECK(carrier >= 0 && carrier < kCarriers, "a carrier that is none");
   });
 }
 
 void fuzz_scatter(const std::string& bytes) {
   is_refused([&] {
-    const ScatterDiagram diagram = parse_scatter_diagram(bytes, "seas.csv");
+    const ScatterDiagram diagram = read_scatter_diagram({"seas.csv", bytes});
     Random random({1, Stream::kTest, 1});
     const SeaPair pair = diagram.draw(random), likeliest = diagram.likeliest();
     SEAGLINT_CHECK(pair.significant_wave_height_m > 0 && pair.period_s >= 0 && likeliest.period_s >= 0 &&

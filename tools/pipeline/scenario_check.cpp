@@ -9,7 +9,6 @@
 #include <chrono>
 #include <cmath>
 #include <compare>
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -81,35 +80,17 @@ constexpr std::size_t kMaxSurroundings = 40;  // values of the other keys with w
 constexpr std::size_t kWholeSurroundings = 3;
 constexpr double kTolerance = 1e-9;  // of the largest value
 
-std::vector<Override> reductions(const Scenario& scenario) {
-  std::vector<Override> settings{
-      {"radar.pulses", fmt::format("{}", std::min(scenario.radar.pulses, kPulses))},
-      {"sea.components", fmt::format("{}", std::min(scenario.sea.components, kComponents))},
-      {"sea.swell.components", fmt::format("{}", std::min(scenario.sea.swell.components, kComponents))}};
-  for (const TargetSpec& target : scenario.targets) {
-    if (target.mesh.empty()) continue;
-    const std::string path = "targets." + target.name;
-    settings.push_back({path + ".motion.spin_up_s", fmt::format("{}", std::min(target.motion.spin_up_s, kSpinUp_s))});
-    settings.push_back(
-        {path + ".solver.max_bounces", fmt::format("{}", std::min(target.solver.max_bounces, kBounces))});
-    settings.push_back({path + ".solver.edges", "false"});
+// The scenario by the settings of a cheap map.
+Scenario reduced(Scenario scenario) {
+  scenario.radar.pulses = std::min(scenario.radar.pulses, kPulses);
+  scenario.sea.components = std::min(scenario.sea.components, kComponents);
+  scenario.sea.swell.components = std::min(scenario.sea.swell.components, kComponents);
+  for (TargetSpec& target : scenario.targets) {
+    target.motion.spin_up_s = std::min(target.motion.spin_up_s, kSpinUp_s);
+    target.solver.max_bounces = std::min(target.solver.max_bounces, kBounces);
+    target.solver.edges = false;
   }
-  return settings;
-}
-
-// A value of a trial for --set: in double quotes where YAML would not read a plain word back unchanged.
-std::string as_yaml(const std::string& value) {
-  const auto is_plain = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '.' ||
-           c == '/' || c == '+' || c == '-';
-  };
-  if (std::ranges::all_of(value, is_plain)) return value;
-  std::string quoted = "\"";
-  for (const char c : value) {
-    if (c == '"' || c == '\\') quoted += '\\';
-    quoted += c;
-  }
-  return quoted + '"';
+  return scenario;
 }
 
 bool is_near(const std::vector<Complex>& a, const std::vector<Complex>& b) {
@@ -126,16 +107,7 @@ bool is_near(const std::vector<Complex>& a, const std::vector<Complex>& b) {
 class TrialMaps {
  public:
   TrialMaps(const Pipeline& pipeline, const std::vector<VariedKey>& keys, const StopFlag* stop)
-      : pipeline_(pipeline),
-        keys_(keys),
-        stop_(stop),
-        yaml_(effective_yaml(pipeline.scenario())),
-        file_(pipeline.scenario().folder / "scenario.yaml"),
-        reductions_(reductions(pipeline.scenario())) {
-    std::erase_if(reductions_, [&](const Override& setting) {
-      return std::ranges::find(keys_, setting.key_path, &VariedKey::key_path) != keys_.end();
-    });
-  }
+      : pipeline_(pipeline), keys_(keys), stop_(stop) {}
 
   // Values of the map of a target; null where the values contradict each other or the target has no power.
   const std::vector<Complex>* map_of(const Trial& trial, int target) {
@@ -161,18 +133,23 @@ class TrialMaps {
   }
 
   std::unique_ptr<const Pipeline> pipeline_of(const Trial& trial) const {
-    std::vector<Override> settings{
-        {"dataset.maps_per_case", "1"}, {"dataset.realisations_per_case", "1"}, {"dataset.maps_per_interval", "1"}};
-    for (std::size_t k = 0; k < keys_.size(); ++k) settings.push_back({keys_[k].key_path, as_yaml(trial.values[k])});
-    if (trial.cost == TrialCost::kReduced) settings.insert(settings.end(), reductions_.begin(), reductions_.end());
-    if (trial.part == TrialPart::kEcho) {
-      settings.push_back({"clutter.enabled", "false"});
-      settings.push_back({"clutter.noise_level", "cnr"});  // relative to the clutter: none
+    const bool is_echo = trial.part == TrialPart::kEcho;
+    Scenario scenario = pipeline_.scenario();
+    if (trial.cost == TrialCost::kReduced) scenario = reduced(std::move(scenario));
+    DatasetSpec& dataset = scenario.dataset;
+    dataset.maps_per_case = dataset.realisations_per_case = dataset.maps_per_interval = 1;
+    if (is_echo) {
+      scenario.clutter.enabled = false;
+      scenario.clutter.noise_level = NoiseLevel::kCnr;  // relative to the clutter: none
+    }
+    std::vector<KeyValue> values;
+    for (std::size_t k = 0; k < keys_.size(); ++k) {
+      if (!is_echo || !keys_[k].key_path.starts_with("clutter."))
+        values.push_back({keys_[k].key_path, trial.values[k]});
     }
     try {
       // Not from std::make_unique(): a Pipeline cannot be moved.
-      return std::unique_ptr<const Pipeline>(
-          new Pipeline(pipeline_.of_other(parse_scenario(yaml_, file_.string(), settings))));
+      return std::unique_ptr<const Pipeline>(new Pipeline(pipeline_.of_other(scenario_with(scenario, values))));
     } catch (const InputError&) {
       return nullptr;
     }
@@ -184,10 +161,7 @@ class TrialMaps {
   const Pipeline& pipeline_;
   const std::vector<VariedKey>& keys_;
   const StopFlag* stop_;
-  std::string yaml_;                  // of the pipeline's scenario
-  std::filesystem::path file_;        // that it would be in
-  std::vector<Override> reductions_;  // but those of varied keys
-  std::vector<Made> made_;            // the last ones
+  std::vector<Made> made_;  // the last ones
   std::map<std::pair<Trial, int>, std::optional<std::vector<Complex>>> maps_;
 };
 

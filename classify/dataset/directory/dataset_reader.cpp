@@ -86,11 +86,7 @@ void write_input_list(const fs::path& directory, const Scenario& scenario) {
   if (!text.empty()) write_file(list, text);
 }
 
-namespace {
-
 constexpr const char* kRemedy = "make it again by `seaglint generate SCENARIO -o DIR --resume`";
-
-}  // namespace
 
 DatasetReader::DatasetReader(fs::path directory, ScenarioMismatch other) : directory_(std::move(directory)) {
   if (!fs::is_directory(directory_)) throw InputError(fmt::format("{}: no such directory", directory_.string()));

@@ -24,15 +24,6 @@
 
 namespace seaglint {
 
-namespace {
-
-// 53 bits, which a double holds, of the random numbers that give the sea its phases.
-std::int64_t sea_id(std::uint64_t seed, std::uint64_t sea_key) {
-  return static_cast<std::int64_t>(Random({seed, Stream::kWavePhase, sea_key}).bits() >> 11);
-}
-
-}  // namespace
-
 SampleRecord planned_record(const Scenario& scenario, const SamplePlan& plan, std::size_t sample) {
   return planned_record(scenario, plan, sample, plan.address(sample));
 }
@@ -74,7 +65,8 @@ SampleRecord planned_record(const Scenario& scenario, const SamplePlan& plan, st
   record.seed = static_cast<std::int64_t>(scenario.seed);
   const std::uint64_t sea = sea_key(static_cast<std::size_t>(at.sea_state), static_cast<std::size_t>(at.realisation));
   record.sea_key = static_cast<std::int64_t>(sea);
-  record.sea_id = sea_id(scenario.seed, sea);
+  // 53 bits, which a double holds, of the random numbers that give the sea its phases.
+  record.sea_id = static_cast<std::int64_t>(Random({scenario.seed, Stream::kWavePhase, sea}).bits() >> 11);
   record.first_motion_key = static_cast<std::int64_t>(body_index(sea, first_body));
   record.radar_key = static_cast<std::int64_t>(sample);
   for (const Variation& variation : scenario.variations) {
@@ -112,12 +104,6 @@ std::vector<std::string> record_mismatches(const SampleRecord& record, const Sam
 }
 
 namespace {
-
-std::string join(const std::vector<double>& values) {
-  std::string text;
-  for (const double value : values) text += fmt::format("{}{:g}", text.empty() ? "" : ", ", value);
-  return text;
-}
 
 // "2", or "2 (guarded ship)" where the scenario names the classes.
 std::string label_text(const Scenario& scenario, int label) {
@@ -178,7 +164,7 @@ std::string sea_values(const Scenario& scenario, const SamplePlan& plan, const s
   for (int sea = 0; sea < std::min(states * realisations, std::max(states, kMostSeas)); ++sea)
     values.insert(plan.sea_state({.sea_state = sea % states, .realisation = sea / states}).*member);
   const std::string text = values.size() <= kMostValues
-                               ? join({values.begin(), values.end()})
+                               ? fmt::format("{:g}", fmt::join(values, ", "))
                                : fmt::format("{:.4g} to {:.4g}", *values.begin(), *values.rbegin());
   const std::string distribution = value_text(scenario, key, "");
   return markdown_text(distribution.empty() ? text : fmt::format("{} ({})", text, distribution));
@@ -263,10 +249,13 @@ std::string data_card(const Scenario& scenario, const SamplePlan& plan, const Ma
       sea_values(scenario, plan, "sea.significant_wave_height_m", &SeaState::significant_wave_height_m),
       sea_values(scenario, plan, "sea.peak_period_s", &SeaState::peak_period_s),
       sea_values(scenario, plan, "sea.propagation_deg", &SeaState::propagation_deg),
-      markdown_text(value_text(scenario, "view.azimuth_deg", join(scenario.view.azimuth_deg))),
-      markdown_text(value_text(scenario, "view.elevation_deg", join(scenario.view.elevation_deg))), set.maps_per_case,
-      set.realisations_per_case, set.interval_spacing_s, axes.velocity_mps.size(), axes.velocity_mps.front(),
-      axes.velocity_mps.back(), axes.range_m.size(), axes.range_m.front(), axes.range_m.back());
+      markdown_text(
+          value_text(scenario, "view.azimuth_deg", fmt::format("{:g}", fmt::join(scenario.view.azimuth_deg, ", ")))),
+      markdown_text(value_text(scenario, "view.elevation_deg",
+                               fmt::format("{:g}", fmt::join(scenario.view.elevation_deg, ", ")))),
+      set.maps_per_case, set.realisations_per_case, set.interval_spacing_s, axes.velocity_mps.size(),
+      axes.velocity_mps.front(), axes.velocity_mps.back(), axes.range_m.size(), axes.range_m.front(),
+      axes.range_m.back());
   text += arrays_table(scenario, axes) + "\n" + kReading + "## Columns of `samples/`\n\n" + columns_table(set.classes) +
           drawn_table(scenario);
   text += fmt::format(
@@ -393,10 +382,8 @@ bool has_arrays_of(const DatasetSpec& dataset, const Shard& shard) {
 }  // namespace
 
 bool is_dataset_file(const std::string& name) {
-  for (const char* own : kSingleFiles) {
-    if (name == own) return true;
-  }
-  return name.ends_with(".h5") || name.ends_with(".npz") || name.starts_with('.') || is_temporary(name);
+  const bool is_single = std::ranges::find(kSingleFiles, name) != std::end(kSingleFiles);
+  return is_single || name.ends_with(".h5") || name.ends_with(".npz") || name.starts_with('.') || is_temporary(name);
 }
 
 DatasetWriter::DatasetWriter(fs::path directory, const Scenario& scenario, const SamplePlan& plan, bool resume,

@@ -62,13 +62,9 @@ std::vector<std::string> unpacked_names(std::string_view text) {
   return names;
 }
 
-namespace {
-
 // Superblock of version 2 or 3 (HDF5 File Format Specification 3.0, section II.A): signature, version in byte 8,
 // address of the end of the file in bytes 28 to 35, root group in 36 to 43, checksum in 44 to 47.
 constexpr std::size_t kVersionAt = 8, kEndAt = 28, kRootAt = 36, kChecksumAt = 44, kSuperblock = 48;
-
-}  // namespace
 
 std::optional<std::uint64_t> end_of_file(const Hdf5Image& image) {
   const std::string& bytes = image.bytes;
@@ -127,28 +123,6 @@ std::string with_percents(const std::string& name, std::string_view from, std::s
   };
   if (H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, look, &reason) > 0) throw std::bad_alloc();
   throw WorkError(what + reason);
-}
-
-// The number of elements that an array claims, checked before anything is allocated for them; it must have `rank`
-// dimensions. Throws WorkError naming the array, as the two checks below.
-std::size_t claimed_count(const std::string& path, const Dimensions& extent, ArrayType element, std::size_t rank) {
-  if (extent.size() != rank) throw WorkError(fmt::format("{} has not {} dimensions", path, rank));
-  constexpr double kMaxBytes = 1e15;  // reached only by a virtual array, whose extent nothing else limits
-  if (chunked_bytes(extent, extent, element_bytes(element), 0) > kMaxBytes)
-    throw WorkError(fmt::format("{} claims more bytes than it has", path));
-  return element_count(extent);
-}
-
-// Rows `first` to `first + count - 1` must exist in an array of one dimension.
-void require_rows(const std::string& path, const Dimensions& extent, std::uint64_t first, std::uint64_t count) {
-  if (extent.size() != 1 || first > extent[0] || count > extent[0] - first)
-    throw WorkError(fmt::format("{} has no rows {} to {}", path, first, first + count));
-}
-
-// Chunks must have the bytes that their array needs, in a file that has as many.
-void require_chunk_bytes(const std::string& path, double claimed, double needed, double file_bytes) {
-  if (claimed < needed) throw WorkError(fmt::format("{} is incomplete", path));
-  if (claimed > needed || needed > file_bytes) throw WorkError(fmt::format("{} claims more bytes than it has", path));
 }
 
 // HDF5 identifier, closed by its destructor. `what` is the message if the call that created it failed.
@@ -416,7 +390,9 @@ struct Hdf5Reader::Open {
     const auto claimed = static_cast<double>(H5Dget_storage_size(set));
     hsize_t bytes = 0;
     require(H5Fget_filesize(file, &bytes), what);
-    require_chunk_bytes(path, claimed, needed, static_cast<double>(bytes));
+    if (claimed < needed) throw WorkError(fmt::format("{} is incomplete", path));
+    if (claimed > needed || needed > static_cast<double>(bytes))
+      throw WorkError(fmt::format("{} claims more bytes than it has", path));
   }
 };
 
@@ -486,13 +462,20 @@ void Hdf5Reader::require_type(const std::string& path, ArrayType element) const 
 
 std::size_t Hdf5Reader::checked_count(const std::string& path, ArrayType element, std::size_t rank) const {
   require_type(path, element);
-  return claimed_count(path, size(path), element, rank);
+  const Dimensions extent = size(path);
+  if (extent.size() != rank) throw WorkError(fmt::format("{} has not {} dimensions", path, rank));
+  constexpr double kMaxBytes = 1e15;  // reached only by a virtual array, whose extent nothing else limits
+  if (chunked_bytes(extent, extent, element_bytes(element), 0) > kMaxBytes)
+    throw WorkError(fmt::format("{} claims more bytes than it has", path));
+  return element_count(extent);
 }
 
 void Hdf5Reader::checked_rows(const std::string& path, ArrayType element, std::uint64_t first,
                               std::uint64_t count) const {
   require_type(path, element);
-  require_rows(path, size(path), first, count);
+  const Dimensions extent = size(path);
+  if (extent.size() != 1 || first > extent[0] || count > extent[0] - first)
+    throw WorkError(fmt::format("{} has no rows {} to {}", path, first, first + count));
 }
 
 void Hdf5Reader::read_bytes(const std::string& path, ArrayType element, std::uint64_t first, std::uint64_t count,

@@ -2,6 +2,7 @@
 #include "classify/dataset/format/manifest.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <openssl/evp.h>
 
 #include <fstream>
@@ -32,14 +33,20 @@ class Digest {
     unsigned char value[EVP_MAX_MD_SIZE];
     unsigned int length = 0;
     SEAGLINT_CHECK(EVP_DigestFinal_ex(context_.get(), value, &length) == 1, "SHA-256 end");
-    std::string text;
-    for (unsigned int i = 0; i < length; ++i) text += fmt::format("{:02x}", value[i]);
-    return text;
+    return fmt::format("{:02x}", fmt::join(value, value + length, ""));
   }
 
  private:
   std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
 };
+
+using nlohmann::ordered_json;
+
+constexpr const char* kManifestFormat = "seaglint data set 4";
+
+// Upper limits of a scenario: dataset.maps_per_shard, and all maps of its sweeps.
+constexpr std::uint64_t kMaxShardSamples = 10000;
+constexpr std::uint64_t kMaxSamples = 1000000000;
 
 }  // namespace
 
@@ -54,18 +61,6 @@ std::string sha256_file(const std::filesystem::path& file) {
   read_blocks(file, [&](std::string_view block) { digest.add(block.data(), block.size()); });
   return digest.hexadecimal();
 }
-
-namespace {
-
-using nlohmann::ordered_json;
-
-constexpr const char* kManifestFormat = "seaglint data set 4";
-
-// Upper limits of a scenario: dataset.maps_per_shard, and all maps of its sweeps.
-constexpr std::uint64_t kMaxShardSamples = 10000;
-constexpr std::uint64_t kMaxSamples = 1000000000;
-
-}  // namespace
 
 std::string to_json(const Manifest& manifest) {
   ordered_json json;

@@ -15,6 +15,7 @@
 #include <exception>
 #include <functional>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
 #include <system_error>
@@ -23,6 +24,7 @@
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/core/process/printable.h"
+#include "sim/core/text/json.h"
 
 namespace seaglint {
 
@@ -33,55 +35,24 @@ namespace {
 constexpr std::string_view kMagic = "\x93NUMPY";
 constexpr std::size_t kMaxDimensions = 32;  // NumPy's
 
-// The dictionary of a header: {'descr': '<f8', 'fortran_order': False, 'shape': (2, 3), }, keys in any order.
-class HeaderText {
- public:
-  explicit HeaderText(std::string_view text) : text_(text) {}
-
-  bool accept(std::string_view token) {
-    while (!text_.empty() && (text_.front() == ' ' || text_.front() == '\n')) text_.remove_prefix(1);
-    if (!text_.starts_with(token)) return false;
-    text_.remove_prefix(token.size());
-    return true;
-  }
-
-  void expect(std::string_view token) {
-    if (!accept(token)) fail();
-  }
-
-  std::string quoted() {
-    const char* quote = accept("'") ? "'" : "\"";
-    if (*quote == '"') expect(quote);
-    const std::size_t end = text_.find(*quote);
-    if (end == std::string_view::npos) fail();
-    std::string word(text_.substr(0, end));
-    text_.remove_prefix(end + 1);
-    return word;
-  }
-
-  std::vector<std::uint64_t> lengths() {
-    std::vector<std::uint64_t> values;
-    expect("(");
-    while (!accept(")")) {
-      accept("");  // blanks
-      std::uint64_t value = 0;
-      const auto [end, error] = std::from_chars(text_.data(), text_.data() + text_.size(), value);
-      if (error != std::errc() || values.size() == kMaxDimensions) fail();
-      text_.remove_prefix(static_cast<std::size_t>(end - text_.data()));
-      values.push_back(value);
-      if (!accept(",")) {
-        expect(")");
-        break;
-      }
+// The dictionary of a header, {'descr': '<f8', 'fortran_order': False, 'shape': (2, 3), }, as JSON.
+std::string as_json(std::string_view dictionary) {
+  std::string json;
+  for (const char c : dictionary) {
+    if (c == '}' || c == ')') {
+      json.erase(json.find_last_not_of(' ') + 1);
+      if (json.ends_with(',')) json.pop_back();
     }
-    return values;
+    json += c == '\'' ? '"' : c == '(' ? '[' : c == ')' ? ']' : c;
   }
+  for (const auto& [python, word] : {std::pair{"True", "true"}, {"False", "false"}}) {
+    const std::size_t at = json.find(python);
+    if (at != std::string::npos) json.replace(at, std::strlen(python), word);
+  }
+  return json;
+}
 
-  [[noreturn]] static void fail() { throw InputError("no header of NumPy's .npy format"); }
-
- private:
-  std::string_view text_;
-};
+[[noreturn]] void fail_header() { throw InputError("no header of NumPy's .npy format"); }
 
 }  // namespace
 
@@ -96,11 +67,8 @@ const char* numpy_type(ArrayType element) {
 }
 
 std::string npy_header(const std::string& type, std::span<const std::uint64_t> shape) {
-  std::string lengths;
-  for (const std::uint64_t length : shape) lengths += fmt::format("{}, ", length);
-  if (shape.size() > 1) lengths.resize(lengths.size() - 2);
-  if (shape.size() == 1) lengths.pop_back();
-  std::string text = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}), }}", type, lengths);
+  std::string text = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}{}), }}", type,
+                                 fmt::join(shape, ", "), shape.size() == 1 ? "," : "");
   constexpr std::size_t kAlignment = 64, kBefore = 10;  // magic, version and length
   const std::size_t padded = (kBefore + text.size() + 1 + kAlignment - 1) / kAlignment * kAlignment - kBefore;
   text.resize(padded - 1, ' ');
@@ -113,42 +81,36 @@ std::string npy_header(const std::string& type, std::span<const std::uint64_t> s
 
 NpyHeader read_npy_header(std::string_view file) {
   const auto byte = [&](std::size_t i) -> std::size_t {
-    if (i >= file.size()) HeaderText::fail();
+    if (i >= file.size()) fail_header();
     return static_cast<unsigned char>(file[i]);
   };
   const std::size_t version = byte(kMagic.size());
-  if (!file.starts_with(kMagic) || version < 1 || version > 3) HeaderText::fail();
+  if (!file.starts_with(kMagic) || version < 1 || version > 3) fail_header();
   const std::size_t lengths = version == 1 ? 2 : 4, first = kMagic.size() + 2;
   std::size_t text_bytes = 0;
   for (std::size_t i = lengths; i-- > 0;) text_bytes = text_bytes << 8 | byte(first + i);
-  if (text_bytes > file.size() - first - lengths) HeaderText::fail();
+  if (text_bytes > file.size() - first - lengths) fail_header();
 
   NpyHeader header;
   header.bytes = first + lengths + text_bytes;
-  HeaderText text(file.substr(first + lengths, text_bytes));
-  text.expect("{");
-  std::vector<std::string> found;
-  while (!text.accept("}")) {
-    const std::string key = text.quoted();
-    if (std::ranges::find(found, key) != found.end()) HeaderText::fail();
-    found.push_back(key);
-    text.expect(":");
-    if (key == "descr") {
-      header.type = text.quoted();
-    } else if (key == "shape") {
-      header.shape = text.lengths();
-    } else if (key != "fortran_order") {
-      HeaderText::fail();
-    } else if (!text.accept("False")) {
-      text.expect("True");
-      throw InputError("is in Fortran order; numpy.ascontiguousarray gives C order");
-    }
-    if (!text.accept(",")) {
-      text.expect("}");
-      break;
-    }
+  bool is_fortran = false;
+  try {
+    const std::string text = as_json(file.substr(first + lengths, text_bytes));
+    check_json(text, "header", 3);
+    const nlohmann::json json = nlohmann::json::parse(text);
+    json.at("descr").get_to(header.type);
+    json.at("fortran_order").get_to(is_fortran);
+    const nlohmann::json& shape = json.at("shape");
+    const bool are_lengths =
+        std::ranges::all_of(shape, [](const nlohmann::json& length) { return length.is_number_unsigned(); });
+    if (!shape.is_array() || shape.size() > kMaxDimensions || !are_lengths) fail_header();
+    shape.get_to(header.shape);
+  } catch (const InputError&) {
+    fail_header();
+  } catch (const nlohmann::json::exception&) {
+    fail_header();
   }
-  if (found.size() != 3) HeaderText::fail();
+  if (is_fortran) throw InputError("is in Fortran order; numpy.ascontiguousarray gives C order");
   return header;
 }
 
@@ -460,22 +422,18 @@ void require_npz(const std::filesystem::path& file) {
 void write_npz(const std::filesystem::path& file, const std::vector<NpzArray>& arrays,
                const std::vector<NpzText>& texts) {
   std::vector<Member> members;
-  for (const NpzArray& array : arrays) {
-    Member member;
-    member.name = array.name + ".npy";
-    member.head = npy_header(array.type, array.shape);
-    member.next = array.next;
-    member.bytes = member.head.size() + npy_data_bytes(array.type, array.shape);
-    members.push_back(std::move(member));
-  }
-  for (const NpzText& text : texts) {
-    Member member;
-    member.name = text.name;
-    member.head = text.text;
-    member.next = [] { return std::string(); };
-    member.bytes = text.text.size();
-    members.push_back(std::move(member));
-  }
+  const auto add = [&](std::string name, std::string head, NextBlock next, std::uint64_t bytes) {
+    Member& member = members.emplace_back();
+    member.bytes = head.size() + bytes;
+    member.name = std::move(name);
+    member.head = std::move(head);
+    member.next = std::move(next);
+  };
+  for (const NpzArray& array : arrays)
+    add(array.name + ".npy", npy_header(array.type, array.shape), array.next, npy_data_bytes(array.type, array.shape));
+  for (const NpzText& text : texts)
+    add(
+        text.name, text.text, [] { return std::string(); }, 0);
   write_file_with(file, [&](const std::filesystem::path& temporary) {
     try {
       write_archive(temporary, members);

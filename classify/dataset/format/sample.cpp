@@ -112,11 +112,6 @@ void check_columns(const SampleRecord& record, std::vector<std::string>& faults)
     if (!std::isfinite(value)) faults.push_back(fmt::format("{} {} is not finite", key, value));
 }
 
-void check_echo(const Sample& sample, std::vector<std::string>& faults) {
-  if (!std::all_of(sample.echo.begin(), sample.echo.end(), [](double value) { return std::isfinite(value); }))
-    faults.emplace_back("a value of the echo is not finite");
-}
-
 // Peak and energy only if every value is a magnitude.
 void check_map(const Sample& sample, std::vector<std::string>& faults) {
   double peak = 0, energy = 0;
@@ -148,7 +143,8 @@ void check_map(const Sample& sample, std::vector<std::string>& faults) {
 std::vector<std::string> sample_faults(const Sample& sample) {
   std::vector<std::string> faults;
   check_map(sample, faults);
-  check_echo(sample, faults);
+  if (!std::ranges::all_of(sample.echo, [](double value) { return std::isfinite(value); }))
+    faults.emplace_back("a value of the echo is not finite");
   check_columns(sample.record, faults);
   for (const StoredCentre& centre : sample.centre_list) {
     const auto finite = [](float value) { return std::isfinite(value); };

@@ -14,6 +14,7 @@
 #include "classify/dataset/format/manifest.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
+#include "sim/scenario/fields.h"
 
 namespace seaglint {
 
@@ -29,13 +30,6 @@ constexpr const char* kWords = "drawn_words";
 constexpr std::string_view kDrawn = "/drawn/";
 
 std::string drawn_path(const std::string& key) { return std::string(kDrawn) + key; }
-
-// Ends of keys with their units, longer ones first where one ends with another.
-constexpr std::pair<std::string_view, const char*> kUnits[] = {
-    {"_deg_s", "deg/s"}, {"_mps", "m/s"}, {"_deg", "deg"},   {"_db", "dB"},   {"_mm", "mm"},
-    {"_km", "km"},       {"_us", "us"},   {"_m2", "m2"},     {"_m3", "m3"},   {"_kg", "kg"},
-    {"_m", "m"},         {"_s", "s"},     {"_c", "Celsius"}, {"_psu", "psu"},
-};
 
 std::vector<std::string> keys_of(const Hdf5Reader& file, const char* attribute) {
   std::vector<std::string> keys;
@@ -86,9 +80,8 @@ DrawnKeys drawn_keys(const SampleRecord& record) {
 DrawnKeys read_drawn_keys(const Hdf5Reader& file) { return {keys_of(file, kNumbers), keys_of(file, kWords)}; }
 
 ArrayText drawn_text(const std::string& key) {
-  const auto unit = std::find_if(std::begin(kUnits), std::end(kUnits),
-                                 [&](const auto& entry) { return std::string_view(key).ends_with(entry.first); });
-  return {unit == std::end(kUnits) ? "1" : unit->second, "drawn value of the scenario's key " + key};
+  const std::string unit(unit_of(key));
+  return {unit.empty() ? "1" : unit, "drawn value of the scenario's key " + key};
 }
 
 StoredColumns stored_columns(std::span<const SampleRecord> rows, std::span<const std::string> classes) {

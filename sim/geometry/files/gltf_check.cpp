@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <cstdint>
@@ -135,17 +136,10 @@ using Json = nlohmann::json;
 constexpr std::uint64_t kMaxBufferBytes = std::uint64_t{1} << 30;  // of one buffer
 constexpr std::uint64_t kMaxZeros = 1'000'000;                     // elements of a sparse accessor without other data
 
-// glTF 2.0, section 3.6.2.2: bytes of a component.
+// glTF 2.0, section 3.6.2.2: bytes of a component; 0 for another type.
 std::uint64_t component_size(std::uint64_t type) {
-  switch (type) {
-    case 5120:
-    case 5121: return 1;
-    case 5122:
-    case 5123: return 2;
-    case 5125:
-    case 5126: return 4;
-    default: return 0;
-  }
+  constexpr std::array<std::uint64_t, 7> kBytes{1, 1, 2, 2, 0, 4, 4};
+  return type >= 5120 && type <= 5126 ? kBytes[type - 5120] : 0;
 }
 
 constexpr std::string_view kBase64Digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -217,14 +211,19 @@ class Checker {
  private:
   [[noreturn]] void fail(const std::string& what) const { throw InputError(fmt::format("{}: {}", file_, what)); }
 
+  // The objects of a list, reduced; empty without the list. of_owner: begins their place in messages.
   template <typename Reduce>
   Json each(const char* name, Reduce reduce) const {
+    return each(root_, name, "", reduce);
+  }
+  template <typename Reduce>
+  Json each(const Json& owner, const char* name, const std::string& of_owner, Reduce reduce) const {
     Json list = Json::array();
-    const auto found = root_.find(name);
-    if (found == root_.end()) return list;
-    if (!found->is_array()) fail(fmt::format("{} is not a list", name));
+    const auto found = owner.find(name);
+    if (found == owner.end()) return list;
+    if (!found->is_array()) fail(fmt::format("{}{} is not a list", of_owner, name));
     for (std::size_t i = 0; i < found->size(); ++i) {
-      const std::string at = fmt::format("{}[{}]", name, i);
+      const std::string at = fmt::format("{}{}[{}]", of_owner, name, i);
       if (!(*found)[i].is_object()) fail(at + " is not an object");
       list.push_back(reduce((*found)[i], at));
     }
@@ -337,16 +336,10 @@ class Checker {
     const std::uint64_t type = whole(a, "componentType", at, 0), size = component_size(type);
     const std::uint64_t count = whole(a, "count", at, 0), offset = whole(a, "byteOffset", at, 0);
     const std::string shape = text(a, "type");
+    constexpr std::pair<std::string_view, std::uint64_t> kShapes[] = {
+        {"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT2", 4}, {"MAT3", 9}, {"MAT4", 16}};
     std::uint64_t components = 0;
-    for (const auto& [name, n] : {std::pair<const char*, int>{"SCALAR", 1},
-                                  {"VEC2", 2},
-                                  {"VEC3", 3},
-                                  {"VEC4", 4},
-                                  {"MAT2", 4},
-                                  {"MAT3", 9},
-                                  {"MAT4", 16}}) {
-      if (shape == name) components = static_cast<std::uint64_t>(n);
-    }
+    for (const auto& [name, n] : kShapes) components = shape == name ? n : components;
     if (size == 0) fail(fmt::format("{}.componentType = {} is unknown", at, type));
     if (components == 0) fail(fmt::format("{}.type = \"{}\" is unknown", at, shape));
     if (count == 0) fail(at + " is empty");
@@ -475,14 +468,9 @@ class Checker {
   }
 
   Json mesh(const Json& m, const std::string& at) const {
-    const auto primitives = m.find("primitives");
-    if (primitives == m.end() || !primitives->is_array() || primitives->empty()) fail(at + " has no primitives");
-    Json list = Json::array();
-    for (std::size_t i = 0; i < primitives->size(); ++i) {
-      const std::string here = fmt::format("{}.primitives[{}]", at, i);
-      if (!(*primitives)[i].is_object()) fail(here + " is not an object");
-      list.push_back(primitive((*primitives)[i], here));
-    }
+    const auto reduce = [&](const Json& p, const std::string& here) { return primitive(p, here); };
+    const Json list = each(m, "primitives", at + ".", reduce);
+    if (list.empty()) fail(at + " has no primitives");
     return Json{{"name", text(m, "name")}, {"primitives", list}};
   }
 
@@ -553,10 +541,8 @@ class Checker {
       plain["mesh"] = index(n, "mesh", "meshes", at);
       check_weights(n, at);
     }
-    copy_numbers(n, plain, "matrix", 16, at);
-    copy_numbers(n, plain, "translation", 3, at);
-    copy_numbers(n, plain, "rotation", 4, at);
-    copy_numbers(n, plain, "scale", 3, at);
+    for (const auto& [key, count] : {std::pair{"matrix", 16u}, {"translation", 3u}, {"rotation", 4u}, {"scale", 3u}})
+      copy_numbers(n, plain, key, count, at);
     check_transform(plain, at);
     return plain;
   }

@@ -524,21 +524,16 @@ class Writer {
     tinygltf::Primitive p;
     p.mode = TINYGLTF_MODE_TRIANGLES;
     p.material = material;
-    const int positions = add_accessor(piece.positions.data(), piece.positions.size() * sizeof(float), vertex_count,
-                                       TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3, TINYGLTF_TARGET_ARRAY_BUFFER);
-    set_bounds(model_.accessors[positions], piece.positions);
-    p.attributes["POSITION"] = positions;
-    if (!piece.normals.empty()) {
-      p.attributes["NORMAL"] =
-          add_accessor(piece.normals.data(), piece.normals.size() * sizeof(float), vertex_count,
-                       TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3, TINYGLTF_TARGET_ARRAY_BUFFER);
-    }
-    p.indices = narrow.empty() ? add_accessor(piece.indices.data(), piece.indices.size() * 4, piece.indices.size(),
-                                              TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR,
-                                              TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER)
-                               : add_accessor(narrow.data(), narrow.size() * 2, narrow.size(),
-                                              TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_TYPE_SCALAR,
-                                              TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
+    const auto add_vectors = [&](const std::vector<float>& values) {
+      return add_accessor(values, vertex_count, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3);
+    };
+    p.attributes["POSITION"] = add_vectors(piece.positions);
+    set_bounds(model_.accessors.back(), piece.positions);
+    if (!piece.normals.empty()) p.attributes["NORMAL"] = add_vectors(piece.normals);
+    p.indices = narrow.empty()
+                    ? add_accessor(piece.indices, piece.indices.size(), TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
+                                   TINYGLTF_TYPE_SCALAR)
+                    : add_accessor(narrow, narrow.size(), TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_TYPE_SCALAR);
     return p;
   }
 
@@ -552,16 +547,18 @@ class Writer {
     }
   }
 
-  int add_accessor(const void* data, std::size_t size, std::size_t count, int component, int type, int target) {
+  // Vectors of vertices, or scalars that are indices.
+  template <typename T>
+  int add_accessor(const std::vector<T>& values, std::size_t count, int component, int type) {
     auto& buffer = model_.buffers[0].data;
     buffer.resize((buffer.size() + 3) / 4 * 4, 0);
     tinygltf::BufferView view;
     view.buffer = 0;
     view.byteOffset = buffer.size();
-    view.byteLength = size;
-    view.target = target;
-    const auto* bytes = static_cast<const unsigned char*>(data);
-    buffer.insert(buffer.end(), bytes, bytes + size);
+    view.byteLength = values.size() * sizeof(T);
+    view.target = type == TINYGLTF_TYPE_SCALAR ? TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER : TINYGLTF_TARGET_ARRAY_BUFFER;
+    const auto* bytes = reinterpret_cast<const unsigned char*>(values.data());
+    buffer.insert(buffer.end(), bytes, bytes + view.byteLength);
 
     tinygltf::Accessor accessor;
     accessor.bufferView = static_cast<int>(model_.bufferViews.size());

@@ -163,8 +163,7 @@ void write_coloured_mesh(const std::filesystem::path& path, const TriangleMesh& 
 }
 
 std::string name_in(std::string_view line, const char* without) {
-  std::string name;
-  for (const std::string_view word : words_of(line)) name += fmt::format("{}{}", name.empty() ? "" : " ", word);
+  const std::string name = fmt::format("{}", fmt::join(words_of(line), " "));
   return name.empty() ? without : utf8_of(name);
 }
 

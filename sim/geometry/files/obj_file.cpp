@@ -225,22 +225,6 @@ void append_numbers(std::string& text, const Vec3& x) {
   fmt::format_to(std::back_inserter(text), " {} {} {}\n", x.x() + 0.0, x.y() + 0.0, x.z() + 0.0);
 }
 
-bool is_without(const std::array<Vec3, 3>& normals) {
-  return std::ranges::any_of(normals, [](const Vec3& n) { return n.isZero(0); });
-}
-
-// Distinct normals in order of first use.
-struct NumberedNormals {
-  std::vector<Vec3> all;
-  std::map<std::array<double, 3>, std::size_t> index;
-
-  std::size_t of(const Vec3& n) {
-    const auto [place, is_new] = index.try_emplace({n.x(), n.y(), n.z()}, all.size());
-    if (is_new) all.push_back(n);
-    return place->second;
-  }
-};
-
 }  // namespace
 
 TriangleMesh read_obj(std::string bytes, const std::string& file) {
@@ -254,16 +238,19 @@ std::string obj_bytes(const TriangleMesh& mesh) {
     text += 'v';
     append_numbers(text, p);
   }
-  // A face has all its normals or none.
-  NumberedNormals normals;
+  // Distinct normals in order of first use, from 1; a face has all its normals or none: 0.
+  std::map<std::array<double, 3>, std::size_t> number_of;
   std::vector<std::array<std::size_t, 3>> number(mesh.corner_normals.size(), {0, 0, 0});
   for (std::size_t t = 0; t < mesh.corner_normals.size(); ++t) {
-    for (int i = 0; i < 3 && !is_without(mesh.corner_normals[t]); ++i)
-      number[t][i] = 1 + normals.of(mesh.corner_normals[t][i]);
-  }
-  for (const Vec3& n : normals.all) {
-    text += "vn";
-    append_numbers(text, n);
+    const std::array<Vec3, 3>& normals = mesh.corner_normals[t];
+    if (std::ranges::any_of(normals, [](const Vec3& n) { return n.isZero(0); })) continue;
+    for (int i = 0; i < 3; ++i) {
+      const Vec3& n = normals[i];
+      const auto [place, is_new] = number_of.try_emplace({n.x(), n.y(), n.z()}, number_of.size() + 1);
+      if (is_new) text += "vn";
+      if (is_new) append_numbers(text, n);
+      number[t][i] = place->second;
+    }
   }
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const std::uint16_t part = mesh.triangle_part[t];

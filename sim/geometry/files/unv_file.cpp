@@ -69,16 +69,12 @@ class UnvDatasets {
   }
   const char* at() const { return line_.data(); }
 
-  // The next record of at least `count` integers: the first `count`, at most eight.
+  // The next record of at least `count` integers or numbers: the first `count`.
   std::vector<std::int64_t> integers(std::size_t count, const char* what) {
-    std::string_view text = line();
-    std::vector<std::int64_t> values;
-    while (values.size() < count) {
-      const std::string_view word = next_word(text);
-      if (word.empty()) fail(fmt::format("{}: {} fields: must be {}", what, values.size(), count));
-      values.push_back(integer(word, what));
-    }
-    return values;
+    return fields<std::int64_t>(count, what, &UnvDatasets::integer);
+  }
+  std::vector<double> numbers(std::size_t count, const char* what) {
+    return fields<double>(count, what, &UnvDatasets::number);
   }
   // The next `count` integers of any number of records.
   std::vector<std::int64_t> wrapped_integers(std::size_t count, const char* what) {
@@ -91,17 +87,6 @@ class UnvDatasets {
     }
     return values;
   }
-  // The next record of at least `count` numbers: the first `count`.
-  std::vector<double> numbers(std::size_t count, const char* what) {
-    std::string_view text = line();
-    std::vector<double> values;
-    while (values.size() < count) {
-      const std::string_view word = next_word(text);
-      if (word.empty()) fail(fmt::format("{}: {} fields: must be {}", what, values.size(), count));
-      values.push_back(number(word, what));
-    }
-    return values;
-  }
 
   // at the record that was read last
   [[noreturn]] void fail(const std::string& what) const {
@@ -110,6 +95,18 @@ class UnvDatasets {
   const TextSource& source() const { return source_; }
 
  private:
+  template <typename T>
+  std::vector<T> fields(std::size_t count, const char* what,
+                        T (UnvDatasets::*read)(std::string_view, const char*) const) {
+    std::string_view text = line();
+    std::vector<T> values;
+    while (values.size() < count) {
+      const std::string_view word = next_word(text);
+      if (word.empty()) fail(fmt::format("{}: {} fields: must be {}", what, values.size(), count));
+      values.push_back((this->*read)(word, what));
+    }
+    return values;
+  }
   std::int64_t integer(std::string_view word, const char* what) const {
     const std::optional<std::int64_t> value = parse_integer(word);
     if (!value) source_.fail(word, fmt::format("{}: value {}: must be an integer", what, in_quotes(word)));

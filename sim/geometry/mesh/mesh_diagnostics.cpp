@@ -300,12 +300,6 @@ std::string counted(std::size_t n, const char* one, const char* many) {
   return fmt::format("{} {}", n, n == 1 ? one : many);
 }
 
-}  // namespace
-
-MeshDiagnostics diagnose(const TriangleMesh& mesh) { return find_defects(mesh).health; }
-
-namespace {
-
 // Whether a mesh measured in metres was probably drawn in another unit: no ship is longer than 500 m, no target shorter
 // than 2 cm, and elongated bodies of many facets (ships: 3 times as long as wide) are seldom below 5 m.
 bool has_unlikely_size(const MeshDiagnostics& h) {
@@ -318,6 +312,8 @@ bool has_unlikely_size(const MeshDiagnostics& h) {
 }
 
 }  // namespace
+
+MeshDiagnostics diagnose(const TriangleMesh& mesh) { return find_defects(mesh).health; }
 
 std::vector<std::string> diagnostic_messages(const MeshDiagnostics& h) {
   std::vector<std::string> found = h.of_file;

@@ -52,6 +52,22 @@ std::vector<bool> closed_parts(const TriangleMesh& mesh, const Topology& topolog
   return closed;
 }
 
+// Angle between the normals of the two triangles of a manifold edge, positive convex, negative concave, in (-pi, pi].
+double fold_angle(const TriangleMesh& mesh, const Topology& topology, std::uint32_t edge_index) {
+  const MeshEdge& edge = topology.edges[edge_index];
+  SEAGLINT_CHECK(edge.kind == EdgeKind::kManifold, fmt::format("edge {} has {} triangles", edge_index, edge.use_count));
+  const HalfEdge& use = topology.uses[edge.first_use];
+  const HalfEdge& other = topology.uses[edge.first_use + 1];
+
+  // With t along the edge in the sense of the first triangle, its face is to the left; at a convex edge a positive
+  // rotation about t turns its normal into that of the second triangle.
+  const auto& corners = mesh.triangles[use.triangle];
+  const Vec3 t = (mesh.vertices[corners[(use.side + 1) % 3]] - mesh.vertices[corners[use.side]]).normalized();
+  const Vec3 n1 = area_vector(mesh, use.triangle).normalized();
+  const Vec3 n2 = area_vector(mesh, other.triangle).normalized();
+  return std::atan2(n1.cross(n2).dot(t), n1.dot(n2));
+}
+
 }  // namespace
 
 std::vector<EdgeUse> sides_by_edge(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertex_count) {
@@ -115,26 +131,6 @@ Topology topology_of(const TriangleMesh& mesh) {
   topology.part_closed = closed_parts(mesh, topology);
   return topology;
 }
-
-namespace {
-
-// Angle between the normals of the two triangles of a manifold edge, positive convex, negative concave, in (-pi, pi].
-double fold_angle(const TriangleMesh& mesh, const Topology& topology, std::uint32_t edge_index) {
-  const MeshEdge& edge = topology.edges[edge_index];
-  SEAGLINT_CHECK(edge.kind == EdgeKind::kManifold, fmt::format("edge {} has {} triangles", edge_index, edge.use_count));
-  const HalfEdge& use = topology.uses[edge.first_use];
-  const HalfEdge& other = topology.uses[edge.first_use + 1];
-
-  // With t along the edge in the sense of the first triangle, its face is to the left; at a convex edge a positive
-  // rotation about t turns its normal into that of the second triangle.
-  const auto& corners = mesh.triangles[use.triangle];
-  const Vec3 t = (mesh.vertices[corners[(use.side + 1) % 3]] - mesh.vertices[corners[use.side]]).normalized();
-  const Vec3 n1 = area_vector(mesh, use.triangle).normalized();
-  const Vec3 n2 = area_vector(mesh, other.triangle).normalized();
-  return std::atan2(n1.cross(n2).dot(t), n1.dot(n2));
-}
-
-}  // namespace
 
 std::vector<Wedge> wedges(const TriangleMesh& mesh, const Topology& topology, double min_angle) {
   const auto usable = [&](std::uint32_t triangle) {

@@ -280,11 +280,7 @@ Sphere bounding_sphere(std::span<const Vec3> points) {
   return {origin + sphere.centre, sphere.radius};
 }
 
-namespace {
-
 constexpr std::size_t kMaxNames = 65536;  // of parts or materials: triangles store 16-bit indices
-
-}  // namespace
 
 void MeshBuilder::begin_part(const std::string& name) {
   const auto [place, is_new] = part_of_name_.try_emplace(name, mesh_.part_names.size());

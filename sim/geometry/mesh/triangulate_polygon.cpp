@@ -160,27 +160,6 @@ class EarClipper {
   std::vector<std::uint32_t> left_;
 };
 
-}  // namespace
-
-std::optional<Triangles> triangulate_polygon(std::span<const Vec3> corner) {
-  const Vec3 area = newell(corner);
-  const double rounding = rounding_of(corner);
-  if (corner.size() == 3 || is_flat(corner, rounding)) return fan(corner.size());
-  if (!(area.norm() > 0)) return std::nullopt;
-  if (fan_covers(corner, area, rounding)) return fan(corner.size());
-  if (corner.size() > kMaxConcaveVertices) return std::nullopt;
-
-  // Projection onto the plane, the normal towards the viewer.
-  const Vec3 normal = area.normalized(), right = normal.unitOrthogonal(), up = normal.cross(right);
-  std::vector<Vec2> flat;
-  for (const Vec3& p : corner) flat.emplace_back((p - corner[0]).dot(right), (p - corner[0]).dot(up));
-  Triangles triangles = EarClipper(std::move(flat), rounding).clip();
-  if (triangles.empty()) return std::nullopt;
-  return triangles;
-}
-
-namespace {
-
 // Indices of the vertices without those at which the polygon turns back the same way, and without repeated ones.
 std::vector<std::uint32_t> without_spikes(std::span<const Vec3> corner) {
   std::vector<std::uint32_t> kept;
@@ -214,6 +193,23 @@ std::vector<std::uint32_t> without_spikes(std::span<const Vec3> corner) {
 }
 
 }  // namespace
+
+std::optional<Triangles> triangulate_polygon(std::span<const Vec3> corner) {
+  const Vec3 area = newell(corner);
+  const double rounding = rounding_of(corner);
+  if (corner.size() == 3 || is_flat(corner, rounding)) return fan(corner.size());
+  if (!(area.norm() > 0)) return std::nullopt;
+  if (fan_covers(corner, area, rounding)) return fan(corner.size());
+  if (corner.size() > kMaxConcaveVertices) return std::nullopt;
+
+  // Projection onto the plane, the normal towards the viewer.
+  const Vec3 normal = area.normalized(), right = normal.unitOrthogonal(), up = normal.cross(right);
+  std::vector<Vec2> flat;
+  for (const Vec3& p : corner) flat.emplace_back((p - corner[0]).dot(right), (p - corner[0]).dot(up));
+  Triangles triangles = EarClipper(std::move(flat), rounding).clip();
+  if (triangles.empty()) return std::nullopt;
+  return triangles;
+}
 
 std::vector<std::string> OddPolygons::sentences() const {
   std::vector<std::string> list;

@@ -30,6 +30,17 @@ Vec3 axis_of(const std::string& word, const char* what) {
   return axis;
 }
 
+// `mesh` of this name in metres.
+TriangleMesh placed_near(TriangleMesh mesh, const MeshPlacement& placement, const std::filesystem::path& path) {
+  mesh = placed(std::move(mesh), placement);
+  const Bounds box = bounds(mesh);
+  const double farthest = std::max(box.lower.cwiseAbs().maxCoeff(), box.upper.cwiseAbs().maxCoeff());
+  if (!(farthest <= kLargestCoordinate))
+    throw InputError(fmt::format("{}: reaches {:g} m from the origin, beyond {:g} m: are unit, scale and offset right?",
+                                 path.string(), farthest, kLargestCoordinate));
+  return mesh;
+}
+
 }  // namespace
 
 Mat3 rotation_of(const MeshPlacement& placement) {
@@ -48,21 +59,6 @@ TriangleMesh placed(TriangleMesh mesh, const MeshPlacement& placement) {
   if (!offset.isZero(0)) mesh = transformed(mesh, Mat3::Identity(), offset);
   return mesh;
 }
-
-namespace {
-
-// `mesh` of this name in metres.
-TriangleMesh placed_near(TriangleMesh mesh, const MeshPlacement& placement, const std::filesystem::path& path) {
-  mesh = placed(std::move(mesh), placement);
-  const Bounds box = bounds(mesh);
-  const double farthest = std::max(box.lower.cwiseAbs().maxCoeff(), box.upper.cwiseAbs().maxCoeff());
-  if (!(farthest <= kLargestCoordinate))
-    throw InputError(fmt::format("{}: reaches {:g} m from the origin, beyond {:g} m: are unit, scale and offset right?",
-                                 path.string(), farthest, kLargestCoordinate));
-  return mesh;
-}
-
-}  // namespace
 
 TriangleMesh read_placed_mesh(const std::filesystem::path& path, const MeshPlacement& placement) {
   return placed_near(read_mesh(path, placement.unit), placement, path);
@@ -148,8 +144,6 @@ void check_frequencies(std::span<const MaterialSpec> materials, double lowest_hz
   }
 }
 
-namespace {
-
 // Smallest size in wavelengths: physical optics of a plate this wide has an error of 1 dB at normal incidence.
 constexpr double kMinWavelengths = 3;
 constexpr double kLongestTarget_m = 5e3;  // ten times the longest ships
@@ -161,8 +155,6 @@ constexpr std::size_t kManyTriangles = 1'000'000;
 // half a side, whose edges are all sharp.
 constexpr double kGigabytesOfSmooth = 0.4, kGigabytesOfSharp = 2;
 constexpr double kSecondsToBuild = 8, kSecondsOfSmooth = 0.1, kSecondsOfSharp = 22;
-
-}  // namespace
 
 std::vector<std::string> check_target(const TriangleMesh& mesh, double lowest_hz) {
   std::vector<std::string> found;

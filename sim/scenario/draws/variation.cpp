@@ -298,35 +298,25 @@ std::string Variation::text() const {
   return drawn_as == key_path || !is_written() ? distribution.text() : fmt::format("same({})", drawn_as);
 }
 
-void copy_fixed_values(ScenarioDocument& document) {
-  ErrorList errors(document);  // find_variations() finds them too
-  Search search{document, errors};
-  find(search, document.root, "");
-  const std::vector<Variation>& found = search.found;
-  for (const Variation& variation : found) {
-    if (errors.is_unusable(variation.drawn_as)) continue;
-    const bool is_drawn = std::ranges::find(found, variation.drawn_as, &Variation::key_path) != found.end();
-    const YamlNode* fixed = is_drawn ? nullptr : scalar_at(document.root, variation.drawn_as);
-    if (fixed == nullptr) continue;
-    YamlNode& node = node_at(document.root, variation.key_path);
-    node.text = fixed->text;
-    node.quoted = fixed->quoted;
-  }
-}
-
-std::vector<Variation> find_variations(const ScenarioDocument& document, ErrorList& errors) {
+std::vector<Variation> find_variations(ScenarioDocument& document, ErrorList& errors) {
   Search search{document, errors};
   find(search, document.root, "");
   const std::vector<Variation>& found = search.found;
   std::vector<Variation> variations;
   for (Variation variation : found) {
-    if (variation.drawn_as != variation.key_path) {
-      const auto other = std::ranges::find(found, variation.drawn_as, &Variation::key_path);
+    const std::string &key = variation.key_path, &drawn_as = variation.drawn_as;
+    if (drawn_as != key) {
+      const auto other = std::ranges::find(found, drawn_as, &Variation::key_path);
+      const YamlNode* fixed = other == found.end() ? scalar_at(document.root, drawn_as) : nullptr;
       const bool is_drawn = other != found.end() && other->drawn_as == other->key_path && other->per == variation.per;
-      if (!is_drawn && errors.is_unusable(variation.drawn_as)) {
-        errors.exclude(variation.key_path);
+      if (!is_drawn && errors.is_unusable(drawn_as)) {
+        errors.exclude(key);
+      } else if (fixed != nullptr) {
+        YamlNode& node = node_at(document.root, key);
+        node.text = fixed->text;
+        node.quoted = fixed->quoted;
       } else if (!is_drawn) {
-        errors.attempt({variation.key_path}, [&] { document.fail_at(variation.key_path, kOtherKey); });
+        errors.attempt({key}, [&] { document.fail_at(key, kOtherKey); });
       }
       if (!is_drawn) continue;
       variation.distribution = other->distribution;

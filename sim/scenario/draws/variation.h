@@ -25,6 +25,11 @@ inline constexpr const char* kScatterKey = "sea.scatter_diagram";
 using ScalarValue = std::variant<double, std::string>;
 std::string text_of(const ScalarValue& value);  // a number with the fewest digits that read back to the same bits
 
+struct KeyValue {
+  std::string key_path;
+  ScalarValue value;
+};
+
 enum class DistributionKind { kUniform, kLogUniform, kNormal, kIntegers, kChoice, kScatter };
 
 // uniform(a, b)                   a < b
@@ -98,13 +103,11 @@ struct DrawPlace {
   bool operator==(const DrawPlace&) const = default;
 };
 
-// Gives keys that are same(KEY) the value of KEY where that is written and not drawn.
-void copy_fixed_values(ScenarioDocument& document);
-
 // The drawn keys of a document, by their paths. In the place of a distribution, same(KEY) gives a key the draws of KEY,
-// which is drawn as often: twins with one layout in each sea. Records an error for a wrong distribution, for a key that
+// which is drawn as often: twins with one layout in each sea; the document then has the value of a KEY that is written
+// and not drawn. Records an error for a wrong distribution, for a key that
 // must be common to all maps, and for same() of another key; such keys are not among the result.
-std::vector<Variation> find_variations(const ScenarioDocument& document, ErrorList& errors);
+std::vector<Variation> find_variations(ScenarioDocument& document, ErrorList& errors);
 
 // Wave height and period drawn from a diagram, both from the same random numbers.
 std::vector<Variation> scatter_variations(const std::shared_ptr<const ScatterDiagram>& diagram);

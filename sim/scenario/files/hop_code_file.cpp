@@ -58,7 +58,9 @@ std::vector<Code> numbers_of(const TextSource& source, const std::string& what) 
   return codes;
 }
 
-std::vector<int> codes_of(const TextSource& source, int pulses, int carriers) {
+}  // namespace
+
+std::vector<int> read_hop_code(const TextSource& source, int pulses, int carriers) {
   const std::string what = fmt::format("must be a carrier's number, 0 to {} (radar.hop_count - 1)", carriers - 1);
   std::vector<int> codes;
   const std::vector<Code> numbers = numbers_of(source, what);
@@ -80,16 +82,6 @@ std::vector<int> codes_of(const TextSource& source, int pulses, int carriers) {
                                  source.name(), codes.size(), pulses));
   }
   return codes;
-}
-
-}  // namespace
-
-std::vector<int> parse_hop_code(const std::string& text, const std::string& file_name, int pulses, int carriers) {
-  return codes_of(TextSource(file_name, text), pulses, carriers);
-}
-
-std::vector<int> read_hop_code(const std::filesystem::path& file, int pulses, int carriers) {
-  return codes_of(TextSource::read(file, std::size_t{64} << 20), pulses, carriers);
 }
 
 }  // namespace seaglint

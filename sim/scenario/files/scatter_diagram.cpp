@@ -22,7 +22,7 @@ namespace seaglint {
 
 namespace {
 
-constexpr std::size_t kMaxDiagramBytes = 10'000'000, kMaxLabels = 200;
+constexpr std::size_t kMaxLabels = 200;
 constexpr double kLeastHeight_m = 1e-6;
 
 // A period that columns may be: the key of `sea` that it is, words of it in the first cell, and a name of its column.
@@ -272,17 +272,6 @@ bool has_columns(const TextSource& source) {
   return false;
 }
 
-ScatterDiagram diagram_of(const TextSource& source) {
-  if (has_columns(source)) return diagram_of_columns(source);
-  for (const char separator : kSeparators) {
-    if (std::optional<ScatterDiagram> diagram = diagram_of_sides(source, separator)) return std::move(*diagram);
-  }
-  throw InputError(fmt::format(
-      "{}: no scatter diagram: its first cell must name its rows and columns, as Hs/Tp (significant wave height, peak "
-      "period), or its first row the columns significant_wave_height_m, peak_period_s, count",
-      source.name()));
-}
-
 }  // namespace
 
 double ScatterDiagram::count() const {
@@ -326,12 +315,15 @@ void exclude_cells(ScatterDiagram& diagram, const std::vector<bool>& is_excluded
   diagram.excluded_fraction = 1 - diagram.count() / all;
 }
 
-ScatterDiagram parse_scatter_diagram(const std::string& text, const std::string& file_name) {
-  return diagram_of(TextSource(file_name, text));
-}
-
-ScatterDiagram read_scatter_diagram(const std::filesystem::path& file) {
-  return diagram_of(TextSource::read(file, kMaxDiagramBytes));
+ScatterDiagram read_scatter_diagram(const TextSource& source) {
+  if (has_columns(source)) return diagram_of_columns(source);
+  for (const char separator : kSeparators) {
+    if (std::optional<ScatterDiagram> diagram = diagram_of_sides(source, separator)) return std::move(*diagram);
+  }
+  throw InputError(fmt::format(
+      "{}: no scatter diagram: its first cell must name its rows and columns, as Hs/Tp (significant wave height, peak "
+      "period), or its first row the columns significant_wave_height_m, peak_period_s, count",
+      source.name()));
 }
 
 }  // namespace seaglint

@@ -166,11 +166,7 @@ void apply_override(ScenarioDocument& document, const Override& override_value) 
   if (section != nullptr) remove_alternatives(*section, section_path, override_value.key_path.substr(dot + 1));
 }
 
-namespace {
-
 constexpr const char* kVersionKey = "seaglint";
-
-}  // namespace
 
 void ErrorList::add(const InputError& error, Keys keys) {
   if (is_full()) return count_further(keys);

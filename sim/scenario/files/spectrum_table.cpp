@@ -21,12 +21,6 @@
 
 namespace seaglint {
 
-namespace {
-
-constexpr std::size_t kMaxSpectrumBytes = 10'000'000;
-
-}  // namespace
-
 double SpectrumTable::energy() const {
   double sum = 0;
   for (std::size_t i = 1; i < omega.size(); ++i) sum += 0.5 * (density[i - 1] + density[i]) * (omega[i] - omega[i - 1]);
@@ -402,7 +396,9 @@ std::optional<TextTable> mhkit_table(const TextSource& source) {
   return TextTable::below(source, rest, {"frequency_hz", "density_m2_hz"}, ',');
 }
 
-SpectrumTable spectrum_of(const TextSource& source, const std::string& time) {
+}  // namespace
+
+SpectrumTable read_spectrum_table(const TextSource& source, const std::string& time) {
   std::string_view rest = source.text();
   while (!rest.empty() && trimmed(rest.substr(0, rest.find('\n'))).empty()) next_line(rest);
   if (rest.starts_with("SWAN ")) return read_swan(source, time);
@@ -415,16 +411,6 @@ SpectrumTable spectrum_of(const TextSource& source, const std::string& time) {
     return spectrum;
   }
   return spectrum_of(TextTable(source, columns()));
-}
-
-}  // namespace
-
-SpectrumTable parse_spectrum_table(const std::string& text, const std::string& file_name, const std::string& time) {
-  return spectrum_of(TextSource(file_name, text), time);
-}
-
-SpectrumTable read_spectrum_table(const std::filesystem::path& file, const std::string& time) {
-  return spectrum_of(TextSource::read(file, kMaxSpectrumBytes), time);
 }
 
 }  // namespace seaglint

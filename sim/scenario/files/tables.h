@@ -4,13 +4,13 @@
 // Input files that a scenario's keys name: wave spectra, scatter diagrams and hop codes, of this and other programs.
 
 #include <concepts>
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "sim/core/numbers/random.h"
+#include "sim/core/text/text_source.h"
 
 namespace seaglint {
 
@@ -45,8 +45,7 @@ struct SpectrumTable {
 // `time` chooses one of several spectra of NDBC and SWAN: "2018-01-01 00:40", of which the digits count; empty: the
 // file has one. Throws InputError "file:line:column: what" for missing columns, what is not a finite number, negative
 // frequencies and densities, frequencies that do not ascend, fewer than two rows, and a table of zeros.
-SpectrumTable read_spectrum_table(const std::filesystem::path& file, const std::string& time = "");
-SpectrumTable parse_spectrum_table(const std::string& text, const std::string& file_name, const std::string& time = "");
+SpectrumTable read_spectrum_table(const TextSource& source, const std::string& time = "");
 
 // Wave heights and periods of one cell, and how often they occur.
 struct ScatterCell {
@@ -84,14 +83,12 @@ void exclude_cells(ScatterDiagram& diagram, const std::vector<bool>& is_excluded
 //   or the columns significant_wave_height_m (hs_m), peak_period_s (tp_s) and count.
 // Heights and periods are centres of equal cells, or cells LOW-HIGH. Empty cells count 0. Throws InputError
 // "file:line:column: what" for anything else, cells below 0, pairs that appear twice, and counts that are all 0.
-ScatterDiagram read_scatter_diagram(const std::filesystem::path& file);
-ScatterDiagram parse_scatter_diagram(const std::string& text, const std::string& file_name);
+ScatterDiagram read_scatter_diagram(const TextSource& source);
 
 // Whole numbers from 0 to carriers - 1 in any notation ("3", "3.", "3.000e+00"), separated by spaces, tabs, commas,
 // semicolons, brackets or line ends; comments as in text_source.h, and MATLAB's captions "Columns 1 through 13". Throws
 // InputError "file:line:column: what" for anything else, for fewer than `pulses` numbers, and for a count that is not a
 // multiple of `pulses`; a file that counts from 1 is named.
-std::vector<int> read_hop_code(const std::filesystem::path& file, int pulses, int carriers);
-std::vector<int> parse_hop_code(const std::string& text, const std::string& file_name, int pulses, int carriers);
+std::vector<int> read_hop_code(const TextSource& source, int pulses, int carriers);
 
 }  // namespace seaglint

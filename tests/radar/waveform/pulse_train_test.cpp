@@ -22,7 +22,7 @@ TEST(HopCodeFile, IsUsedBlockByBlock) {
   spec.carrier_count = 3;
   spec.hop_code = HopCode::kFile;
   spec.hop_codes =
-      std::make_shared<std::vector<int>>(parse_hop_code("# two intervals\n0, 1 2,0\n2\t2\n1,1\n", "codes.txt", 4, 3));
+      std::make_shared<std::vector<int>>(read_hop_code({"codes.txt", "# two intervals\n0, 1 2,0\n2\t2\n1,1\n"}, 4, 3));
   EXPECT_EQ(make_pulse_train(spec, 100, 1, 0).code, (std::vector<int>{0, 1, 2, 0}));
   EXPECT_EQ(make_pulse_train(spec, 100, 1, 1).code, (std::vector<int>{2, 2, 1, 1}));
   EXPECT_EQ(make_pulse_train(spec, 100, 9, 4).code, (std::vector<int>{0, 1, 2, 0}));
@@ -34,10 +34,10 @@ TEST(HopCodeFile, IsUsedBlockByBlock) {
 TEST(HopCodeFile, RefusesInvalidCodes) {
   for (const char* text :
        {"", "# nothing\n", "0 1 2", "0 1 2 3", "0 1 x 2", "0 1 -1 2", "0 1 1.5 2", "0 1 2 99999999999"}) {
-    EXPECT_THROW(parse_hop_code(text, "codes.txt", 4, 3), InputError) << text;
+    EXPECT_THROW(read_hop_code({"codes.txt", text}, 4, 3), InputError) << text;
   }
   try {
-    parse_hop_code("0 1\n2 3\n", "codes.txt", 4, 3);
+    read_hop_code({"codes.txt", "0 1\n2 3\n"}, 4, 3);
     FAIL();
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("codes.txt:2:3: '3'"), std::string::npos) << error.what();

@@ -13,8 +13,8 @@
 #include "sim/core/numbers/random.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
+#include "sim/field_tables/field_formats.h"
 #include "sim/field_tables/field_table.h"
-#include "sim/field_tables/pandas_table.h"
 #include "tests/temporary_folder.h"
 
 namespace seaglint {

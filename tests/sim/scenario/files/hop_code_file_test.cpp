@@ -15,7 +15,7 @@ namespace {
 
 std::string code_refusal(const std::string& text) {
   try {
-    parse_hop_code(text, "hops.txt", 4, 8);
+    read_hop_code({"hops.txt", text}, 4, 8);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -27,7 +27,7 @@ TEST(HopCodeText, IsReadWithAnySeparator) {
       "\xef\xbb\xbf"
       "0\t7\t3 \t1\r\n";
   for (const char* text : {"0 7 3 1", "0,7,3,1\n", "0;7;3;1;\r\n", "# code\n0\n7\n\n3\n1\n", marked, "0\r7\r3\r1\r"}) {
-    EXPECT_EQ(parse_hop_code(text, "hops.txt", 4, 8), (std::vector<int>{0, 7, 3, 1})) << text;
+    EXPECT_EQ(read_hop_code({"hops.txt", text}, 4, 8), (std::vector<int>{0, 7, 3, 1})) << text;
   }
 }
 
@@ -40,14 +40,14 @@ TEST(HopCodeText, IsReadAsNumPyAndMatlabPrintIt) {
         "0.000000\n7.000000\n3.000000\n1.000000\n",
         "  Columns 1 through 3\n\n     0     7     3\n\n  Column 4\n\n     1\n",
         "  Columns 1 and 2\n     0     7\n  Columns 3 and 4\n     3     1\n", " 0.0D+00 7.0D+00 3.0D+00 1.0D+00\n"}) {
-    EXPECT_EQ(parse_hop_code(text, "hops.txt", 4, 8), (std::vector<int>{0, 7, 3, 1})) << text;
+    EXPECT_EQ(read_hop_code({"hops.txt", text}, 4, 8), (std::vector<int>{0, 7, 3, 1})) << text;
   }
 }
 
 TEST(HopCodeText, OfNumPysSavetxtIsThatOfPlainNumbers) {
   const std::string folder = SEAGLINT_SOURCE_DIR "/tests/cases/tables/";
-  const std::vector<int> plain = read_hop_code(folder + "hop_plain.txt", 256, 8);
-  EXPECT_EQ(read_hop_code(folder + "hop_numpy_savetxt.txt", 256, 8), plain);
+  const std::vector<int> plain = read_hop_code(TextSource::read(folder + "hop_plain.txt"), 256, 8);
+  EXPECT_EQ(read_hop_code(TextSource::read(folder + "hop_numpy_savetxt.txt"), 256, 8), plain);
   for (const int carrier : {0, 1, 2, 3, 4, 5, 6, 7}) EXPECT_EQ(std::count(plain.begin(), plain.end(), carrier), 32);
 }
 

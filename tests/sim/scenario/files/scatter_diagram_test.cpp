@@ -20,7 +20,7 @@ using testing::StartsWith;
 
 std::string diagram_refusal(const std::string& text) {
   try {
-    parse_scatter_diagram(text, "s.csv");
+    read_scatter_diagram({"s.csv", text});
   } catch (const InputError& error) {
     return error.what();
   }
@@ -30,7 +30,7 @@ std::string diagram_refusal(const std::string& text) {
 // Cells as lines "height_low height_high period_low period_high count".
 std::string cells_of(const std::string& text) {
   std::string lines;
-  for (const ScatterCell& cell : parse_scatter_diagram(text, "s.csv").cells)
+  for (const ScatterCell& cell : read_scatter_diagram({"s.csv", text}).cells)
     lines += fmt::format("{:g} {:g} {:g} {:g} {:g}\n", cell.lowest_height_m, cell.highest_height_m,
                          cell.lowest_period_s, cell.highest_period_s, cell.count);
   return lines;
@@ -51,7 +51,7 @@ TEST(ScatterDiagram, IsReadInAnyLayoutAndWithAnySeparator) {
         "hs_m,tp_s,count\n0.5,5,10\n0.5,7,30\n1.5,7,20\n2.5,9,5\n2.5,5,0\n",
         "count;peak_period_s;significant_wave_height_m\n5;9;2,5\n20;7;1,5\n30;7;0,5\n10;5;0,5\n"}) {
     EXPECT_EQ(cells_of(text), kCells) << text;
-    EXPECT_EQ(parse_scatter_diagram(text, "s.csv").period_key, "peak_period_s");
+    EXPECT_EQ(read_scatter_diagram({"s.csv", text}).period_key, "peak_period_s");
   }
 }
 
@@ -79,7 +79,7 @@ TEST(ScatterDiagram, IsRefusedWithThePlaceOfItsMistake) {
 // Pearson's statistic of 4 cells has 3 degrees of freedom: 21.1 is exceeded with probability 1e-4; the means of u over
 // a cell of n draws have the standard deviation 1/sqrt(12 n).
 TEST(ScatterDiagram, IsDrawnAsOftenAsItCountsAndUniformlyWithinItsCells) {
-  const ScatterDiagram diagram = parse_scatter_diagram("Hs/Tp,5,7,9\n0.5,10,30,0\n1.5,0,20,0\n2.5,0,0,5\n", "s.csv");
+  const ScatterDiagram diagram = read_scatter_diagram({"s.csv", "Hs/Tp,5,7,9\n0.5,10,30,0\n1.5,0,20,0\n2.5,0,0,5\n"});
   constexpr int kDraws = 20000;
   std::vector<double> counts(diagram.cells.size()), heights(counts.size()), periods(counts.size());
   for (int i = 0; i < kDraws; ++i) {
@@ -110,7 +110,7 @@ TEST(ScatterDiagram, IsDrawnAsOftenAsItCountsAndUniformlyWithinItsCells) {
 }
 
 TEST(ScatterDiagram, WithoutSomeCellsStatesTheirPartOfTheCounts) {
-  ScatterDiagram diagram = parse_scatter_diagram("Hs/Tp,5,7,9\n0.5,10,30,0\n1.5,0,20,0\n2.5,0,0,5\n", "s.csv");
+  ScatterDiagram diagram = read_scatter_diagram({"s.csv", "Hs/Tp,5,7,9\n0.5,10,30,0\n1.5,0,20,0\n2.5,0,0,5\n"});
   EXPECT_EQ(diagram.likeliest().period_s, 7);
   EXPECT_EQ(diagram.likeliest().significant_wave_height_m, 0.5);
   exclude_cells(diagram, {false, true, false, true});

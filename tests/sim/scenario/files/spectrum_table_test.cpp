@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 std::string complaint(const std::string& table) {
   try {
-    parse_spectrum_table(table, "s.csv");
+    read_spectrum_table({"s.csv", table});
   } catch (const InputError& error) {
     return error.what();
   }
@@ -31,28 +31,29 @@ std::string complaint(const std::string& table) {
 }
 
 TEST(SpectrumTable, IsReadInEitherUnit) {
-  const SpectrumTable a = parse_spectrum_table("# a buoy\nomega_rad_s,density_m2_s\n0.5,0\n1,2\n2,1\n", "s.csv");
+  const SpectrumTable a = read_spectrum_table({"s.csv", "# a buoy\nomega_rad_s,density_m2_s\n0.5,0\n1,2\n2,1\n"});
   EXPECT_DOUBLE_EQ(a.energy(), 0.5 + 1.5);
   EXPECT_EQ(a.peak_omega(), 1);
   const SpectrumTable b =
-      parse_spectrum_table("station, density_m2_hz ,frequency_hz\r\nx,1,0\r\nx,3,0.25\r\n", "s.csv");
+      read_spectrum_table({"s.csv", "station, density_m2_hz ,frequency_hz\r\nx,1,0\r\nx,3,0.25\r\n"});
   EXPECT_DOUBLE_EQ(b.energy(), 0.25 * 2);  // energy does not depend on the unit
   EXPECT_DOUBLE_EQ(b.omega[1], kPi / 2);
 }
 
 TEST(SpectrumTable, IsReadAsOtherProgramsWriteIt) {
-  const SpectrumTable marked = read_spectrum_table(SEAGLINT_SOURCE_DIR "/tests/cases/tables/spectrum_bom.csv");
+  const SpectrumTable marked =
+      read_spectrum_table(TextSource::read(SEAGLINT_SOURCE_DIR "/tests/cases/tables/spectrum_bom.csv"));
   ASSERT_EQ(marked.omega.size(), 5u);
   EXPECT_EQ(marked.peak_omega(), 0.8);
   const SpectrumTable other =
-      parse_spectrum_table("Buoy 3\nFrequency [Hz];Density [m^2/Hz]\n0,05;0\n0,10;1,5\n0,20;0\n", "s.csv");
+      read_spectrum_table({"s.csv", "Buoy 3\nFrequency [Hz];Density [m^2/Hz]\n0,05;0\n0,10;1,5\n0,20;0\n"});
   EXPECT_DOUBLE_EQ(other.energy(), 0.5 * 1.5 * 0.15);
   EXPECT_DOUBLE_EQ(other.peak_omega(), 2 * kPi * 0.1);
 }
 
 // One triangle of 1.5 m^2/Hz from 0.05 to 0.2 Hz.
 void expect_triangle(const std::string& text, const std::string& time = "") {
-  const SpectrumTable table = parse_spectrum_table(text, "s.csv", time);
+  const SpectrumTable table = read_spectrum_table({"s.csv", text}, time);
   EXPECT_NEAR(table.energy(), 0.5 * 1.5 * 0.15, 1e-12) << text;
   EXPECT_NEAR(table.peak_omega(), 2 * kPi * 0.1, 1e-12) << text;
 }
@@ -66,7 +67,7 @@ TEST(SpectrumTable, IsReadByTheNamesOfOtherPrograms) {
   const std::string omega =
       fmt::format("omega,S\n{},0\n{},{}\n{},0\n", 2 * kPi * 0.05, 2 * kPi * 0.1, 1.5 / (2 * kPi), 2 * kPi * 0.2);
   expect_triangle(omega);
-  EXPECT_EQ(parse_spectrum_table("f,S\n0.05,0\n0.1,1.5\n", "s.csv").reading, "f in Hz, s in m^2/Hz");
+  EXPECT_EQ(read_spectrum_table({"s.csv", "f,S\n0.05,0\n0.1,1.5\n"}).reading, "f in Hz, s in m^2/Hz");
 }
 
 constexpr const char* kHistorical =
@@ -78,7 +79,7 @@ constexpr const char* kHistorical =
 TEST(SpectrumTable, IsReadFromFilesOfNdbc) {
   expect_triangle(kHistorical, "2018-01-01 01:40");
   expect_triangle(kHistorical, "2018-01-01T01:40:00");
-  EXPECT_EQ(parse_spectrum_table(kHistorical, "s.txt", "201801010140").reading,
+  EXPECT_EQ(read_spectrum_table({"s.txt", kHistorical}, "201801010140").reading,
             "NDBC, Hz and m^2/Hz, of 2018-01-01 01:40");
   expect_triangle("YY MM DD hh .05 .10 .20\n96 12 31 23 0.0 1.5 0.0\n");
   expect_triangle(
@@ -86,7 +87,7 @@ TEST(SpectrumTable, IsReadFromFilesOfNdbc) {
       "2026 07 30 01 50 0.120 0.000 (0.050) 1.500 (0.100) 0.000 (0.200)\n");
   const auto complaint = [](const std::string& time) {
     try {
-      parse_spectrum_table(kHistorical, "s.txt", time);
+      read_spectrum_table({"s.txt", kHistorical}, time);
     } catch (const InputError& error) {
       return std::string(error.what());
     }
@@ -126,7 +127,7 @@ TEST(SpectrumTable, IsReadFromFilesOfSwan) {
       swan(directions, density, fmt::format("19680606.0300\nFACTOR\n{}\n 0 0 0 0\n 1 2 3 4\n 0 0 0 0\n", 1.5 / 900)));
   const auto complaint = [](const std::string& text, const char* time = "") {
     try {
-      parse_spectrum_table(text, "s.spc", time);
+      read_spectrum_table({"s.spc", text}, time);
     } catch (const InputError& error) {
       return std::string(error.what());
     }
