@@ -48,7 +48,7 @@ def all_steps():
     """Names, limits in minutes, commands from the root of the clone."""
     odd = day() % 2 == 1
     return [
-        Step("packages", 20, shell("source tools/setup.sh && install_packages build test nightly fuzz"),
+        Step("packages", 20, shell("source tools/setup.sh && install_packages build test full nightly fuzz"),
              "packages that are missing"),
         Step("check", 60, ("tools/check",), "build/release and all tests"),
         Step("dev-clang", 45, built("dev-clang"), "warnings of clang are errors"),
@@ -63,6 +63,7 @@ def all_steps():
         Step("speed", 30, ("tools/measure", "speed", "--check", "--tolerance", "0.3"),
              "benchmarks within 30 % of the records"),
         Step("clean-root", 30, ("tests/install/clean_root_test.sh", "build/release"), "the Debian package on a system of its own"),
+        Step("pip", 60, ("tests/install/pip_test.sh",), "the Python package by pip in a virtual environment"),
         Step("tidy", 120, built("tidy"), "clang-tidy on every file"),
         Step("dev", 45, built("dev"), "warnings of gcc are errors"),
         Step("definitions", 30, built("definitions"), "one definition of every type"),
