@@ -133,10 +133,51 @@ def check_comparison(seaglint, source, folder):
     run("compare", folder / "a_h.ffe", *target, "--incidence", "monostatic", "-o", folder / "compared")
     with browser() as driver:
         driver.get((folder / "compared/compare.html").as_uri())
-        drawn = lambda: driver.find_elements(By.CSS_SELECTOR, "figure.drawn .interactive .scatterlayer")
-        wait(lambda: len(drawn()) >= 1, "curves of both")
-        series = driver.execute_script("return document.querySelector('figure.drawn .interactive').data.map((t) => [t.name, t.x.length])")
-        assert ["a_h.ffe", 11] in series, series
+        find = lambda css: driver.find_elements(By.CSS_SELECTOR, css)
+        wait(lambda: find("#comparison [data-shown]"), "curves of both")
+        series = driver.execute_script("return document.querySelector('#comparison .js-plotly-plot').data.map((t) => [t.name, t.x.length, t.line.color])")
+        assert ["a_h.ffe", 11, "#000000"] in series and ["seaglint", 11, "#0072b2"] in series, series
+        assert "--reference-polarisation h?" in find(".verdict")[0].text, "v was assumed, h was transmitted"
+        assert not [entry for entry in driver.get_log("browser") if entry["level"] == "SEVERE"]
+
+
+def check_choices(seaglint, source, folder):
+    """A comparison over azimuth, elevation and frequency: what the page shows for the choices of a keyboard, in a narrow window and on paper."""
+    from selenium.webdriver.common.by import By
+    from selenium.webdriver.common.keys import Keys
+    run = lambda *arguments: subprocess.run([seaglint, *arguments], check=True, stdout=subprocess.DEVNULL)
+    target = ("--target", f"{source}/assets/icosahedral_reflector.glb")
+    run("rcs", *target, "--frequency-ghz", "9.5:10.5:0.25", "--azimuth-deg", "0:30:1", "--elevation-deg", "2:5:3", "--edges", "off", "-o", folder / "b.csv")
+    run("compare", folder / "b.csv", *target, "-o", folder / "chosen")
+    page = folder / "chosen/compare.html"
+    assert page.stat().st_size < 5e6
+    with browser() as driver:
+        driver.get(page.as_uri())
+        find = lambda css: driver.find_elements(By.CSS_SELECTOR, css)
+        shown = lambda: (find("#comparison [data-shown]") or [find("body")[0]])[0].get_attribute("data-shown")
+        wait(lambda: shown() == "hh, frequency 9.5 GHz, elevation 2 deg", "the first cut")
+        assert [e.get_attribute("id") for e in find("#comparison select") if e.is_displayed()] == ["comparison-polarisation", "comparison-frequency", "comparison-elevation"]
+        assert not any(e.is_displayed() for e in find(".static img")), "the pictures give way to the curves"
+        verdict, first_heading = find("header .verdict")[0], find("h2")[0]
+        assert verdict.text.startswith("The RCS computed by seaglint agrees with b.csv within") and verdict.location["y"] < first_heading.location["y"]
+        difference = "const [a, b, d] = document.querySelector('#comparison .js-plotly-plot').data; return Math.max(...d.y.map((v, i) => Math.abs(v - b.y[i] + a.y[i])));"
+        assert driver.execute_script(difference) < 1e-9
+        images = lambda: driver.execute_script("return [...document.querySelectorAll('#comparison .maps .js-plotly-plot')].map((p) => [p.data[0].z.length, p.data[0].z[0].length, p.data[0].zmin, p.data[0].zmax])")
+        assert [size[:2] for size in images()] == [[5, 31]] * 3, images()
+        assert images()[0] == images()[1] and images()[2][2] == -images()[2][3], "one scale of both levels, an even one of the differences"
+        find("#comparison-frequency")[0].send_keys(Keys.ARROW_DOWN)
+        wait(lambda: shown() == "hh, frequency 9.75 GHz, elevation 2 deg", "the next frequency")
+        find("#comparison-polarisation")[0].send_keys("vv")
+        wait(lambda: shown() == "vv, frequency 9.75 GHz, elevation 2 deg", "another polarisation at that frequency")
+        find("#comparison-elevation")[0].send_keys(Keys.ARROW_DOWN)
+        wait(lambda: shown() == "vv, frequency 9.75 GHz, elevation 5 deg", "another elevation")
+        heads = [[cell.text for cell in table.find_elements(By.CSS_SELECTOR, "thead th")] for table in find("table")]
+        assert any(head[:3] == ["part", "bounces", "mechanism"] for head in heads), heads
+        driver.set_window_size(500, 1200)
+        time.sleep(0.5)
+        assert driver.execute_script("return document.documentElement.scrollWidth <= document.documentElement.clientWidth"), "nothing is wider than a narrow window"
+        driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
+        assert len([e for e in find(".static img") if e.is_displayed()]) == 4 and not any(e.is_displayed() for e in find(".interactive")), "paper has the pictures"
         assert not [entry for entry in driver.get_log("browser") if entry["level"] == "SEVERE"]
 
 
@@ -157,6 +198,7 @@ def main(seaglint, source, picture=None):
         check_report(page, picture)
         check_without_scripts(page)
         check_comparison(seaglint, source, pathlib.Path(folder))
+        check_choices(seaglint, source, pathlib.Path(folder))
         check_hot_spots(seaglint, source, pathlib.Path(folder))
     return 0
 

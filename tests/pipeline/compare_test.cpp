@@ -78,6 +78,8 @@ TEST_F(CompareCommand, FindsOffsetOriginTimeFactorAndSigns) {
   EXPECT_THAT(result.out, HasSubstr("other.csv: warning: the export has the other time factor, e^{-jwt}"));
   EXPECT_THAT(result.out, HasSubstr("other.csv: warning: vv of the export has the opposite sign"));
   EXPECT_THAT(result.out, HasSubstr("phase origin, or its mesh, is displaced: origin at 0.3"));
+  EXPECT_THAT(result.out, HasSubstr("The RCS computed by seaglint is 0.7 dB lower than that of other.csv"));
+  EXPECT_THAT(result.out, HasSubstr("phases included (correlation "));
   const nlohmann::json json = compared();
   ASSERT_EQ(json["exports"].size(), 2u);
   const double wavelength = 299792458.0 / 10.5e9;
@@ -327,6 +329,35 @@ TEST_F(CompareCommand, ReadsUnitsTotalsAndChamberTablesOfADihedral) {
   EXPECT_EQ(compared().at("exports").size(), 2u);
 }
 
+// The page begins with the verdict that the command prints and compare.json has, and contains the images over azimuth
+// and frequency.
+TEST_F(CompareCommand, ThePageBeginsWithThePrintedVerdict) {
+  own_table();
+  const ProgramResult result =
+      completed({"compare", path("own.csv"), "--target", kReflector, "--edges", "off", "-o", path("compared")});
+  const std::string summary = compared()["exports"][0]["summary"];
+  EXPECT_EQ(result.out.substr(0, result.out.find('\n')), summary);
+  const std::string page = read_file(path("compared/compare.html"));
+  EXPECT_THAT(page, HasSubstr("</h1>\n<p class=\"verdict\">" + summary + "</p>"));
+  EXPECT_LT(page.find(summary), page.find("Largest differences"));
+  EXPECT_THAT(page,
+              HasSubstr("<th scope=\"col\">part</th><th scope=\"col\">bounces</th><th scope=\"col\">mechanism</th>"));
+  for (const char* name : {"image_export.png", "image_compared.png", "image_difference.png"})
+    EXPECT_GT(read_file(path("compared") + "/" + name).size(), 1000u);
+  EXPECT_LT(page.size(), 5'000'000u);
+}
+
+// A far field of FEKO does not state which polarisation was transmitted: v is assumed, h was.
+TEST_F(CompareCommand, NamesTheOtherTransmittedPolarisation) {
+  completed({"rcs", "--target", kReflector, "--frequency-ghz", "9.8:10.2:0.1", "--azimuth-deg", "10:20:2", "-o",
+             path("own.csv"), "--export-as", "feko"});
+  const Words words{"compare", path("own_h.ffe"), "--target", kReflector, "-o", path("compared")};
+  EXPECT_THAT(completed(words).out,
+              HasSubstr("Possible cause: with h transmitted instead of v the median difference falls from"));
+  EXPECT_THAT(completed(words, {"--reference-polarisation", "h", "--tolerance-db", "0.01"}).out,
+              HasSubstr("agrees with own_h.ffe within 0.01 dB"));
+}
+
 // A total against the elements that it is the sum of, and the other way round not.
 TEST_F(CompareCommand, ComparesATotalWithTheSumOfBothElements) {
   write_file(path("total VP.csv"),
@@ -438,6 +469,8 @@ TEST_F(CompareSettings, NamesTheUnitOfTheMesh) {
     EXPECT_THAT(result.out, HasSubstr(fmt::format("with --unit {} the median difference of 8 views falls from", unit)));
     EXPECT_THAT(result.out, HasSubstr(fmt::format(" to 0.0 dB: the mesh is in {}, not in m", unit)));
     EXPECT_EQ(exports()[0]["trials"][0]["option"], fmt::format("--unit {}", unit));
+    EXPECT_THAT(exports()[0]["summary"].get<std::string>(),
+                HasSubstr(fmt::format(". With --unit {} the median", unit)));
     EXPECT_TRUE(exports()[0]["known"].is_null()) << "the closed form of a trihedral of the wrong size";
     EXPECT_THAT(compare("other.csv", path("scaled.obj"), {"--unit", unit}).out, Not(HasSubstr("warning")));
   }
@@ -478,6 +511,12 @@ TEST_F(CompareSettings, StatesTheExactValueOfASphere) {
   const ProgramResult result = compare("other.csv", path("sphere.obj"));
   EXPECT_THAT(result.out, HasSubstr("vv: exact (Mie series) of a sphere of radius 0.3 m, 3 places: export bias -1.05"));
   EXPECT_THAT(result.out, HasSubstr(": seaglint is closer"));
+  EXPECT_THAT(result.out,
+              testing::StartsWith("The RCS computed by seaglint is 1.0 dB higher than that of other.csv in vv;"));
+  EXPECT_THAT(result.out,
+              HasSubstr("From the exact value (Mie series) of the sphere of radius 0.3 m seaglint differs by 0.0"));
+  EXPECT_THAT(result.out,
+              HasSubstr("dB), the export by 1.05 dB (-1.05 dB): the difference is mainly the export's error.\n"));
   const auto known = exports()[0]["known"];
   EXPECT_NEAR(known["export_bias_db"].get<double>(), -1.05, 1e-3);
   EXPECT_LT(std::abs(known["compared_bias_db"].get<double>()), 0.15);  // of the solver for spheres (tests/accuracy.md)

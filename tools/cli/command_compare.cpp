@@ -11,6 +11,7 @@
 #include "sim/core/process/file.h"
 #include "sim/core/process/printable.h"
 #include "tools/cli/command_line.h"
+#include "tools/compare/comparison_page.h"
 #include "tools/compare/comparison_text.h"
 #include "tools/compare/differences.h"
 #include "tools/figure/figure.h"
@@ -80,20 +81,17 @@ Counterpart counterpart_of(const CompareArguments& arguments, const std::vector<
   return counterpart;
 }
 
-// Writes NAME.png and NAME.svg; has the same for the page's script where it does not make the page large.
-ComparisonFigure draw_panels(const PlotPanels& panels, const std::string& title, const std::filesystem::path& directory,
-                             const std::string& name) {
-  constexpr std::size_t kMostPoints = 50'000;  // about 1 MB
+// Writes NAME.png and NAME.svg; empty without any plot.
+std::filesystem::path draw_panels(const PlotPanels& panels, const std::string& title,
+                                  const std::filesystem::path& directory, const std::string& name) {
   if (panels.plots.empty()) return {};
   for (const char* kind : {".png", ".svg"}) write_figure(title, panels, directory / (name + kind));
-  std::size_t points = 0;
-  for (const LinePlot& plot : panels.plots) {
-    for (const Series& series : plot.series) points += series.x.size();
-  }
-  return {directory / (name + ".png"), points <= kMostPoints ? plot_json(panels.plots, panels.columns) : std::string()};
+  return directory / (name + ".png");
 }
 
-// Curves and range profiles, as far as the cuts have them.
+constexpr const char* kImages[] = {"image_export.png", "image_compared.png", "image_difference.png"};
+
+// Curves, images and range profiles, as far as the cuts have them.
 ComparisonFigures draw(const std::vector<ExportComparison>& comparisons, const ComparisonSettings& settings,
                        const std::filesystem::path& directory) {
   std::vector<PairedCut> cuts;
@@ -101,8 +99,22 @@ ComparisonFigures draw(const std::vector<ExportComparison>& comparisons, const C
     cuts.insert(cuts.end(), comparison.cuts.begin(), comparison.cuts.end());
   const std::string title =
       fmt::format("{} against {}, seaglint {}", comparisons.front().name, comparisons.front().compared, kVersion);
-  return {draw_panels(comparison_plots(cuts, settings.floor_db), title, directory, "compare"),
-          draw_panels(range_profile_plots(cuts), title, directory, "range_profiles")};
+  ComparisonFigures figures;
+  figures.curves = draw_panels(comparison_plots(cuts, settings.floor_db), title, directory, "compare");
+  const std::vector<Heatmap> images = comparison_images(cuts, settings.floor_db);
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    figures.images.push_back(directory / kImages[i]);
+    write_figure(images[i], figures.images.back(), {720, 450});
+  }
+  const PlotPanels profiles = range_profile_plots(cuts);
+  figures.profiles = draw_panels(profiles, title, directory, "range_profiles");
+  constexpr std::size_t kMostPoints = 50'000;  // of the page's script, about 1 MB
+  std::size_t points = 0;
+  for (const LinePlot& plot : profiles.plots) {
+    for (const Series& series : plot.series) points += series.x.size();
+  }
+  if (points > 0 && points <= kMostPoints) figures.profiles_plot = plot_json(profiles.plots, profiles.columns);
+  return figures;
 }
 
 // "; from the known value (exact (Mie series)) the export differs by 1.06 dB rms, seaglint by 0.03 dB", empty where
@@ -163,6 +175,7 @@ void require_results(const CompareArguments& arguments) {
   for (const char* name : {"compare.json", "compare.csv", "compare.html", "compare.png", "compare.svg",
                            "range_profiles.png", "range_profiles.svg"})
     outputs.push_back((directory / name).string());
+  for (const char* name : kImages) outputs.push_back((directory / name).string());
   require_outputs(outputs, inputs);
   require_figure(directory / "compare.png");
 }

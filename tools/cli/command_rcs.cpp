@@ -87,8 +87,9 @@ void require_files(const RcsArguments& arguments) {
 void show_figure(const RcsArguments& arguments, const std::vector<PairedCut>& cuts, const RcsSweep& sweep) {
   const std::filesystem::path figure = figure_file(arguments);
   const std::string title = fmt::format("{}, seaglint {}", arguments.target_name(), kVersion);
-  if (cuts.empty() ? draw_uncertainty(sweep, title, figure)
-                   : draw_comparison(cuts, arguments.reference.floor_db, title, figure)) {
+  const PlotPanels panels = comparison_plots(cuts, arguments.reference.floor_db);
+  if (!panels.plots.empty()) write_figure(title, panels, figure);
+  if (!panels.plots.empty() || (cuts.empty() && draw_uncertainty(sweep, title, figure))) {
     print_out("Figure: {}\n", figure.string());
   } else {
     print_out("No figure: it needs a cut along azimuth, elevation or frequency of two points or more\n");

@@ -9,7 +9,8 @@ set(page_files
   benchmark_template=${CMAKE_SOURCE_DIR}/tools/report/benchmark.html
   report_script=${CMAKE_SOURCE_DIR}/tools/report/report.js
   hot_spots_script=${CMAKE_SOURCE_DIR}/tools/report/hot_spots.js
-  comparison_template=${CMAKE_SOURCE_DIR}/tools/compare/comparison.html)
+  comparison_template=${CMAKE_SOURCE_DIR}/tools/compare/comparison.html
+  comparison_script=${CMAKE_SOURCE_DIR}/tools/compare/comparison.js)
 list(TRANSFORM page_files REPLACE "^[a-z_]+=" "" OUTPUT_VARIABLE page_inputs)
 find_program(SEAGLINT_ESBUILD esbuild REQUIRED)
 set(plotly ${CMAKE_BINARY_DIR}/generated/plotly.min.js)

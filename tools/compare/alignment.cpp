@@ -1,17 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/compare/alignment.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
+#include <memory>
 #include <numeric>
+#include <optional>
+#include <set>
 #include <tuple>
+#include <utility>
 
 #include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/real_functions.h"
 #include "sim/core/numbers/rotation.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/parallel.h"
+#include "tools/compare/differences.h"
+#include "tools/rcs/rcs_request.h"
 
 namespace seaglint {
+
 namespace {
 
 constexpr std::size_t kMaxFitted = 200'000;  // points of the fit; more are thinned out evenly
@@ -347,6 +360,251 @@ Alignment fit_alignment(std::span<const AlignmentPoint> points, int threads) {
 Complex aligned(const Alignment& alignment, const AlignmentPoint& point) {
   return static_cast<double>(alignment.sign[point.element]) * reference_of(point, alignment.conjugated) *
          std::polar(1.0, point.path_gradient.dot(alignment.origin_m) - alignment.phase_rad);
+}
+
+namespace {
+
+constexpr double kSameUnit_db = 1;          // agreement of an offset with that of a unit
+constexpr double kSteady_db = 3;            // largest rms about an offset that is one of a unit
+constexpr double kBetterCorrelation = 0.2;  // of levels, by which a mirrored or turned cut is better
+constexpr double kGoodCorrelation = 0.7;
+
+// Two series of levels in dB.
+struct Levels {
+  std::vector<double> reference, compared;
+};
+
+Levels levels_of(const PairedCut& cut, double floor_db) {
+  const double floor = *std::max_element(cut.level_dbsm.begin(), cut.level_dbsm.end()) - floor_db;
+  const std::vector<double>& model = cut.models[0].level_dbsm;
+  const double model_floor = *std::max_element(model.begin(), model.end()) - floor_db;
+  Levels levels;
+  for (std::size_t i = 0; i < cut.level_dbsm.size(); ++i) {
+    levels.reference.push_back(std::max(cut.level_dbsm[i], floor));
+    levels.compared.push_back(std::max(model[i], model_floor));
+  }
+  return levels;
+}
+
+// Straight line compared = slope reference + offset, and how well it fits.
+struct Line {
+  double slope = 1, offset_db = 0, correlation = 0, rms_db = 0;  // rms about slope 1
+};
+
+Line line_of(const Levels& levels) {
+  const double n = static_cast<double>(levels.reference.size());
+  double x = 0, y = 0, xx = 0, yy = 0, xy = 0;
+  for (std::size_t i = 0; i < levels.reference.size(); ++i) {
+    x += levels.reference[i] / n;
+    y += levels.compared[i] / n;
+  }
+  double rms = 0;
+  for (std::size_t i = 0; i < levels.reference.size(); ++i) {
+    const double a = levels.reference[i] - x, b = levels.compared[i] - y;
+    xx += a * a;
+    yy += b * b;
+    xy += a * b;
+    rms += (a - b) * (a - b) / n;
+  }
+  if (xx <= 0 || yy <= 0) return {1, y - x, 0, std::sqrt(rms)};
+  // The slope of both errors alike (reduced major axis).
+  return {std::sqrt(yy / xx), y - x, xy / std::sqrt(xx * yy), std::sqrt(rms)};
+}
+
+double correlation_of(const std::vector<double>& a, const std::vector<double>& b) {
+  return line_of({a, b}).correlation;
+}
+
+void suggest_unit(const Line& line, std::vector<std::string>& sentences) {
+  constexpr std::array<std::pair<double, const char*>, 8> kOffsets{{
+      {60, "an area in mm^2 or a mesh in mm"},
+      {40, "an area in cm^2"},
+      {30, "dBm for dBsm, or a factor of 1000 in power"},
+      {20, "a field in decimetres or a factor of 10 in amplitude"},
+      {10.99, "4 pi: |S|^2 taken for the radar cross section"},
+      {-10.99, "4 pi: the radar cross section divided by it twice"},
+      {-30, "dBm for dBsm, or a factor of 1000 in power"},
+      {-60, "an area in mm^2 or a mesh in mm"},
+  }};
+  if (line.rms_db > kSteady_db) return;
+  for (const auto& [offset, what] : kOffsets) {
+    if (std::abs(-line.offset_db - offset) > kSameUnit_db) continue;
+    sentences.push_back(fmt::format("the export is {:.1f} dB {} throughout: {}?", std::abs(line.offset_db),
+                                    line.offset_db < 0 ? "higher" : "lower", what));
+  }
+}
+
+void suggest_scale(const Line& line, std::vector<std::string>& sentences) {
+  constexpr double kTolerance = 0.15;
+  if (line.correlation < 0.9) return;
+  if (std::abs(line.slope - 0.5) < kTolerance / 2)
+    sentences.emplace_back("levels of the export change twice as much in dB: 20 log of an area for 10 log?");
+  if (std::abs(line.slope - 2) < 2 * kTolerance)
+    sentences.emplace_back("levels of the export change half as much in dB: 10 log of an amplitude for 20 log?");
+}
+
+// Levels of a cut along azimuth, by ascending azimuth.
+class LevelsByAzimuth {
+ public:
+  LevelsByAzimuth(const PairedCut& cut, const Levels& levels) : cut_(cut), levels_(levels) {
+    for (std::size_t i = 0; i < cut.places.size(); ++i)
+      compared_.emplace_back(std::remainder(cut.places[i].azimuth_deg, 360), levels.compared[i]);
+    std::sort(compared_.begin(), compared_.end());
+  }
+  // Correlation of the compared levels at azimuths sense * az + turn_deg with the reference's at az, of about kMost
+  // azimuths; 0 below half of them.
+  double correlation(double sense, double turn_deg) const {
+    constexpr double kNear_deg = 1e-3;
+    constexpr std::size_t kMost = 720;
+    std::vector<double> a, b;
+    const std::size_t step = std::max<std::size_t>(1, cut_.places.size() / kMost);
+    for (std::size_t i = 0; i < cut_.places.size(); i += step) {
+      const double wanted = std::remainder(sense * cut_.places[i].azimuth_deg + turn_deg, 360);
+      const auto place = std::lower_bound(compared_.begin(), compared_.end(), std::pair(wanted - kNear_deg, -1e300));
+      if (place == compared_.end() || place->first > wanted + kNear_deg) continue;
+      a.push_back(levels_.reference[i]);
+      b.push_back(place->second);
+    }
+    return 2 * step * a.size() < cut_.places.size() || a.size() < 8 ? 0 : correlation_of(a, b);
+  }
+
+ private:
+  const PairedCut& cut_;
+  const Levels& levels_;
+  std::vector<std::pair<double, double>> compared_;
+};
+
+// The sense and the zero of the azimuth of a cut along azimuth.
+void suggest_azimuth(const PairedCut& cut, const Levels& levels, std::vector<std::string>& sentences) {
+  if (cut.axis != CutAxis::kAzimuth || cut.places.size() < 8) return;
+  const double as_is = correlation_of(levels.reference, levels.compared);
+  double best = std::max(as_is + kBetterCorrelation, kGoodCorrelation);
+  std::string sentence;
+  const auto consider = [&](double correlation, const std::string& text) {
+    if (correlation <= best) return;
+    best = correlation;
+    sentence = text;
+  };
+  const LevelsByAzimuth by_azimuth(cut, levels);
+  const double first = cut.places.front().azimuth_deg;
+  constexpr std::size_t kMaxTurns = 720;
+  const std::size_t step = std::max<std::size_t>(1, cut.places.size() / kMaxTurns);
+  for (std::size_t n = 0; n < cut.places.size(); n += step) {
+    const double turn = cut.places[n].azimuth_deg - first;
+    for (const double by : {turn, -turn}) {
+      consider(by_azimuth.correlation(1, by),
+               fmt::format("azimuths turned by {:g} deg fit better: --reference-phi 1,{:g}?", by, -by));
+      consider(by_azimuth.correlation(-1, by),
+               fmt::format("mirrored azimuths fit better: --reference-phi -1,{:g}?", by));
+    }
+  }
+  if (!sentence.empty()) {
+    sentences.push_back(fmt::format("{} (correlation of levels {:.2f}, as it is {:.2f})", sentence, best, as_is));
+  }
+}
+
+// Profile at ranges r / scale, in dB, linearly interpolated; that of the floor outside.
+std::vector<double> stretched(const RangeProfile& profile, double scale, double floor_db) {
+  std::vector<double> levels;
+  const double first = profile.range_m.front(), step = profile.range_m[1] - first;
+  for (const double range : profile.range_m) {
+    const double at = (range / scale - first) / step;
+    const double whole = std::floor(at);
+    const bool inside = whole >= 0 && whole + 1 < static_cast<double>(profile.range_m.size());
+    if (!inside) {
+      levels.push_back(floor_db);
+      continue;
+    }
+    const auto i = static_cast<std::size_t>(whole);
+    const double level = profile.level_dbsm[i] + (at - whole) * (profile.level_dbsm[i + 1] - profile.level_dbsm[i]);
+    levels.push_back(std::max(level, floor_db));
+  }
+  return levels;
+}
+
+// A mesh of another size stretches the range profile about the phase origin.
+void suggest_size(const PairedCut& cut, std::vector<std::string>& sentences) {
+  constexpr double kDynamic_db = 30;
+  constexpr int kSteps = 70;  // of 1 % to either side
+  if (cut.axis != CutAxis::kFrequency || !cut.has_phases()) return;
+  const RangeProfile reference = range_profile(cut.places, cut.amplitude_m),
+                     compared = range_profile(cut.places, cut.models[0].amplitude_m);
+  if (reference.range_m.size() < 2) return;
+  const auto clipped = [&](const RangeProfile& profile, double scale) {
+    const double highest = *std::max_element(profile.level_dbsm.begin(), profile.level_dbsm.end());
+    return stretched(profile, scale, highest - kDynamic_db);
+  };
+  const std::vector<double> wanted = clipped(reference, 1);
+  const double as_is = correlation_of(wanted, clipped(compared, 1));
+  double best = std::max(as_is + kBetterCorrelation, kGoodCorrelation), size = 1;
+  for (int n = -kSteps; n <= kSteps; ++n) {
+    const double scale = std::pow(1.01, n), correlation = correlation_of(wanted, clipped(compared, scale));
+    if (correlation <= best) continue;
+    best = correlation;
+    size = scale;
+  }
+  if (size == 1) return;
+  sentences.push_back(fmt::format(
+      "range profiles fit better if the export's mesh is {:.2f} times as large (correlation {:.2f}, as it is {:.2f})",
+      size, best, as_is));
+}
+
+// |<conj(reference) compared>| / (|reference| |compared|) of one element; 0 without phases.
+double correlation_of(const std::vector<PairedCut>& cuts, Polarisation element) {
+  DifferenceSum sum;
+  for (const PairedCut& cut : cuts) {
+    if (cut.element != element || cut.models[0].amplitude_m.size() != cut.amplitude_m.size()) continue;
+    for (std::size_t i = 0; i < cut.amplitude_m.size(); ++i)
+      sum.add_phases(cut.models[0].amplitude_m[i], cut.amplitude_m[i]);
+  }
+  return std::abs(sum.correlation().value_or(0));
+}
+
+}  // namespace
+
+std::vector<std::string> fitted_conventions(const Alignment& alignment, const std::vector<PairedCut>& cuts) {
+  constexpr double kMeaningful = 0.5;  // least correlation
+  std::vector<std::string> sentences;
+  if (alignment.correlation < kMeaningful) return sentences;
+  if (alignment.conjugated)
+    sentences.push_back(
+        fmt::format("the export has the other time factor, e^{{-jwt}}: conjugated (correlation {:.3f}, as "
+                    "it is {:.3f})",
+                    alignment.correlation, alignment.other_correlation));
+  for (std::size_t e = 0; e < alignment.sign.size(); ++e) {
+    if (alignment.sign[e] < 0 && correlation_of(cuts, static_cast<Polarisation>(e)) > kMeaningful)
+      sentences.push_back(fmt::format("{} of the export has the opposite sign", kPolarisationNames[e]));
+  }
+  double shortest = 1e300;
+  for (const PairedCut& cut : cuts) {
+    for (const PairedCut::Place& place : cut.places) shortest = std::min(shortest, kSpeedOfLight / place.frequency_hz);
+  }
+  if (alignment.origin_m.norm() > shortest / 8) {
+    sentences.push_back(
+        fmt::format("the export's phase origin, or its mesh, is displaced: origin at {:.4f}, {:.4f}, "
+                    "{:.4f} m",
+                    alignment.origin_m.x(), alignment.origin_m.y(), alignment.origin_m.z()));
+  }
+  return sentences;
+}
+
+std::vector<std::string> suggestions(const std::vector<PairedCut>& cuts, double floor_db) {
+  std::vector<std::string> sentences;
+  Levels all;
+  const PairedCut* longest = nullptr;
+  for (const PairedCut& cut : cuts) {
+    const Levels levels = levels_of(cut, floor_db);
+    all.reference.insert(all.reference.end(), levels.reference.begin(), levels.reference.end());
+    all.compared.insert(all.compared.end(), levels.compared.begin(), levels.compared.end());
+    if (longest == nullptr || cut.places.size() > longest->places.size()) longest = &cut;
+  }
+  if (longest == nullptr || all.reference.size() < 2) return sentences;
+  const Line line = line_of(all);
+  suggest_unit(line, sentences);
+  suggest_scale(line, sentences);
+  suggest_azimuth(*longest, levels_of(*longest, floor_db), sentences);
+  suggest_size(*longest, sentences);
+  return sentences;
 }
 
 }  // namespace seaglint

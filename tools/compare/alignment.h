@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Agreement of two sets of complex amplitudes up to a constant phase, a phase origin, conjugation and the signs of
-// elements.
+// What brings two sets of values into agreement: constant phase, phase origin, conjugation and signs of amplitudes;
+// what levels that differ may have different.
 
 #include <array>
 #include <cstddef>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "sim/core/numbers/linear.h"
+#include "tools/compare/paired_cut.h"
 
 namespace seaglint {
 
@@ -45,5 +47,13 @@ Alignment fit_alignment(std::span<const AlignmentPoint> points, int threads);
 
 // The reference value in the phase of the computed one: with sign, conjugation, phase and origin removed.
 Complex aligned(const Alignment& alignment, const AlignmentPoint& point);
+
+// A sentence for each convention of the reference that was found to be another one: time factor, signs, origin. None of
+// amplitudes that do not resemble each other. Cuts with one model each, as in suggestions().
+std::vector<std::string> fitted_conventions(const Alignment& alignment, const std::vector<PairedCut>& cuts);
+
+// A sentence for each of unit, scale of the levels, sense and zero of the azimuth and size of the mesh that fits
+// clearly better changed. Levels are clipped at floor_db below each reference's maximum.
+std::vector<std::string> suggestions(const std::vector<PairedCut>& cuts, double floor_db);
 
 }  // namespace seaglint

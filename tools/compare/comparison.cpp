@@ -11,6 +11,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -20,8 +21,6 @@
 #include "sim/core/process/error.h"
 #include "sim/core/process/parallel.h"
 #include "tools/compare/cross_check.h"
-#include "tools/compare/paired_cut.h"
-#include "tools/compare/suggestions.h"
 #include "tools/rcs/rcs_request.h"
 #include "tools/rcs/rcs_table.h"
 #include "tools/rcs/rcs_target.h"
@@ -30,27 +29,22 @@
 namespace seaglint {
 namespace {
 
-// The part, number of bounces and mechanism whose contributions have the largest sum in this quantity, with its level:
-// "part hull, 2 bounces, po, 12.3 dBsm". Monostatic; empty where nothing contributes, and with cavities.
-std::string main_contribution(const RcsRequest& request, const RcsTarget& target, const PairedCut::Place& place,
-                              std::size_t quantity, const StopFlag& stop) {
-  if (!request.cavities.parts.empty()) return "";
+// In this quantity, monostatic; absent where nothing contributes, and with cavities.
+std::optional<MainContribution> main_contribution(const RcsRequest& request, const RcsTarget& target,
+                                                  const PairedCut::Place& place, std::size_t quantity,
+                                                  const StopFlag& stop) {
+  if (!request.cavities.parts.empty()) return std::nullopt;
   RcsRequest monostatic = request;
   monostatic.transmitter.reset();
   const RcsView view{place.azimuth_deg, place.elevation_deg, place.frequency_hz};
   const GroupSums sums = group_sums(view_contributions(monostatic, target, view, 1, &stop).views[0].points,
                                     2 * kPi * place.frequency_hz / kSpeedOfLight);
-  const Polarisation element = element_of_quantity(quantity);
-  const auto size = [&](const auto& group) {
-    const auto power = [&](Polarisation e) { return std::norm(group.second[static_cast<std::size_t>(e)]); };
-    return is_total(quantity)
-               ? power(element_of(false, transmits_v(element))) + power(element_of(true, transmits_v(element)))
-               : power(element);
-  };
+  const auto size = [&](const auto& group) { return squared_magnitude(group.second, quantity); };
   const auto most = std::ranges::max_element(sums, {}, size);
-  if (most == sums.end() || size(*most) == 0) return "";
-  return fmt::format("{}, {:.1f} dBsm", text_of(most->first, target.prepared.mesh.part_names),
-                     dbsm_of_area(4 * kPi * size(*most)));
+  if (most == sums.end() || size(*most) == 0) return std::nullopt;
+  return MainContribution{target.prepared.mesh.part_names[most->first.part], most->first.bounces,
+                          kMechanismNames[static_cast<std::size_t>(most->first.mechanism)],
+                          dbsm_of_area(4 * kPi * size(*most))};
 }
 
 // Cuts of one transmitter are solved together.
@@ -120,18 +114,16 @@ AlignmentPoint point_of(const PairedCut& cut, std::size_t i) {
           cut.origin_m};
 }
 
-bool has_phases(const PairedCut& cut) { return !cut.amplitude_m.empty() && !cut.models[0].amplitude_m.empty(); }
-
 // Fits all cuts with phases and brings their references into the phase of the compared values.
 std::optional<Alignment> align(std::vector<PairedCut>& cuts, int threads) {
   std::vector<AlignmentPoint> points;
   for (const PairedCut& cut : cuts) {
-    for (std::size_t i = 0; has_phases(cut) && i < cut.places.size(); ++i) points.push_back(point_of(cut, i));
+    for (std::size_t i = 0; cut.has_phases() && i < cut.places.size(); ++i) points.push_back(point_of(cut, i));
   }
   if (points.empty()) return std::nullopt;
   const Alignment alignment = fit_alignment(points, threads);
   for (PairedCut& cut : cuts) {
-    for (std::size_t i = 0; has_phases(cut) && i < cut.places.size(); ++i)
+    for (std::size_t i = 0; cut.has_phases() && i < cut.places.size(); ++i)
       cut.amplitude_m[i] = aligned(alignment, point_of(cut, i));
   }
   return alignment;
@@ -160,8 +152,6 @@ void add_extrema(const PairedCut& cut, double highest, double floor, ElementStat
   statistics.axis = cut.axis;
 }
 
-// Levels further below the strongest are rounding: single precision is 144 dB.
-constexpr double kRounding_db = 120;
 // A cross-polar echo below this is within the purity of an antenna or a mesh.
 constexpr double kPurity_db = 40;
 
@@ -212,6 +202,117 @@ void omit_rounding(ExportComparison& comparison) {
   }
 }
 
+// One pair of values of a quantity.
+struct Pair {
+  double difference_db = 0, reference_dbsm = 0;
+  PairedCut::Place place;
+};
+
+// The smallest value that at least this fraction of the values do not exceed.
+double at_most(std::vector<double> values, double fraction) {
+  if (values.empty()) return 0;
+  const auto rank = static_cast<std::ptrdiff_t>(std::ceil(fraction * static_cast<double>(values.size()))) - 1;
+  std::nth_element(values.begin(), values.begin() + rank, values.end());
+  return values[static_cast<std::size_t>(rank)];
+}
+
+// The window of a quarter of an axis' range with the largest fraction of the squared differences, of all three axes.
+ElementStatistics::Sector sector_of(std::vector<Pair> pairs) {
+  constexpr std::size_t kLeast = 8;  // different values of an axis
+  constexpr double kQuarter = 0.25;
+  struct Axis {
+    const char *name, *unit;
+    double PairedCut::Place::*value;
+    double scale;
+  };
+  constexpr std::array<Axis, 3> kAxes{{{"azimuth", "deg", &PairedCut::Place::azimuth_deg, 1},
+                                       {"elevation", "deg", &PairedCut::Place::elevation_deg, 1},
+                                       {"frequency", "GHz", &PairedCut::Place::frequency_hz, 1e-9}}};
+  double all = 0;
+  for (const Pair& pair : pairs) all += pair.difference_db * pair.difference_db;
+  ElementStatistics::Sector sector;
+  if (all == 0) return sector;
+  const double rms = std::sqrt(all / static_cast<double>(pairs.size()));
+  for (const Axis& axis : kAxes) {
+    const auto at = [&](std::size_t i) { return axis.scale * (pairs[i].place.*axis.value); };
+    std::ranges::stable_sort(pairs, {}, [&](const Pair& pair) { return pair.place.*axis.value; });
+    std::set<double> different;
+    for (std::size_t i = 0; i < pairs.size(); ++i) different.insert(at(i));
+    if (different.size() < kLeast) continue;
+    const double width = kQuarter * (*different.rbegin() - *different.begin());
+    double sum = 0;
+    for (std::size_t first = 0, end = 0; first < pairs.size(); ++first) {
+      for (; end < pairs.size() && at(end) <= at(first) + width; ++end)
+        sum += pairs[end].difference_db * pairs[end].difference_db;
+      if (sum > sector.fraction * all) {
+        sector = {axis.name, axis.unit, at(first), at(end - 1), sum / all};
+        // Its ends are differences above the mean square.
+        std::size_t low = first, high = end - 1;
+        while (low < high && std::abs(pairs[low].difference_db) < rms) ++low;
+        while (high > low && std::abs(pairs[high].difference_db) < rms) --high;
+        sector.low = at(low);
+        sector.high = at(high);
+      }
+      sum -= pairs[first].difference_db * pairs[first].difference_db;
+    }
+  }
+  return sector;
+}
+
+// Percentiles, and where the differences are large.
+void add_distribution(const std::vector<Pair>& pairs, ElementStatistics& statistics) {
+  std::vector<double> sizes, about_bias, strong;
+  std::set<double> frequencies;
+  std::set<std::pair<double, double>> directions;
+  const double weak = statistics.highest_dbsm - kStrong_db;
+  for (const Pair& pair : pairs) {
+    sizes.push_back(std::abs(pair.difference_db));
+    about_bias.push_back(std::abs(pair.difference_db - statistics.difference.bias_db));
+    if (pair.reference_dbsm >= weak) strong.push_back(sizes.back());
+    frequencies.insert(pair.place.frequency_hz);
+    directions.emplace(pair.place.azimuth_deg, pair.place.elevation_deg);
+  }
+  statistics.frequencies = frequencies.size();
+  statistics.directions = directions.size();
+  statistics.p90_db = at_most(sizes, 0.9);
+  statistics.p95_db = at_most(std::move(sizes), 0.95);
+  statistics.p90_about_bias_db = at_most(std::move(about_bias), 0.9);
+  statistics.strong = strong.size();
+  statistics.p90_strong_db = at_most(std::move(strong), 0.9);
+  statistics.limit_db = std::max(1.0, statistics.p90_db);
+  for (const Pair& pair : pairs) {
+    if (std::abs(pair.difference_db) <= statistics.limit_db) continue;
+    ++statistics.beyond;
+    if (pair.reference_dbsm < weak) ++statistics.beyond_weak;
+  }
+  statistics.sector = sector_of(pairs);
+}
+
+// The pairs of the largest differences, largest first, `count` at most; of those within a fiftieth of the range of
+// every axis the largest alone.
+std::vector<Pair> worst_of(std::vector<Pair> pairs, std::size_t count) {
+  constexpr std::array kNear{0.02, 0.02, 0.25};
+  constexpr std::array kAxes{&PairedCut::Place::azimuth_deg, &PairedCut::Place::elevation_deg,
+                             &PairedCut::Place::frequency_hz};
+  std::array<double, kAxes.size()> near{};
+  for (std::size_t a = 0; a < kAxes.size(); ++a) {
+    const auto [low, high] = std::ranges::minmax(pairs, {}, [&](const Pair& pair) { return pair.place.*kAxes[a]; });
+    near[a] = kNear[a] * (high.place.*kAxes[a] - low.place.*kAxes[a]);
+  }
+  std::vector<Pair> worst;
+  while (worst.size() < count && !pairs.empty()) {
+    worst.push_back(
+        *std::ranges::max_element(pairs, {}, [](const Pair& pair) { return std::abs(pair.difference_db); }));
+    std::erase_if(pairs, [&](const Pair& pair) {
+      for (std::size_t a = 0; a < kAxes.size(); ++a) {
+        if (std::abs(pair.place.*kAxes[a] - worst.back().place.*kAxes[a]) > near[a]) return false;
+      }
+      return true;
+    });
+  }
+  return worst;
+}
+
 ElementStatistics statistics_of(const std::vector<PairedCut>& cuts, std::size_t quantity, double floor_db) {
   constexpr std::size_t kWorst = 5;
   ElementStatistics statistics;
@@ -220,26 +321,21 @@ ElementStatistics statistics_of(const std::vector<PairedCut>& cuts, std::size_t 
   const double highest = std::max(highest_of(cuts, quantity), highest_of(cuts) - kRounding_db);
   const double floor = highest - floor_db;
   DifferenceSum sum;
-  std::vector<double> sizes;
-  std::vector<ElementStatistics::Worst> all;
+  std::vector<Pair> pairs;
   for (const PairedCut& cut : cuts) {
     if (cut.quantity() != quantity) continue;
     add_extrema(cut, highest, floor, statistics);
     for (std::size_t i = 0; i < cut.places.size(); ++i) {
       const double difference = sum.add(cut.models[0].level_dbsm[i], cut.level_dbsm[i], floor, cut.x[i]);
-      sizes.push_back(std::abs(difference));
-      all.push_back({difference, cut.places[i], {}});
-      if (has_phases(cut)) sum.add_phases(cut.models[0].amplitude_m[i], cut.amplitude_m[i]);
+      pairs.push_back({difference, cut.level_dbsm[i], cut.places[i]});
+      if (cut.has_phases()) sum.add_phases(cut.models[0].amplitude_m[i], cut.amplitude_m[i]);
     }
   }
   statistics.difference = sum.difference();
-  const auto rank = static_cast<std::ptrdiff_t>(std::ceil(0.95 * static_cast<double>(sizes.size()))) - 1;
-  std::nth_element(sizes.begin(), sizes.begin() + rank, sizes.end());
-  statistics.p95_db = sizes[static_cast<std::size_t>(rank)];
-  const std::size_t count = std::min(kWorst, all.size());
-  std::partial_sort(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count), all.end(),
-                    [](const auto& a, const auto& b) { return std::abs(a.difference_db) > std::abs(b.difference_db); });
-  statistics.worst.assign(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count));
+  statistics.highest_dbsm = highest_of(cuts, quantity);
+  add_distribution(pairs, statistics);
+  for (const Pair& pair : worst_of(std::move(pairs), kWorst))
+    statistics.worst.push_back({pair.difference_db, pair.place, pair.reference_dbsm, {}});
   return statistics;
 }
 
@@ -251,39 +347,13 @@ ExportComparison finished(ExportComparison comparison, const ComparisonSettings&
       comparison.elements.push_back(statistics_of(comparison.cuts, quantity, settings.floor_db));
   }
   comparison.warnings = comparison.one_sided;
-  for (std::string& sentence : suggestions(comparison.cuts, comparison.alignment, settings.floor_db))
-    comparison.warnings.push_back(std::move(sentence));
-  return comparison;
-}
-
-bool same_places(const RcsCut& a, const RcsCut& b) {
-  return a.values.size() == b.values.size() &&
-         std::equal(a.values.begin(), a.values.end(), b.values.begin(), [](const FieldValue& x, const FieldValue& y) {
-           return x.frequency_hz == y.frequency_hz && x.theta_deg == y.theta_deg && x.phi_deg == y.phi_deg;
-         });
-}
-
-// The total of the same transmitted polarisation as `total` from both elements of a table, where it has them in equal
-// rows.
-std::vector<RcsCut> sums_for(const RcsCut& total, const FieldTable& table) {
-  std::vector<RcsCut> sums;
-  for (const RcsCut& v : table.cuts) {
-    for (const RcsCut& h : table.cuts) {
-      if (v.total || h.total || v.element != element_of(true, transmits_v(total.element)) ||
-          h.element != element_of(false, transmits_v(total.element)) || v.transmitter != h.transmitter ||
-          !same_places(v, h))
-        continue;
-      RcsCut& sum = sums.emplace_back(v);
-      sum.element = total.element;
-      sum.total = true;
-      for (std::size_t i = 0; i < sum.values.size(); ++i) {
-        sum.values[i].amplitude_m.reset();
-        sum.values[i].level_dbsm =
-            dbsm_of_area(std::pow(10.0, v.values[i].level_dbsm / 10) + std::pow(10.0, h.values[i].level_dbsm / 10));
-      }
-    }
+  if (comparison.alignment) {
+    for (std::string& sentence : fitted_conventions(*comparison.alignment, comparison.cuts))
+      comparison.warnings.push_back(std::move(sentence));
   }
-  return sums;
+  comparison.suggested = suggestions(comparison.cuts, settings.floor_db);
+  comparison.warnings.insert(comparison.warnings.end(), comparison.suggested.begin(), comparison.suggested.end());
+  return comparison;
 }
 
 // The values of `other` at the places of the cut: its own ones, or interpolated.
@@ -323,6 +393,12 @@ struct TargetSolution {
   TargetSolutions& solutions;
 };
 
+// The quantities of a table with the other polarisation transmitted.
+FieldTable other_transmitted(FieldTable table) {
+  for (RcsCut& cut : table.cuts) cut.element = element_of(receives_v(cut.element), !transmits_v(cut.element));
+  return table;
+}
+
 struct SolvedPairs {
   std::vector<PairedCut> pairs;  // of the table's values
   std::vector<RcsCut> solved;    // all elements at their places
@@ -342,6 +418,42 @@ SolvedPairs solved_pairs(const TargetSolution& solution) {
   return result;
 }
 
+// Median of |compared - export| of the levels within 40 dB of the highest.
+double median_difference(const std::vector<PairedCut>& cuts) {
+  constexpr double kDynamic_db = 40;
+  const double weakest = highest_of(cuts) - kDynamic_db;
+  std::vector<double> differences;
+  for (const PairedCut& cut : cuts) {
+    for (std::size_t i = 0; i < cut.places.size(); ++i) {
+      if (cut.level_dbsm[i] >= weakest)
+        differences.push_back(std::abs(cut.models[0].level_dbsm[i] - cut.level_dbsm[i]));
+    }
+  }
+  return quartiles(std::move(differences)).median;
+}
+
+// A sentence where the values are those of the other polarisation transmitted, which many files do not state.
+std::optional<std::string> suggest_other_transmitted(const TargetSolution& solution,
+                                                     const std::vector<PairedCut>& pairs) {
+  constexpr double kPoor_db = 1.5, kClearly = 0.25;
+  const double as_is = median_difference(pairs);
+  if (!(as_is > kPoor_db)) return std::nullopt;
+  const FieldTable other = other_transmitted(solution.table);
+  const double exchanged =
+      median_difference(solved_pairs({other, solution.request, solution.target, solution.solutions}).pairs);
+  if (!(exchanged < std::min(kClearly * as_is, kPoor_db))) return std::nullopt;
+  const bool v = transmits_v(solution.table.cuts.front().element);
+  const bool both =
+      std::ranges::any_of(solution.table.cuts, [&](const RcsCut& cut) { return transmits_v(cut.element) != v; });
+  return fmt::format("with {} the median difference falls from {:.1f} to {:.1f} dB: --reference-polarisation{}?",
+                     both ? "both transmitted polarisations exchanged"
+                          : fmt::format("{} transmitted instead of {}", v ? "h" : "v", v ? "v" : "h"),
+                     as_is, exchanged,
+                     both ? ""
+                     : v  ? " h"
+                          : " v");
+}
+
 bool is_perfect_conductor(const RcsRequest& request) {
   return std::ranges::all_of(request.materials, [](const MaterialChoice& choice) { return choice.material == "pec"; });
 }
@@ -353,6 +465,11 @@ void judge(const TargetSolution& solution, const ComparisonSettings& settings, E
     TargetSolutions trials{solution.solutions.threads, solution.solutions.stop, [](const std::string&) {}};
     return solved_pairs({table, request, target, trials}).pairs;
   };
+  if (std::optional<std::string> sentence = suggest_other_transmitted(solution, comparison.cuts)) {
+    comparison.warnings = {*sentence};
+    comparison.suggested = {*sentence};
+    return;
+  }
   comparison.trials =
       trial_solutions({solution.table, solution.request, comparison.cuts, solve, solution.solutions.say});
   // Of a mesh in another unit no other suggestion and no known value means anything.
@@ -401,6 +518,10 @@ void warn_of_non_reciprocity(const std::vector<ExportComparison*>& parts) {
 
 }  // namespace
 
+std::string MainContribution::group() const {
+  return fmt::format("part {}, {} bounce{}, {}", part, bounces, bounces == 1 ? "" : "s", mechanism);
+}
+
 RcsRequest at_frequencies_of(const std::vector<FieldTable>& tables, RcsRequest request) {
   std::set<double> frequencies;  // ascending, each once
   for (const FieldTable& table : tables) {
@@ -420,6 +541,7 @@ ExportComparison compare_with_target(const FieldTable& table, const RcsRequest& 
   const TargetSolution solution{table, request, target, solutions};
   SolvedPairs pairs = solved_pairs(solution);
   comparison.cuts = std::move(pairs.pairs);
+  for (PairedCut& cut : comparison.cuts) cut.models.back().name = comparison.compared;
   comparison.solved = std::move(pairs.solved);
   comparison = finished(std::move(comparison), settings, solutions.threads);
   judge(solution, settings, comparison);

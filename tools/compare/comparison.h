@@ -14,14 +14,22 @@
 #include "sim/field_tables/field_table.h"
 #include "tools/compare/alignment.h"
 #include "tools/compare/differences.h"
-#include "tools/compare/interpolation.h"
-#include "tools/compare/known_values.h"
 #include "tools/compare/paired_cut.h"
-#include "tools/compare/suggestions.h"
+#include "tools/compare/target_checks.h"
 #include "tools/rcs/rcs_request.h"
 #include "tools/rcs/rcs_target.h"
 
 namespace seaglint {
+
+// The part, number of bounces and mechanism whose contributions have the largest sum at a place, with its level.
+struct MainContribution {
+  std::string part;
+  int bounces = 1;
+  std::string mechanism;
+  double level_dbsm = 0;
+
+  std::string group() const;  // "part hull, 2 bounces, po"
+};
 
 // Differences of all values of one element or total, compared - reference, both clipped at floor_db below the
 // reference's maximum.
@@ -29,18 +37,37 @@ struct ElementStatistics {
   Polarisation element = Polarisation::kHh;
   bool total = false;  // of the sum over both received polarisations (RcsCut)
   Difference difference;
-  double p95_db = 0;  // 95 % of the absolute differences are at most this
+  double highest_dbsm = 0;                      // of the reference
+  double p90_db = 0, p95_db = 0;                // 90 and 95 % of the absolute differences are at most this
+  double p90_about_bias_db = 0;                 // the same of the differences less their mean
+  double p90_strong_db = 0;                     // the same within kStrong_db of the highest level
+  std::size_t strong = 0;                       // number of these
+  std::size_t frequencies = 0, directions = 0;  // different ones of its places
+  // Differences beyond 1 dB, or the 90 % difference if that is larger, and how many of them lie lower than kStrong_db
+  // below the highest level.
+  double limit_db = 0;
+  std::size_t beyond = 0, beyond_weak = 0;
+  // The part of an axis, a quarter of its range or less, with most of the squared differences; none: fraction 0.
+  struct Sector {
+    const char* axis = "";  // "azimuth", "elevation", "frequency"
+    const char* unit = "";
+    double low = 0, high = 0, fraction = 0;
+  };
+  Sector sector;
   struct Worst {
     double difference_db = 0;
     PairedCut::Place place;
-    std::string main;  // main_contribution() there, of a monostatic target
+    double reference_dbsm = 0;
+    std::optional<MainContribution> main;  // of a monostatic target without cavities
   };
-  std::vector<Worst> worst;          // the largest differences, at most five
+  std::vector<Worst> worst;          // the largest differences at places apart, at most five
   ExtremumPairs lobes, nulls;        // of all cuts with one variable; means over their pairs
   CutAxis axis = CutAxis::kSeveral;  // that variable
 
   std::size_t quantity() const { return quantity_of(element, total); }
 };
+
+inline constexpr double kStrong_db = 20;  // levels within it of the highest are strong
 
 struct ExportComparison {
   std::string name, reader, compared;   // compared: "seaglint" or the name of the other file
@@ -49,6 +76,7 @@ struct ExportComparison {
   std::optional<Alignment> alignment = {};  // absent as asked, or without phases
   std::vector<ElementStatistics> elements = {};
   std::vector<std::string> warnings = {};
+  std::vector<std::string> suggested = {};                 // of the warnings: what in the levels may be different
   std::optional<InterpolationQuality> interpolation = {};  // of the compared values
   std::vector<RcsCut> solved = {};                         // of a target: all elements, at the places of the export
   std::vector<std::string> omitted = {};  // a sentence for each element that is not compared: zero or rounding in one
@@ -62,7 +90,7 @@ struct ExportComparison {
 struct ComparisonSettings {
   double floor_db = 80;
   bool as_is = false;  // no fit of phase, origin, conjugation and signs
-  // Tables with other directions: values of the other table are interpolated (interpolation.h).
+  // Tables with other directions: values of the other table are interpolated (interpolated_cut()).
   std::optional<double> interpolation_radius_m;
 };
 

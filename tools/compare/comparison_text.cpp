@@ -2,9 +2,12 @@
 #include "tools/compare/comparison_text.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -12,7 +15,6 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/parallel.h"
 #include "sim/core/process/printable.h"
-#include "tools/page/html.h"
 #include "tools/rcs/rcs_request.h"
 
 namespace seaglint {
@@ -66,7 +68,7 @@ std::string rows_of(const ExportComparison& comparison, const PairedCut& cut, bo
   const std::string name = csv_cell(comparison.name) + ',';
   const std::string other = fmt::format(",{},{}", csv_cell(comparison.compared), kQuantityNames[cut.quantity()]);
   const PairedCut::Model& model = cut.models[0];
-  const bool phases = !cut.amplitude_m.empty() && !model.amplitude_m.empty();
+  const bool phases = cut.has_phases();
   std::string text;
   const auto digits = [&](double x) { fmt::format_to(std::back_inserter(text), ",{:.9g}", x); };
   const auto decibels = [&](double x) { fmt::format_to(std::back_inserter(text), ",{:.4f}", x); };
@@ -113,6 +115,10 @@ ordered_json solver_json(const ExportComparison& comparison) {
   json["max_bounces"] = request.max_bounces;
   json["method"] = kSolverMethodNames[static_cast<int>(request.method)];
   return json;
+}
+
+std::string contribution_text(const ElementStatistics::Worst& worst) {
+  return worst.main ? fmt::format("{}, {:.1f} dBsm", worst.main->group(), worst.main->level_dbsm) : "";
 }
 
 // Known values of one quantity.
@@ -166,6 +172,231 @@ std::string solver_text(const std::vector<ExportComparison>& comparisons) {
   return text;
 }
 
+namespace {
+
+// A difference for a sentence: 0.04, 0.3, 12.
+std::string amount(double db) {
+  db = std::abs(db);
+  if (db >= 9.95) return fmt::format("{:.0f}", db);
+  return db < 0.095 ? fmt::format("{:.2f}", std::max(db, 0.01)) : fmt::format("{:.1f}", db);
+}
+
+const ElementStatistics& strongest_of(const ExportComparison& comparison) {
+  return *std::ranges::max_element(comparison.elements, {}, &ElementStatistics::highest_dbsm);
+}
+
+// "181 angles", "21 frequencies", "3801 angles and frequencies".
+std::string places_text(const ElementStatistics& s) {
+  const char* noun = s.frequencies == 1 ? "angles" : s.directions == 1 ? "frequencies" : "angles and frequencies";
+  return fmt::format("{} {}", s.difference.points, noun);
+}
+
+constexpr double kWeaker_db = 10;  // an element whose highest level is lower by this is named apart
+constexpr double kAgreement_db =
+    3;  // 90 % of the differences, or of those about an offset, of what is called agreement
+
+// "0.3 dB in hh and 0.5 dB in vv": the 90 % differences of these elements, equal ones together.
+std::string amounts_text(const std::vector<const ElementStatistics*>& elements) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> groups;
+  for (const ElementStatistics* s : elements) {
+    const std::string text = amount(s->p90_db);
+    auto group = std::ranges::find(groups, text, &decltype(groups)::value_type::first);
+    if (group == groups.end()) group = groups.insert(groups.end(), {text, {}});
+    group->second.emplace_back(kQuantityNames[s->quantity()]);
+  }
+  std::vector<std::string> texts;
+  for (const auto& [db, names] : groups) texts.push_back(fmt::format("{} dB in {}", db, fmt::join(names, " and ")));
+  return fmt::format("{}", fmt::join(texts, texts.size() == 2 ? " and " : ", "));
+}
+
+std::string phases_text(const ElementStatistics& s) {
+  constexpr double kAgree = 0.99, kDiffer = 0.9;
+  if (!s.difference.correlation) return "";
+  const double correlation = std::abs(*s.difference.correlation);
+  if (correlation >= kAgree) return fmt::format(", phases included (correlation {:.3f})", correlation);
+  return fmt::format("; the phases {} (correlation {:.2f})", correlation < kDiffer ? "do not agree" : "agree roughly",
+                     correlation);
+}
+
+bool agrees(const ElementStatistics& s) { return s.p90_db <= kAgreement_db; }
+
+// "within 0.3 dB in hh and 0.5 dB in vv at 90 % of the 181 angles, phases included (correlation 0.997), but not in hv
+// (9.0 dB); weaker elements, by 25 dB and more, within 2.0 dB in vh".
+std::string within_text(const ExportComparison& comparison) {
+  const ElementStatistics& strongest = strongest_of(comparison);
+  std::vector<const ElementStatistics*> agreeing, differing, weaker;
+  double below = 1e300;
+  for (const ElementStatistics& s : comparison.elements) {
+    if (s.highest_dbsm < strongest.highest_dbsm - kWeaker_db) {
+      weaker.push_back(&s);
+      below = std::min(below, strongest.highest_dbsm - s.highest_dbsm);
+    } else {
+      (agrees(s) ? agreeing : differing).push_back(&s);
+    }
+  }
+  std::string text = fmt::format("within {} at 90 % of the {}{}", amounts_text(agreeing), places_text(strongest),
+                                 phases_text(strongest));
+  if (!differing.empty()) text += fmt::format(", but not in others: {}", amounts_text(differing));
+  if (!weaker.empty())
+    text += fmt::format("; weaker elements, by {} dB and more, within {}", amount(below), amounts_text(weaker));
+  return text;
+}
+
+bool is_offset(const ElementStatistics& s) {
+  constexpr double kLeast_db = 0.3, kSteady = 0.5;
+  return std::abs(s.difference.bias_db) >= kLeast_db &&
+         s.p90_about_bias_db <= std::min(kSteady * std::abs(s.difference.bias_db), kAgreement_db);
+}
+
+// How far they agree.
+std::string agreement_text(const ExportComparison& c) {
+  constexpr std::size_t kLeastStrong = 5;
+  constexpr double kOneSided = 0.7;  // of the mean difference
+  const ElementStatistics& s = strongest_of(c);
+  const std::string subject = c.compared == "seaglint" ? "The RCS computed by seaglint" : "The RCS of " + c.compared;
+  if (is_offset(s))
+    return fmt::format(
+        "{} is {} dB {} than that of {} in {}; apart from this offset they agree within {} dB at 90 % of "
+        "the {}{}.",
+        subject, amount(s.difference.bias_db), s.difference.bias_db > 0 ? "higher" : "lower", c.name,
+        kQuantityNames[s.quantity()], amount(s.p90_about_bias_db), places_text(s), phases_text(s));
+  if (agrees(s)) return fmt::format("{} agrees with {} {}.", subject, c.name, within_text(c));
+  const char* element = kQuantityNames[s.quantity()];
+  if (s.strong >= kLeastStrong && s.p90_strong_db <= kAgreement_db)
+    return fmt::format(
+        "{} agrees with {} within {} dB in {} at 90 % of the levels within {:g} dB of the strongest{}, but within {} "
+        "dB only "
+        "at 90 % of all {}.",
+        subject, c.name, amount(s.p90_strong_db), element, kStrong_db, phases_text(s), amount(s.p90_db),
+        places_text(s));
+  const bool one_sided = std::abs(s.difference.bias_db) >= std::max(1.0, kOneSided * s.difference.mean_db);
+  return fmt::format("{} does not agree with {}: 90 % of the {} are within {} dB in {}{}{}.", subject, c.name,
+                     places_text(s), amount(s.p90_db), element,
+                     one_sided ? fmt::format(", on average {} dB {}", amount(s.difference.bias_db),
+                                             s.difference.bias_db > 0 ? "higher" : "lower")
+                               : "",
+                     phases_text(s));
+}
+
+// Which of both is closer to the exact or closed-form value; empty where none is known or it does not decide.
+std::string known_text(const ExportComparison& c) {
+  constexpr double kMostly = 1.0 / 3;
+  if (!c.known || c.known->statistics.empty()) return "";
+  const std::size_t quantity = strongest_of(c).quantity();
+  const auto found = std::ranges::find(c.known->statistics, quantity, &KnownStatistics::quantity);
+  const KnownStatistics& s = found == c.known->statistics.end() ? c.known->statistics.front() : *found;
+  const double of_export = s.reference.rms_db, own = s.compared.rms_db;
+  std::string closer = closer_text(of_export, own, s.error_db, c.compared);
+  if (!closer.ends_with("is closer")) return "";
+  if (own < kMostly * of_export) closer = "the difference is mainly the export's error";
+  if (of_export < kMostly * own) closer = fmt::format("the difference is mainly the error of {}", c.compared);
+  return fmt::format(
+      "From the {} of the {} {} differs by {:.2f} dB rms (bias {:+.2f} dB), the export by {:.2f} dB ({:+.2f} dB): "
+      "{}.",
+      c.known->name == "closed form" ? "closed form" : "exact value (Mie series)", c.known->body, c.compared, own,
+      s.compared.bias_db, of_export, s.reference.bias_db, closer);
+}
+
+// The strongest element; where it agrees and one of similar level does not, that one.
+const ElementStatistics& least_agreeing_of(const ExportComparison& comparison) {
+  const ElementStatistics* found = &strongest_of(comparison);
+  if (!agrees(*found)) return *found;
+  for (const ElementStatistics& s : comparison.elements) {
+    if (s.highest_dbsm >= strongest_of(comparison).highest_dbsm - kWeaker_db && !agrees(s) && s.p90_db > found->p90_db)
+      found = &s;
+  }
+  return *found;
+}
+
+// "10.2 GHz, azimuth 12 deg, elevation 2 deg".
+std::string text_of(const PairedCut::Place& p) {
+  return fmt::format("{:.6g} GHz, azimuth {:.5g} deg, elevation {:.5g} deg", 1e-9 * p.frequency_hz, p.azimuth_deg,
+                     p.elevation_deg);
+}
+
+// "part hull contributes most (2 bounces, physical optics)", where at least half of the worst places share that; else
+// empty.
+std::string common_contribution(const ElementStatistics& s) {
+  constexpr std::array<const char*, kMechanismNames.size()> kWords{"physical optics",
+                                                                   "single edge diffraction",
+                                                                   "multiple edge diffraction",
+                                                                   "edge diffraction via reflections",
+                                                                   "shadow boundary of an edge",
+                                                                   "wall in the penumbra of an edge",
+                                                                   "concave edge"};
+  std::map<std::string, std::pair<std::size_t, const MainContribution*>> count;
+  for (const ElementStatistics::Worst& worst : s.worst) {
+    if (!worst.main) continue;
+    auto& [places, example] = count[worst.main->group()];
+    ++places;
+    example = &*worst.main;
+  }
+  const auto most = std::ranges::max_element(count, {}, [](const auto& one) { return one.second.first; });
+  if (most == count.end() || 2 * most->second.first < s.worst.size()) return "";
+  const MainContribution& main = *most->second.second;
+  const auto mechanism = std::ranges::find(kMechanismNames, main.mechanism) - kMechanismNames.begin();
+  return fmt::format("part {} contributes most ({} bounce{}, {})", main.part, main.bounces,
+                     main.bounces == 1 ? "" : "s", kWords[static_cast<std::size_t>(mechanism)]);
+}
+
+// Where the differences are, and what contributes there.
+std::string places_of_differences(const ExportComparison& c) {
+  constexpr double kConcentrated = 0.6, kNearlyAll = 0.8, kNone_db = 0.1, kBoth_db = 0.1;
+  constexpr std::size_t kLeast = 5;
+  const ElementStatistics &strongest = strongest_of(c), &s = least_agreeing_of(c);
+  const ElementStatistics::Worst& worst = s.worst.front();
+  if (std::abs(worst.difference_db) < kNone_db)
+    return fmt::format("No value of {} differs by more than {} dB.", kQuantityNames[s.quantity()],
+                       amount(worst.difference_db + std::copysign(0.005, worst.difference_db)));
+  const std::string there = common_contribution(s);
+  if (agrees(strongest) && s.beyond >= kLeast &&
+      static_cast<double>(s.beyond_weak) >= kNearlyAll * static_cast<double>(s.beyond)) {
+    std::string text = fmt::format(
+        "{} differences beyond {} dB in {} are in levels more than {:g} dB below its strongest (nulls and weak lobes)",
+        s.beyond_weak == s.beyond ? fmt::format("All {}", s.beyond) : fmt::format("{} of {}", s.beyond_weak, s.beyond),
+        amount(s.limit_db), kQuantityNames[s.quantity()], kStrong_db);
+    if (!there.empty()) text += ", where at the worst places " + there;
+    if (s.p90_strong_db + kBoth_db < s.p90_db)
+      text += fmt::format("; above these levels 90 % agree within {} dB", amount(s.p90_strong_db));
+    return text + ".";
+  }
+  if (s.sector.fraction >= kConcentrated)
+    return fmt::format("The differences in {} are mainly at {} {:.5g} to {:.5g} {} ({:.0f} % of their squared sum){}.",
+                       kQuantityNames[s.quantity()], s.sector.axis, s.sector.low, s.sector.high, s.sector.unit,
+                       100 * s.sector.fraction, there.empty() ? "" : ", where " + there);
+  return fmt::format("The largest difference, {:+.1f} dB in {} at {}, is in a level {:.0f} dB below the strongest{}.",
+                     worst.difference_db, kQuantityNames[s.quantity()], text_of(worst.place),
+                     s.highest_dbsm - worst.reference_dbsm, there.empty() ? "" : "; at the worst places " + there);
+}
+
+// Why they differ, by what is most certain.
+std::string reason_text(const ExportComparison& c) {
+  const ElementStatistics& s = strongest_of(c);
+  const auto trial = [&]() -> std::string {
+    for (std::string& sentence : trial_sentences(c.trials)) {
+      if (!std::ranges::any_of(c.trials, &Trial::helps)) continue;
+      sentence.front() = 'W';  // "with --unit mm ..."
+      return sentence + ".";
+    }
+    return "";
+  };
+  if (std::ranges::any_of(c.trials, is_unit)) return trial();
+  if (std::string known = known_text(c); !known.empty()) return known;
+  if (std::string other = trial(); !other.empty()) return other;
+  if ((is_offset(s) || !agrees(s)) && !c.suggested.empty())
+    return fmt::format("Possible cause: {}", c.suggested.front());
+  return places_of_differences(c);
+}
+
+}  // namespace
+
+std::string verdict(const ExportComparison& comparison) {
+  if (comparison.elements.empty()) return "";
+  std::string text = agreement_text(comparison) + " " + reason_text(comparison);
+  if (!text.ends_with('.') && !text.ends_with('?')) text += '.';
+  return text;
+}
+
 std::string comparison_table(const std::vector<ExportComparison>& comparisons, const ComparisonSettings& settings) {
   std::size_t width = 6, other = 8, pol = 3;
   for (const ExportComparison& c : comparisons) {
@@ -174,15 +405,20 @@ std::string comparison_table(const std::vector<ExportComparison>& comparisons, c
     for (const ElementStatistics& s : c.elements)
       pol = std::max(pol, std::string_view(kQuantityNames[s.quantity()]).size());
   }
-  std::string text = fmt::format(
+  std::string text;
+  for (const ExportComparison& c : comparisons) {
+    if (!c.elements.empty()) text += verdict(c) + "\n";
+  }
+  text += fmt::format(
       "Differences in dB, compared - export, both clipped at {:g} dB below the export's maximum:\n{:<{}}  {:<{}}  "
-      "{:<{}}  {:>7}  {:>7}  {:>7}  {:>7}  {:>7}  correlation\n",
-      settings.floor_db, "export", width, "pol", pol, "compared", other, "pairs", "bias", "mean", "rms", "95 %");
+      "{:<{}}  {:>7}  {:>7}  {:>7}  {:>7}  {:>7}  {:>7}  correlation\n",
+      settings.floor_db, "export", width, "pol", pol, "compared", other, "pairs", "bias", "mean", "rms", "90 %",
+      "95 %");
   for (const ExportComparison& c : comparisons) {
     for (const ElementStatistics& s : c.elements) {
-      text += fmt::format("{:<{}}  {:<{}}  {:<{}}  {:>7}  {:>7.3f}  {:>7.3f}  {:>7.3f}  {:>7.3f}  {}\n", c.name, width,
-                          kQuantityNames[s.quantity()], pol, c.compared, other, s.difference.points,
-                          s.difference.bias_db, s.difference.mean_db, s.difference.rms_db, s.p95_db,
+      text += fmt::format("{:<{}}  {:<{}}  {:<{}}  {:>7}  {:>7.3f}  {:>7.3f}  {:>7.3f}  {:>7.3f}  {:>7.3f}  {}\n",
+                          c.name, width, kQuantityNames[s.quantity()], pol, c.compared, other, s.difference.points,
+                          s.difference.bias_db, s.difference.mean_db, s.difference.rms_db, s.p90_db, s.p95_db,
                           s.difference.correlation ? fmt::format("{:.4f}", std::abs(*s.difference.correlation))
                                                    : std::string("no phases"));
     }
@@ -215,10 +451,12 @@ std::string comparison_json(const std::vector<ExportComparison>& comparisons, co
       entry["omitted"] = c.omitted;
       entry["compared"] = c.compared;
       entry["polarisation"] = kQuantityNames[s.quantity()];
+      entry["summary"] = verdict(c);
       entry["pairs"] = s.difference.points;
       entry["bias_db"] = s.difference.bias_db;
       entry["mean_abs_db"] = s.difference.mean_db;
       entry["rms_db"] = s.difference.rms_db;
+      entry["p90_db"] = s.p90_db;
       entry["p95_db"] = s.p95_db;
       entry["correlation"] =
           s.difference.correlation ? ordered_json(std::abs(*s.difference.correlation)) : ordered_json(nullptr);
@@ -232,7 +470,7 @@ std::string comparison_json(const std::vector<ExportComparison>& comparisons, co
                                   {"azimuth_deg", worst.place.azimuth_deg},
                                   {"elevation_deg", worst.place.elevation_deg},
                                   {"line", worst.place.line},
-                                  {"main_contribution", worst.main}});
+                                  {"main_contribution", contribution_text(worst)}});
       }
       entry["solver"] = solver_json(c);
       entry["known"] = known_json(c, s.quantity());
@@ -268,164 +506,6 @@ std::string comparison_csv(const std::vector<ExportComparison>& comparisons, int
   csv.reserve(size);
   for (const std::string& text : rows) csv += text;
   return csv;
-}
-
-namespace {
-
-const char* name_of(const ElementStatistics& s) { return kQuantityNames[s.quantity()]; }
-
-std::string decibels(double value) { return fmt::format("{:.2f}", value); }
-
-std::string signed_decibels(double value) { return fmt::format("{:+.2f}", value); }
-
-std::string extrema_cell(const ExtremumPairs& pairs, CutAxis axis) {
-  if (axis == CutAxis::kSeveral || pairs.count == 0) return "-";
-  return fmt::format("{} of {}, {:.3g} {}, {:.2f} dB", pairs.paired, pairs.count, pairs.mean_shift, axis_unit(axis),
-                     pairs.mean_db);
-}
-
-std::string differences(const std::vector<ExportComparison>& comparisons) {
-  std::vector<std::vector<std::string>> rows{
-      {"export", "element", "against", "pairs", "bias (dB)", "mean (dB)", "rms (dB)", "95 % (dB)", "correlation"}};
-  for (const ExportComparison& c : comparisons) {
-    for (const ElementStatistics& s : c.elements) {
-      const std::string name =
-          s.total ? fmt::format("total, {} transmitted", transmits_v(s.element) ? "v" : "h") : name_of(s);
-      rows.push_back(
-          {escape_html(c.name), name, escape_html(c.compared), fmt::format("{}", s.difference.points),
-           decibels(s.difference.bias_db), decibels(s.difference.mean_db), decibels(s.difference.rms_db),
-           decibels(s.p95_db),
-           s.difference.correlation ? fmt::format("{:.4f}", std::abs(*s.difference.correlation)) : "no phases"});
-    }
-  }
-  return html_table(rows);
-}
-
-// Both against exact and closed-form values: the bodies, the tables of statistics and of levels; each empty without.
-void add_known_values(PageValues& values, const std::vector<ExportComparison>& comparisons) {
-  std::vector<std::vector<std::string>> rows{{"export", "element", "places", "export bias (dB)", "export rms (dB)",
-                                              "compared bias (dB)", "compared rms (dB)", "closer"}};
-  std::vector<std::vector<std::string>> levels{
-      {"export", "element", "body", "known (dBsm)", "export (dBsm)", "compared (dBsm)", "closer"}};
-  std::string& bodies = values["known_bodies"];
-  for (const ExportComparison& c : comparisons) {
-    if (!c.known) continue;
-    bodies += fmt::format("<p>{}: {}, {}.</p>\n", escape_html(c.name), c.known->body, c.known->name);
-    for (const KnownStatistics& s : c.known->statistics)
-      rows.push_back({escape_html(c.name), kQuantityNames[s.quantity], fmt::format("{}", s.reference.points),
-                      signed_decibels(s.reference.bias_db), decibels(s.reference.rms_db),
-                      signed_decibels(s.compared.bias_db), decibels(s.compared.rms_db),
-                      escape_html(closer_text(s.reference.rms_db, s.compared.rms_db, s.error_db, c.compared))});
-    for (const KnownLevel& l : c.known->levels)
-      levels.push_back({escape_html(c.name), kQuantityNames[l.quantity], l.body, decibels(l.known_dbsm),
-                        decibels(l.reference_dbsm), decibels(l.compared_dbsm),
-                        escape_html(closer_text(std::abs(l.reference_dbsm - l.known_dbsm),
-                                                std::abs(l.compared_dbsm - l.known_dbsm), 0, c.compared))});
-  }
-  values["known_statistics"] = rows.size() > 1 ? html_table(rows, false) : "";
-  values["known_levels"] = levels.size() > 1 ? html_table(levels, false) : "";
-}
-
-std::string lobes_and_nulls(const std::vector<ExportComparison>& comparisons) {
-  std::vector<std::vector<std::string>> rows{
-      {"export", "element", "lobes paired, mean displacement and difference", "nulls paired"}};
-  for (const ExportComparison& c : comparisons) {
-    for (const ElementStatistics& s : c.elements)
-      rows.push_back({escape_html(c.name), name_of(s), extrema_cell(s.lobes, s.axis), extrema_cell(s.nulls, s.axis)});
-  }
-  return html_table(rows, false);
-}
-
-std::string origin_text(const Alignment& a) {
-  if (a.undetermined.size() == 3) return "not fixed by the data";
-  std::string text =
-      fmt::format("{:.1f}, {:.1f}, {:.1f}", 1e3 * a.origin_m.x(), 1e3 * a.origin_m.y(), 1e3 * a.origin_m.z());
-  for (const Vec3& v : a.undetermined)
-    text += fmt::format("; none along ({:.2f}, {:.2f}, {:.2f})", v.x(), v.y(), v.z());
-  return text;
-}
-
-std::string fits(const std::vector<ExportComparison>& comparisons) {
-  std::vector<std::vector<std::string>> rows{
-      {"export", "constant phase (deg)", "phase origin (mm)", "time factor", "signs hh hv vh vv", "level (dB)"}};
-  for (const ExportComparison& c : comparisons) {
-    if (!c.alignment) continue;
-    const Alignment& a = *c.alignment;
-    std::string signs;
-    for (const int sign : a.sign) signs += sign < 0 ? "- " : "+ ";
-    rows.push_back({escape_html(c.name), fmt::format("{:.1f}", degrees(a.phase_rad)), origin_text(a),
-                    a.conjugated ? "e<sup>-j&omega;t</sup>, conjugated" : "e<sup>+j&omega;t</sup>", signs,
-                    fmt::format("{:+.2f}", a.level_db)});
-  }
-  return rows.size() == 1 ? "" : html_table(rows, false);
-}
-
-std::string warnings(const std::vector<ExportComparison>& comparisons) {
-  std::string items;
-  for (const ExportComparison& c : comparisons) {
-    if (c.interpolation)
-      items += fmt::format("<p>{}: {}.</p>\n", escape_html(c.compared), escape_html(text_of(*c.interpolation)));
-    for (const std::string& warning : c.warnings)
-      items += fmt::format("<p class=\"note\">{}: {}</p>\n", escape_html(c.name), escape_html(warning));
-  }
-  return items;
-}
-
-std::string worst(const std::vector<ExportComparison>& comparisons) {
-  std::vector<std::vector<std::string>> rows{{"export, line", "element", "frequency (GHz)", "azimuth (deg)",
-                                              "elevation (deg)", "difference (dB)", "largest contribution"}};
-  for (const ExportComparison& c : comparisons) {
-    for (const ElementStatistics& s : c.elements) {
-      for (const ElementStatistics::Worst& w : s.worst) {
-        const PairedCut::Place& p = w.place;
-        rows.push_back({fmt::format("{}:{}", escape_html(c.name), p.line), name_of(s),
-                        fmt::format("{:.6g}", 1e-9 * p.frequency_hz), fmt::format("{:.6g}", p.azimuth_deg),
-                        fmt::format("{:.6g}", p.elevation_deg), decibels(w.difference_db), escape_html(w.main)});
-      }
-    }
-  }
-  return html_table(rows);
-}
-
-std::string readings(const std::vector<ExportComparison>& comparisons) {
-  std::string items;
-  for (const ExportComparison& c : comparisons) {
-    std::string notes;
-    for (const std::string& note : c.notes) notes += "; " + escape_html(note);
-    for (const std::string& sentence : c.omitted) notes += "; " + escape_html(sentence);
-    items += fmt::format("<li><b>{}</b>: read as {}{}</li>\n", escape_html(c.name), escape_html(c.reader), notes);
-  }
-  return items;
-}
-
-}  // namespace
-
-std::string comparison_page(const std::vector<ExportComparison>& comparisons, const ComparisonSettings& settings,
-                            const ComparisonFigures& figures) {
-  const std::string title = comparisons.size() == 1
-                                ? comparisons.front().name + " against " + comparisons.front().compared
-                                : fmt::format("{} exports compared", comparisons.size());
-  const auto figure = [](const ComparisonFigure& of, const char* caption, const char* alternative) {
-    return of.file.empty() ? "" : html_figure(of.file, caption, alternative, of.plot);
-  };
-  PageValues values{
-      {"title", title},
-      {"floor_db", fmt::format("{:g}", settings.floor_db)},
-      {"interpolated", settings.interpolation_radius_m ? "yes" : ""},
-      {"differences", differences(comparisons)},
-      {"solver", solver_text(comparisons)},
-      {"warnings", warnings(comparisons)},
-      {"curves", figure(figures.curves, "Levels above, differences below; at most four cuts.", "curves of both")},
-      {"lobes_and_nulls", lobes_and_nulls(comparisons)},
-      {"fits", fits(comparisons)},
-      {"profiles",
-       figure(figures.profiles, "Hann's window over all frequencies of a direction; a point has its own level.",
-              "range profiles of both")},
-      {"worst", worst(comparisons)},
-      {"readings", readings(comparisons)},
-      {"version", kVersion}};
-  add_known_values(values, comparisons);
-  return html_page(title, filled(comparison_template(), values));
 }
 
 }  // namespace seaglint

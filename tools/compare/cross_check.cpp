@@ -42,27 +42,16 @@ namespace {
 
 using ViewMatrices = std::vector<std::vector<std::array<Complex, 4>>>;  // [view][frequency]
 
-double relative_db(double difference2, double reference2) {
-  if (difference2 == 0) return -kMostRelativeDb;
-  if (reference2 == 0) return kMostRelativeDb;
-  return std::clamp(10 * std::log10(difference2 / reference2), -kMostRelativeDb, kMostRelativeDb);
-}
-
 CrossCheckRow row_of(const std::vector<std::array<Complex, 4>>& beams, const std::vector<std::array<Complex, 4>>& rays,
                      std::size_t element) {
-  double beams2 = 0, rays2 = 0, difference2 = 0;  // sums of squares over the frequencies
-  for (std::size_t q = 0; q < beams.size(); ++q) {
-    const Complex &b = beams[q][kCoPolar[element]], &r = rays[q][kCoPolar[element]];
-    beams2 += std::norm(b);
-    rays2 += std::norm(r);
-    difference2 += std::norm(r - b);
-  }
+  EchoChange change;
+  for (std::size_t q = 0; q < beams.size(); ++q) change.add(beams[q][kCoPolar[element]], rays[q][kCoPolar[element]]);
   const double frequencies = static_cast<double>(beams.size());
   CrossCheckRow row;
   row.element = element;
-  row.beams_dbsm = dbsm_of_area(4 * kPi * beams2 / frequencies, kMinPrinted_m2);
-  row.rays_dbsm = dbsm_of_area(4 * kPi * rays2 / frequencies, kMinPrinted_m2);
-  row.relative_db = relative_db(difference2, beams2);
+  row.beams_dbsm = dbsm_of_area(4 * kPi * change.reference_m2 / frequencies, kMinPrinted_m2);
+  row.rays_dbsm = dbsm_of_area(4 * kPi * change.other_m2 / frequencies, kMinPrinted_m2);
+  row.relative_db = change.relative_db();
   return row;
 }
 
@@ -374,12 +363,9 @@ SampleCrossCheck cross_check_samples(const Scenario& scenario, std::span<const s
 }
 
 double relative_difference_db(const FrequencyResponse& reference, const FrequencyResponse& other) {
-  double difference2 = 0, reference2 = 0;
-  for (std::size_t i = 0; i < reference.values.size(); ++i) {
-    difference2 += std::norm(other.values[i] - reference.values[i]);
-    reference2 += std::norm(reference.values[i]);
-  }
-  return relative_db(difference2, reference2);
+  EchoChange change;
+  for (std::size_t i = 0; i < reference.values.size(); ++i) change.add(reference.values[i], other.values[i]);
+  return change.relative_db();
 }
 
 std::string text_of(const SampleCrossCheck& check) {

@@ -22,6 +22,7 @@
 #include "tools/figure/figure.h"
 #include "tools/rcs/rcs_request.h"
 #include "tools/rcs/rcs_target.h"
+#include "tools/rcs/rcs_uncertainty.h"
 
 namespace seaglint {
 
@@ -45,7 +46,6 @@ std::string text_of(const ContributionGroup& group, const std::vector<std::strin
 
 // A sweep by beams and by shooting and bouncing rays: how far the two differ in every view, and in which contributions.
 
-inline constexpr double kMostRelativeDb = 300;   // bounds of a relative difference, for echoes that vanish
 inline constexpr double kLargeDifferenceDb = 3;  // rows beyond it are listed
 
 // One element of one view. Levels are those of the mean of sigma over the frequencies.

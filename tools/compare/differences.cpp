@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <map>
+#include <optional>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -130,22 +133,52 @@ std::string error_table(const std::vector<PairedCut>& cuts, double floor_db) {
   return text;
 }
 
+namespace {
+
+using PlotColumn = std::vector<const PairedCut*>;
+
+// As many of the columns, evenly spread over each of the strongest quantities, in their order.
+std::vector<PlotColumn> spread_columns(const std::vector<PlotColumn>& columns, std::size_t count) {
+  std::map<std::size_t, std::pair<double, std::vector<std::size_t>>> of_quantity;  // highest level, columns
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    auto& [highest, indices] =
+        of_quantity.try_emplace(columns[i][0]->quantity(), -1e300, std::vector<std::size_t>()).first->second;
+    highest = std::max(highest, std::ranges::max(columns[i][0]->level_dbsm));
+    indices.push_back(i);
+  }
+  std::vector<std::pair<double, std::vector<std::size_t>>> groups;
+  for (auto& [quantity, group] : of_quantity) groups.push_back(std::move(group));
+  std::ranges::stable_sort(groups, std::ranges::greater{}, [](const auto& group) { return group.first; });
+  groups.resize(std::min(groups.size(), count / 2));
+  std::set<std::size_t> kept;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const std::vector<std::size_t>& indices = groups[g].second;
+    const std::size_t here = std::min(indices.size(), count / groups.size());
+    for (std::size_t n = 0; n < here; ++n) kept.insert(indices[(2 * n + 1) * indices.size() / (2 * here)]);
+  }
+  std::vector<PlotColumn> chosen;
+  for (const std::size_t i : kept) chosen.push_back(columns[i]);
+  return chosen;
+}
+
+}  // namespace
+
 PlotPanels comparison_plots(const std::vector<PairedCut>& cuts, double floor_db) {
   if (cuts.empty() || cuts.front().axis == CutAxis::kSeveral || cuts.front().x.size() < 2) return {};
   // Cuts of one frequency and polarisation share a column.
   constexpr std::size_t kMaxColumns = 4;
+  constexpr const char* kReferences[] = {kReferenceColour, "#7f7f7f", "#b8b8b8"};
+  constexpr const char* kOtherModelColour = "#56b4e9";
+  constexpr double kReferenceWidth = 2.4;  // remains visible below a computed curve that is equal
   std::vector<std::vector<const PairedCut*>> columns;
   for (const PairedCut& cut : cuts) {
     const auto place = std::find_if(columns.begin(), columns.end(), [&](const auto& column) {
       return column.front()->quantity() == cut.quantity() && column.front()->frequency_hz == cut.frequency_hz &&
              column.front()->place == cut.place;
     });
-    if (place != columns.end()) {
-      place->push_back(&cut);
-    } else if (columns.size() < kMaxColumns) {
-      columns.push_back({&cut});
-    }
+    (place == columns.end() ? columns.emplace_back() : *place).push_back(&cut);
   }
+  if (columns.size() > kMaxColumns) columns = spread_columns(columns, kMaxColumns);
 
   std::vector<LinePlot> levels, differences;
   for (const auto& column : columns) {
@@ -169,36 +202,51 @@ PlotPanels comparison_plots(const std::vector<PairedCut>& cuts, double floor_db)
         AxisRange{*std::min_element(first.x.begin(), first.x.end()), *std::max_element(first.x.begin(), first.x.end())};
     difference.y.label = "computed - reference (dB)";
     double widest = 0.2, lowest = highest;
+    std::vector<double> sizes;
     for (const PairedCut* cut : column) {
       const std::string& name = cut->reference;
       lowest = std::min(lowest, *std::min_element(cut->level_dbsm.begin(), cut->level_dbsm.end()));
-      level.series.push_back({name, cut->x, clipped(cut->level_dbsm), {}, SeriesStyle::kLines});
+      level.series.push_back({name,
+                              cut->x,
+                              clipped(cut->level_dbsm),
+                              {},
+                              SeriesStyle::kLines,
+                              kReferences[std::min(level.series.size(), std::size(kReferences) - 1)],
+                              kReferenceWidth});
       for (const PairedCut::Model& model : cut->models) {
         Series series{model.name + " - " + name, cut->x, {}, {}, SeriesStyle::kLines};
         const std::vector<double> computed = clipped(model.level_dbsm), reference = clipped(cut->level_dbsm);
         for (std::size_t i = 0; i < cut->x.size(); ++i) {
           series.y.push_back(computed[i] - reference[i]);
-          widest = std::max(widest, std::abs(series.y.back()));
+          sizes.push_back(std::abs(series.y.back()));
+          widest = std::max(widest, sizes.back());
         }
+        if (column.size() == 1 && &model == &cut->models.back()) series.colour = kDifferenceColour;
         difference.series.push_back(std::move(series));
       }
       if (!cut->known) continue;
-      Series series{cut->known->name + " - " + name, cut->x, {}, {}, SeriesStyle::kLinesPoints};
+      Series series{cut->known->name + " - " + name, cut->x, {}, {}, SeriesStyle::kLinesPoints, kKnownColour};
       for (std::size_t i = 0; i < cut->x.size(); ++i)
         series.y.push_back(cut->known->level_dbsm[i] - std::max(cut->level_dbsm[i], floor));
       difference.series.push_back(std::move(series));
     }
     for (const PairedCut::Model& model : first.models)
-      level.series.push_back({model.name, first.x, clipped(model.level_dbsm), {}, SeriesStyle::kLines});
+      level.series.push_back({model.name,
+                              first.x,
+                              clipped(model.level_dbsm),
+                              {},
+                              SeriesStyle::kLines,
+                              &model == &first.models.back() ? kComputedColour : kOtherModelColour});
     if (first.flat) {
       const std::vector<double> flat = clipped(first.flat->level_dbsm), smooth = level.series.back().y;
-      Series band{"to flat facets", first.x, smooth, {}, SeriesStyle::kBand};
+      Series band{"to flat facets", first.x, smooth, {}, SeriesStyle::kBand, kOtherModelColour};
       for (std::size_t i = 0; i < flat.size(); ++i)
         band.interval.push_back({std::min(flat[i], smooth[i]), std::max(flat[i], smooth[i])});
       level.series.push_back(std::move(band));
     }
     if (first.known)
-      level.series.push_back({first.known->name, first.x, first.known->level_dbsm, {}, SeriesStyle::kLinesPoints});
+      level.series.push_back(
+          {first.known->name, first.x, first.known->level_dbsm, {}, SeriesStyle::kLinesPoints, kKnownColour});
     for (std::size_t i = 0; i + 1 < column.size(); ++i) {
       const auto other = as_model(*column[i], *column[i + 1]);
       if (!other) continue;
@@ -211,7 +259,8 @@ PlotPanels comparison_plots(const std::vector<PairedCut>& cuts, double floor_db)
     constexpr double kMargin_db = 3, kBelowReference_db = 12, kWidest_db = 20;
     level.y = {"radar cross section (dBsm)",
                AxisRange{std::max(floor, lowest - kBelowReference_db), highest + kMargin_db}, false};
-    widest = std::min(1.05 * widest, kWidest_db);
+    std::ranges::sort(sizes);
+    widest = std::min(1.05 * widest, std::max(kWidest_db, 1.2 * quantile(sizes, 0.9)));
     difference.y.range = AxisRange{-widest, widest};
     levels.push_back(std::move(level));
     differences.push_back(std::move(difference));
@@ -230,12 +279,99 @@ PlotPanels comparison_plots(const std::vector<PairedCut>& cuts, double floor_db)
           {abreast == 1 ? 900 : static_cast<int>(750 * abreast), 860 * blocks}};
 }
 
-bool draw_comparison(const std::vector<PairedCut>& cuts, double floor_db, const std::string& title,
-                     const std::filesystem::path& file) {
-  const PlotPanels panels = comparison_plots(cuts, floor_db);
-  if (panels.plots.empty()) return false;
-  write_figure(title, panels, file);
+namespace {
+
+// Levels of one quantity over an angle and frequency, NaN where there is none.
+struct LevelGrid {
+  std::string angle, place;
+  std::vector<double> deg, ghz;
+  std::vector<double> reference, compared;  // [ghz][deg]
+};
+
+bool are_uniform(const std::vector<double>& values) {
+  const double step = (values.back() - values.front()) / static_cast<double>(values.size() - 1);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (std::abs(values[i] - values.front() - static_cast<double>(i) * step) > 0.02 * step) return false;
+  }
   return true;
+}
+
+// The grid over azimuth at the elevation of the first cut, or over elevation at its azimuth, of the cuts of the same
+// reference and quantity; absent below three values of either, where steps are uneven and where places are missing.
+std::optional<LevelGrid> level_grid(const std::vector<PairedCut>& cuts, const PairedCut& first, double floor_dbsm) {
+  constexpr std::size_t kLeast = 3;
+  for (const bool over_azimuth : {true, false}) {
+    const auto angle = over_azimuth ? &PairedCut::Place::azimuth_deg : &PairedCut::Place::elevation_deg;
+    const auto fixed = over_azimuth ? &PairedCut::Place::elevation_deg : &PairedCut::Place::azimuth_deg;
+    std::map<std::pair<double, double>, std::pair<double, double>> values;  // by frequency and angle
+    std::set<double> degrees, frequencies;
+    for (const PairedCut& cut : cuts) {
+      if (cut.reference != first.reference || cut.quantity() != first.quantity()) continue;
+      for (std::size_t i = 0; i < cut.places.size(); ++i) {
+        const PairedCut::Place& place = cut.places[i];
+        if (place.*fixed != first.places.front().*fixed) continue;
+        values[{place.frequency_hz, place.*angle}] = {std::max(cut.level_dbsm[i], floor_dbsm),
+                                                      std::max(cut.models.back().level_dbsm[i], floor_dbsm)};
+        degrees.insert(place.*angle);
+        frequencies.insert(place.frequency_hz);
+      }
+    }
+    if (degrees.size() < kLeast || frequencies.size() < kLeast || values.size() != degrees.size() * frequencies.size())
+      continue;
+    LevelGrid grid{over_azimuth ? "azimuth (deg)" : "elevation (deg)",
+                   fmt::format("{} {:g} deg", over_azimuth ? "elevation" : "azimuth", first.places.front().*fixed),
+                   {degrees.begin(), degrees.end()},
+                   {},
+                   {},
+                   {}};
+    for (const double hz : frequencies) grid.ghz.push_back(1e-9 * hz);
+    for (const auto& [place, levels] : values) {
+      grid.reference.push_back(levels.first);
+      grid.compared.push_back(levels.second);
+    }
+    if (are_uniform(grid.deg) && are_uniform(grid.ghz)) return grid;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<Heatmap> comparison_images(const std::vector<PairedCut>& cuts, double floor_db) {
+  constexpr double kDynamic_db = 50, kWidest_db = 20, kNarrowest_db = 0.2, kShown = 0.98;
+  const auto highest_of = [](const PairedCut& cut) { return std::ranges::max(cut.level_dbsm); };
+  if (cuts.empty()) return {};
+  const PairedCut& strongest = *std::ranges::max_element(cuts, {}, highest_of);
+  const double highest = highest_of(strongest);
+  const std::optional<LevelGrid> grid = level_grid(cuts, strongest, highest - floor_db);
+  if (!grid) return {};
+  std::vector<double> difference, sizes;
+  for (std::size_t i = 0; i < grid->reference.size(); ++i) {
+    difference.push_back(grid->compared[i] - grid->reference[i]);
+    sizes.push_back(std::abs(difference.back()));
+  }
+  std::ranges::sort(sizes);
+  const double widest = std::clamp(quantile(sizes, kShown), kNarrowest_db, kWidest_db);
+  std::vector<double> levels = grid->reference;
+  std::ranges::sort(levels);
+  const double lowest = std::max({highest - kDynamic_db, highest - floor_db, quantile(levels, 1 - kShown) - 1});
+  Heatmap image;
+  image.x.label = grid->angle;
+  image.y.label = "frequency (GHz)";
+  image.x_cells = grid->deg;
+  image.y_cells = grid->ghz;
+  std::vector<Heatmap> images(3, image);
+  const std::string place = fmt::format("{}, {}", kQuantityNames[strongest.quantity()], grid->place);
+  images[0].title = fmt::format("{}: {}", strongest.reference, place);
+  images[1].title = fmt::format("{}: {}", strongest.models.back().name, place);
+  images[2].title = "compared - export";
+  for (const std::size_t i : {0u, 1u})
+    images[i].colour = {"radar cross section (dBsm)", AxisRange{lowest, highest}, false};
+  images[2].colour = {"difference (dB)", AxisRange{-widest, widest}, false};
+  images[2].diverging = true;
+  images[0].values = grid->reference;
+  images[1].values = grid->compared;
+  images[2].values = std::move(difference);
+  return images;
 }
 
 namespace {
@@ -353,7 +489,7 @@ PlotPanels range_profile_plots(std::span<const PairedCut> cuts) {
   std::vector<LinePlot> plots;
   for (const PairedCut& cut : cuts) {
     if (plots.size() == kMostPlots) break;
-    if (cut.axis != CutAxis::kFrequency || cut.amplitude_m.empty() || cut.models[0].amplitude_m.empty()) continue;
+    if (cut.axis != CutAxis::kFrequency || !cut.has_phases()) continue;
     const RangeProfile reference = range_profile(cut.places, cut.amplitude_m),
                        compared = range_profile(cut.places, cut.models[0].amplitude_m);
     if (reference.range_m.empty()) continue;
@@ -365,8 +501,9 @@ PlotPanels range_profile_plots(std::span<const PairedCut> cuts) {
     plot.x = {"range from the phase origin, positive = farther (m)",
               AxisRange{reference.range_m.front(), reference.range_m.back()}, false};
     plot.y = {"range profile (dBsm)", AxisRange{highest - kDynamic_db, highest + 3}, false};
-    plot.series = {{cut.reference, reference.range_m, reference.level_dbsm, {}, SeriesStyle::kLines},
-                   {cut.models[0].name, compared.range_m, compared.level_dbsm, {}, SeriesStyle::kLines}};
+    plot.series = {
+        {cut.reference, reference.range_m, reference.level_dbsm, {}, SeriesStyle::kLines, kReferenceColour, 2.4},
+        {cut.models[0].name, compared.range_m, compared.level_dbsm, {}, SeriesStyle::kLines, kComputedColour}};
     plots.push_back(std::move(plot));
   }
   if (plots.empty()) return {};

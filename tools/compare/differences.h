@@ -5,7 +5,6 @@
 // figures.
 
 #include <cstddef>
-#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -15,6 +14,10 @@
 #include "tools/figure/figure.h"
 
 namespace seaglint {
+
+// Levels further below the strongest are rounding, as the cross-polar ones of a symmetric body: single precision is 144
+// dB.
+inline constexpr double kRounding_db = 120;
 
 struct Difference {
   std::size_t points = 0;
@@ -52,9 +55,10 @@ std::string error_table(const std::vector<PairedCut>& cuts, double floor_db);
 // last model and flat facets is filled. Empty if no cut has an axis to draw along.
 PlotPanels comparison_plots(const std::vector<PairedCut>& cuts, double floor_db);
 
-// Draws them; false if there are none.
-bool draw_comparison(const std::vector<PairedCut>& cuts, double floor_db, const std::string& title,
-                     const std::filesystem::path& file);
+// Levels of the reference and of its last model, and their difference, of the strongest quantity over azimuth and
+// frequency, or over elevation and frequency, at the other angle of the cut with the highest level. Empty without three
+// even steps of either, and where places are missing.
+std::vector<Heatmap> comparison_images(const std::vector<PairedCut>& cuts, double floor_db);
 
 // Lobes, nulls and range profiles of curves.
 

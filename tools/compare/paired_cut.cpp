@@ -2,13 +2,18 @@
 #include "tools/compare/paired_cut.h"
 
 #include <fmt/format.h>
+
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <numeric>
+#include <optional>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/real_functions.h"
@@ -56,9 +61,21 @@ std::vector<ViewGrid> cuts_of(const ViewGrid& grid) {
   return cuts;
 }
 
+namespace {
+
+constexpr double kFrequencyTolerance = 1e-6;  // relative, of equal frequencies
+
 double azimuth_of(const RcsCut& cut, double phi_deg) {
   return std::remainder((phi_deg - cut.phi_offset_deg) / cut.phi_scale, 360);
 }
+
+// k (r^_t + r^_s), rad/m; without a transmitter of one antenna.
+Vec3 path_gradient(const ViewPoint& p, const std::optional<Vec3>& transmitter) {
+  const Vec3 r = direction_to_radar(radians(p.azimuth_deg), radians(p.elevation_deg));
+  return 2 * kPi * p.frequency_hz / kSpeedOfLight * (transmitter.value_or(r) + r);
+}
+
+}  // namespace
 
 ViewPoint view_point(const RcsCut& cut, const FieldValue& value) {
   return {value.frequency_hz, azimuth_of(cut, value.phi_deg), 90 - value.theta_deg};
@@ -81,8 +98,7 @@ std::optional<FixedTransmitter> fixed_transmitter(const RcsCut& cut) {
 namespace {
 
 constexpr double kAngleStep_deg = 1e-3;  // CST prints three decimals
-constexpr double kFrequencyTolerance = 1e-6;
-constexpr double kSameLevel_db = 0.1;  // allowed difference of a direction that a file contains twice
+constexpr double kSameLevel_db = 0.1;    // allowed difference of a direction that a file contains twice
 
 // The values of a cut by frequency and direction.
 class ValuesByPlace {
@@ -217,7 +233,7 @@ std::vector<PairedCut> paired_cuts(const RcsSweep& sweep, const RcsCut& referenc
   const ValuesByPlace values(reference);
   std::vector<PairedCut> cuts;
   for (std::size_t q = 0; q < sweep.frequency_hz.size(); ++q) {
-    const double f = sweep.frequency_hz[q], k = 2 * kPi * f / kSpeedOfLight;
+    const double f = sweep.frequency_hz[q];
     if (cuts.empty() || axis != CutAxis::kFrequency) {
       PairedCut& cut = cuts.emplace_back();
       cut.reference = reference.name;
@@ -237,15 +253,14 @@ std::vector<PairedCut> paired_cuts(const RcsSweep& sweep, const RcsCut& referenc
                       : axis == CutAxis::kFrequency ? f * 1e-9
                                                     : static_cast<double>(cut.x.size() + 1));
       cut.level_dbsm.push_back(sample->level_dbsm);
-      const Vec3 r = direction_to_radar(radians(az), radians(el));
-      const Vec3 path_gradient = k * (sweep.transmitter.value_or(r) + r);
+      const Vec3 gradient = path_gradient({f, az, el}, sweep.transmitter);
       // For a phase origin at x0 the two-way path is shorter by (r^_t + r^_s).x0 than for the body's origin
       // (CONVENTIONS.md, "Scattering").
       if (sample->amplitude_m)
         cut.amplitude_m.push_back(reference.origin_m.isZero(1e-12)
                                       ? *sample->amplitude_m
-                                      : *sample->amplitude_m * std::polar(1.0, path_gradient.dot(reference.origin_m)));
-      cut.places.push_back({view, q, f, az, el, path_gradient, sample->line});
+                                      : *sample->amplitude_m * std::polar(1.0, gradient.dot(reference.origin_m)));
+      cut.places.push_back({view, q, f, az, el, gradient, sample->line});
     }
   }
   std::erase_if(cuts, [](const PairedCut& cut) { return cut.x.empty(); });
@@ -260,19 +275,12 @@ std::vector<PairedCut> match_reference(const RcsSweep& sweep, const RcsCut& refe
 }
 
 void set_models(PairedCut& cut, const RcsSweep& sweep) {
-  const auto element = static_cast<std::size_t>(cut.element);
   const auto along_cut = [&](const RcsSweep::Model& model) {
     PairedCut::Model values{model.name, {}, {}};
     for (const PairedCut::Place& place : cut.places) {
       const std::array<Complex, 4>& matrix = model.matrices[place.view][place.frequency];
-      if (cut.total) {
-        const Complex h = matrix[static_cast<std::size_t>(element_of(false, transmits_v(cut.element)))],
-                      v = matrix[static_cast<std::size_t>(element_of(true, transmits_v(cut.element)))];
-        values.level_dbsm.push_back(dbsm_of_area(4 * kPi * (std::norm(h) + std::norm(v))));
-        continue;
-      }
-      values.level_dbsm.push_back(dbsm(matrix[element]));
-      values.amplitude_m.push_back(matrix[element]);
+      values.level_dbsm.push_back(dbsm_of_area(4 * kPi * squared_magnitude(matrix, cut.quantity())));
+      if (!cut.total) values.amplitude_m.push_back(matrix[static_cast<std::size_t>(cut.element)]);
     }
     return values;
   };
@@ -280,6 +288,38 @@ void set_models(PairedCut& cut, const RcsSweep& sweep) {
   for (const RcsSweep::Model& model : sweep.models) cut.models.push_back(along_cut(model));
   cut.flat.reset();
   if (sweep.flat) cut.flat = along_cut(*sweep.flat);
+}
+
+namespace {
+
+bool same_places(const RcsCut& a, const RcsCut& b) {
+  return a.values.size() == b.values.size() &&
+         std::equal(a.values.begin(), a.values.end(), b.values.begin(), [](const FieldValue& x, const FieldValue& y) {
+           return x.frequency_hz == y.frequency_hz && x.theta_deg == y.theta_deg && x.phi_deg == y.phi_deg;
+         });
+}
+
+}  // namespace
+
+std::vector<RcsCut> sums_for(const RcsCut& total, const FieldTable& table) {
+  std::vector<RcsCut> sums;
+  for (const RcsCut& v : table.cuts) {
+    for (const RcsCut& h : table.cuts) {
+      if (v.total || h.total || v.element != element_of(true, transmits_v(total.element)) ||
+          h.element != element_of(false, transmits_v(total.element)) || v.transmitter != h.transmitter ||
+          !same_places(v, h))
+        continue;
+      RcsCut& sum = sums.emplace_back(v);
+      sum.element = total.element;
+      sum.total = true;
+      for (std::size_t i = 0; i < sum.values.size(); ++i) {
+        sum.values[i].amplitude_m.reset();
+        sum.values[i].level_dbsm =
+            dbsm_of_area(std::pow(10.0, v.values[i].level_dbsm / 10) + std::pow(10.0, h.values[i].level_dbsm / 10));
+      }
+    }
+  }
+  return sums;
 }
 
 std::vector<RcsSweep> table_sweeps(const RcsCut& cut, const RcsCut& other) {
@@ -300,21 +340,249 @@ std::vector<RcsSweep> table_sweeps(const RcsCut& cut, const RcsCut& other) {
     RcsSweep::Model model{other.name, true, {}};
     model.matrices.assign(sweep.views(), std::vector<std::array<Complex, 4>>(sweep.frequency_hz.size()));
     for (std::size_t q = 0; q < sweep.frequency_hz.size(); ++q) {
-      const double f = sweep.frequency_hz[q], k = 2 * kPi * f / kSpeedOfLight;
       for (std::size_t view = 0; view < sweep.views(); ++view) {
-        const double az = sweep.azimuth_of(view), el = sweep.elevation_of(view);
-        const FieldValue& value = *values.at({f, az, el});
+        const ViewPoint place{sweep.frequency_hz[q], sweep.azimuth_of(view), sweep.elevation_of(view)};
+        const FieldValue& value = *values.at(place);
         Complex amplitude = value.amplitude_m.value_or(amplitude_of_dbsm(value.level_dbsm));
-        if (value.amplitude_m && !other.origin_m.isZero(1e-12)) {
-          const Vec3 r = direction_to_radar(radians(az), radians(el));
-          amplitude *= std::polar(1.0, k * (sweep.transmitter.value_or(r) + r).dot(other.origin_m));
-        }
+        if (value.amplitude_m && !other.origin_m.isZero(1e-12))
+          amplitude *= std::polar(1.0, path_gradient(place, sweep.transmitter).dot(other.origin_m));
         model.matrices[view][q][static_cast<std::size_t>(other.element)] = amplitude;
       }
     }
     sweep.models.push_back(std::move(model));
   }
   return sweeps;
+}
+
+namespace {
+
+constexpr std::size_t kMostNeighbours = 48;
+constexpr double kReach = 8;           // half-waves pi / radius
+constexpr double kSampleError = 1e-4;  // of the mean level
+
+// Correlation of amplitudes for centres equally dense in a sphere, 3 j_1(u) / u.
+double centre_correlation(double u) {
+  if (u < 1e-2) return 1 - u * u / 10;  // next term u^4 / 280
+  return 3 * (std::sin(u) - u * std::cos(u)) / (u * u * u);
+}
+
+// Equally distributed unit vectors (Fibonacci's spiral: Swinbank & Purser 2006).
+std::vector<Vec3> sphere_points(int count) {
+  const double golden = kPi * (3 - std::sqrt(5.0));
+  std::vector<Vec3> points;
+  for (int i = 0; i < count; ++i) {
+    const double z = 1 - (2 * i + 1.0) / count, rho = std::sqrt(1 - z * z);
+    points.emplace_back(rho * std::cos(golden * i), rho * std::sin(golden * i), z);
+  }
+  return points;
+}
+
+// The values of one frequency by their path gradients.
+class FrequencySamples {
+ public:
+  FrequencySamples(const RcsCut& cut, const std::vector<const FieldValue*>& values, double radius_m)
+      : cut_(cut), radius_m_(cut.has_phase() ? radius_m : 2 * radius_m) {
+    if (const std::optional<FixedTransmitter> fixed = fixed_transmitter(cut))
+      transmitter_ = direction_to_radar(radians(fixed->azimuth_deg), radians(fixed->elevation_deg));
+    std::vector<Vec3> gradients;
+    for (const FieldValue* value : values) gradients.push_back(gradient(view_point(cut, *value)));
+    Vec3 low = gradients.front(), high = low;
+    for (const Vec3& q : gradients) low = low.cwiseMin(q), high = high.cwiseMax(q);
+    axis_ = (high - low).longest_axis();
+    std::vector<std::size_t> order(values.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return gradients[a][axis_] < gradients[b][axis_]; });
+    for (const std::size_t i : order) {
+      q_.push_back(gradients[i]);
+      sorted_.push_back(values[i]);
+    }
+  }
+
+  struct Estimate {
+    std::vector<std::size_t> neighbours;
+    Eigen::VectorXd weights;
+    double standard_error = 1;
+  };
+
+  Estimate estimate(const ViewPoint& place) const {
+    const Vec3 q = gradient(place);
+    Estimate result;
+    result.neighbours = nearest(q);
+    const auto count = static_cast<Eigen::Index>(result.neighbours.size());
+    if (count == 0) return result;
+    Eigen::MatrixXd all(count, count);
+    Eigen::VectorXd one(count);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const Vec3& a = q_[result.neighbours[static_cast<std::size_t>(i)]];
+      one[i] = centre_correlation(radius_m_ * (a - q).norm());
+      all(i, i) = 1 + kSampleError * kSampleError;
+      for (Eigen::Index j = 0; j < i; ++j)
+        all(i, j) = centre_correlation(radius_m_ * (a - q_[result.neighbours[static_cast<std::size_t>(j)]]).norm());
+    }
+    result.weights = all.selfadjointView<Eigen::Lower>().llt().solve(one);
+    result.standard_error = std::sqrt(std::max(0.0, 1 - one.dot(result.weights)));
+    return result;
+  }
+
+  FieldValue value(const ViewPoint& place, const Estimate& estimate) const {
+    FieldValue value{place.frequency_hz,
+                     90 - place.elevation_deg,
+                     std::fmod(place.azimuth_deg * cut_.phi_scale + cut_.phi_offset_deg, 360),
+                     kMinLevel_dbsm,
+                     {},
+                     0};
+    if (value.phi_deg < 0) value.phi_deg += 360;
+    Complex amplitude = 0;
+    double area = 0;
+    for (std::size_t i = 0; i < estimate.neighbours.size(); ++i) {
+      const FieldValue& sample = *sorted_[estimate.neighbours[i]];
+      const double weight = estimate.weights[static_cast<Eigen::Index>(i)];
+      if (sample.amplitude_m) amplitude += weight * *sample.amplitude_m;
+      if (!sample.amplitude_m) area += weight * std::pow(10.0, sample.level_dbsm / 10);
+    }
+    if (cut_.has_phase()) value.amplitude_m = amplitude;
+    value.level_dbsm = std::max(kMinLevel_dbsm, cut_.has_phase() ? dbsm(amplitude) : dbsm_of_area(std::max(area, 0.0)));
+    return value;
+  }
+
+  // |e^{j q.x} - sum w_i e^{j q_i.x}| of the worst centre x of these on the sphere.
+  double largest_error(const ViewPoint& place, const Estimate& estimate, std::span<const Vec3> directions) const {
+    const Vec3 q = gradient(place);
+    double largest = 0;
+    for (const Vec3& direction : directions) {
+      Complex error = 1;
+      for (std::size_t i = 0; i < estimate.neighbours.size(); ++i)
+        error -= std::polar(1.0, radius_m_ * (q_[estimate.neighbours[i]] - q).dot(direction)) *
+                 estimate.weights[static_cast<Eigen::Index>(i)];
+      largest = std::max(largest, std::abs(error));
+    }
+    return largest;
+  }
+
+ private:
+  Vec3 gradient(const ViewPoint& p) const { return path_gradient(p, transmitter_); }
+
+  // The nearest samples within kReach half-waves, at most kMostNeighbours, nearest first.
+  std::vector<std::size_t> nearest(const Vec3& q) const {
+    const double reach = kReach * kPi / radius_m_;
+    const auto below = [&](const Vec3& a, double x) { return a[axis_] < x; };
+    std::vector<std::pair<double, std::size_t>> found;
+    for (auto i = std::lower_bound(q_.begin(), q_.end(), q[axis_] - reach, below);
+         i != q_.end() && (*i)[axis_] <= q[axis_] + reach; ++i) {
+      const double distance = (*i - q).norm();
+      if (distance <= reach) found.emplace_back(distance, static_cast<std::size_t>(i - q_.begin()));
+    }
+    const std::size_t count = std::min(kMostNeighbours, found.size());
+    std::partial_sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(count), found.end());
+    std::vector<std::size_t> indices;
+    for (std::size_t i = 0; i < count; ++i) indices.push_back(found[i].second);
+    return indices;
+  }
+
+  const RcsCut& cut_;
+  std::optional<Vec3> transmitter_;
+  double radius_m_;
+  std::size_t axis_ = 0;                   // along which the gradients extend furthest
+  std::vector<Vec3> q_;                    // ascending along it
+  std::vector<const FieldValue*> sorted_;  // in their order
+};
+
+// The cut's values by frequency, each with those within kFrequencyTolerance of the first.
+std::vector<std::pair<double, FrequencySamples>> by_frequency(const RcsCut& cut, double radius_m) {
+  std::vector<const FieldValue*> values;
+  for (const FieldValue& value : cut.values) values.push_back(&value);
+  std::stable_sort(values.begin(), values.end(),
+                   [](const FieldValue* a, const FieldValue* b) { return a->frequency_hz < b->frequency_hz; });
+  std::vector<std::pair<double, FrequencySamples>> samples;
+  for (auto first = values.begin(); first != values.end();) {
+    const double frequency = (*first)->frequency_hz;
+    const auto end = std::find_if(first, values.end(), [&](const FieldValue* value) {
+      return value->frequency_hz > frequency * (1 + kFrequencyTolerance);
+    });
+    samples.emplace_back(frequency, FrequencySamples(cut, {first, end}, radius_m));
+    first = end;
+  }
+  return samples;
+}
+
+const FrequencySamples* at_frequency(const std::vector<std::pair<double, FrequencySamples>>& samples,
+                                     double frequency) {
+  for (const auto& [f, values] : samples) {
+    if (std::abs(f - frequency) <= kFrequencyTolerance * frequency) return &values;
+  }
+  return nullptr;
+}
+
+[[noreturn]] void throw_too_coarse(const RcsCut& cut, std::span<const ViewPoint> places, double radius_m) {
+  double highest = 0;
+  for (const ViewPoint& place : places) highest = std::max(highest, place.frequency_hz);
+  const double half_waves = (fixed_transmitter(cut) ? 2 : 4) * (cut.has_phase() ? 1 : 2);
+  throw InputError(fmt::format(
+      "{}: its directions are too far apart to be interpolated, or none is near those of the export: a target that "
+      "reaches {:g} m from the phase origin needs steps below {:.3g} deg at {:g} GHz (wavelength / {:g} radii)",
+      cut.name, radius_m, degrees(kSpeedOfLight / highest / (half_waves * radius_m)), 1e-9 * highest, half_waves));
+}
+
+}  // namespace
+
+InterpolationQuality combined(const InterpolationQuality& a, const InterpolationQuality& b) {
+  const auto n = static_cast<double>(a.interpolated), m = static_cast<double>(b.interpolated);
+  return {a.radius_m, a.interpolated + b.interpolated, a.omitted + b.omitted,
+          std::sqrt((n * a.standard_error * a.standard_error + m * b.standard_error * b.standard_error) / (n + m)),
+          std::max(a.largest_error, b.largest_error)};
+}
+
+std::string text_of(const InterpolationQuality& quality) {
+  const auto decibels = [](double error) { return 20 * std::log10(std::max(error, kSampleError)); };
+  return fmt::format(
+      "interpolated at {} places, {} omitted, for a target within {:g} m of its phase origin: standard error {:.0f} "
+      "dB, at most {:.0f} dB of a scattering centre",
+      quality.interpolated, quality.omitted, quality.radius_m, decibels(quality.standard_error),
+      decibels(quality.largest_error));
+}
+
+InterpolatedCut interpolated_cut(const RcsCut& cut, std::span<const ViewPoint> places, double radius_m, int threads) {
+  constexpr std::size_t kExamined = 100;  // places of the largest standard errors
+  constexpr int kCentres = 500;
+  const auto samples = by_frequency(cut, radius_m);
+  struct Result {
+    std::optional<FieldValue> value;
+    double standard_error = 1;
+  };
+  std::vector<Result> results(places.size());
+  parallel_for(places.size(), threads, [&](std::size_t i) {
+    const FrequencySamples* values = at_frequency(samples, places[i].frequency_hz);
+    if (values == nullptr) return;
+    const FrequencySamples::Estimate estimate = values->estimate(places[i]);
+    results[i].standard_error = estimate.standard_error;
+    if (estimate.standard_error <= kLargestInterpolationError) results[i].value = values->value(places[i], estimate);
+  });
+  InterpolatedCut interpolated{cut, {radius_m, 0, 0, 0, 0}};
+  interpolated.cut.values.clear();
+  InterpolationQuality& quality = interpolated.quality;
+  std::vector<std::size_t> order;
+  double sum = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (!results[i].value) continue;
+    interpolated.cut.values.push_back(*results[i].value);
+    sum += results[i].standard_error * results[i].standard_error;
+    order.push_back(i);
+  }
+  quality.interpolated = order.size();
+  quality.omitted = places.size() - order.size();
+  if (order.empty()) throw_too_coarse(cut, places, radius_m);
+  quality.standard_error = std::sqrt(sum / static_cast<double>(order.size()));
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return results[a].standard_error > results[b].standard_error; });
+  order.resize(std::min(kExamined, order.size()));
+  const std::vector<Vec3> centres = sphere_points(kCentres);
+  for (const std::size_t i : order) {
+    const FrequencySamples& values = *at_frequency(samples, places[i].frequency_hz);
+    quality.largest_error =
+        std::max(quality.largest_error, values.largest_error(places[i], values.estimate(places[i]), centres));
+  }
+  return interpolated;
 }
 
 }  // namespace seaglint

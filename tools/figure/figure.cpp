@@ -142,6 +142,8 @@ constexpr const char* kViridis =
     "set palette defined (0 '#440154', 1 '#472c7a', 2 '#3b518b', 3 '#2c718e', 4 '#21908d', 5 '#27ad81', 6 '#5cc863', 7 "
     "'#aadc32', "
     "8 '#fde725')\n";
+constexpr const char* kBlueWhiteRed =
+    "set palette defined (-1 '#2166ac', -0.5 '#92c5de', 0 '#ffffff', 0.5 '#f4a582', 1 '#b2182b')\n";
 // Okabe and Ito's palette, distinguishable for colour-blind readers.
 constexpr const char* kLineColours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"};
 
@@ -295,8 +297,8 @@ void write_figure(const Heatmap& figure, const fs::path& file, FigureSize size) 
   FigureAxis x_axis = figure.x, y_axis = figure.y;
   if (!x_axis.range) x_axis.range = AxisRange{x.front(), x.back()};
   if (!y_axis.range) y_axis.range = AxisRange{y.front(), y.back()};
-  std::string commands =
-      axis_commands("x", x_axis) + axis_commands("y", y_axis) + axis_commands("cb", figure.colour) + kViridis;
+  std::string commands = axis_commands("x", x_axis) + axis_commands("y", y_axis) + axis_commands("cb", figure.colour) +
+                         (figure.diverging ? kBlueWhiteRed : kViridis);
   commands += image ? "" : "set pm3d map corners2color c1\n";
   commands += "set bmargin 5\nset key at screen 0.99, screen 0.02 right bottom horizontal reverse Left samplen 1\n";
   for (const auto& box : figure.boxes) {
@@ -338,7 +340,7 @@ PlotText plot_text(const LinePlot& figure, std::size_t first_index) {
     }
     if (series.x.empty()) data += "NaN NaN NaN NaN\n";
     data += "\n\n";
-    const char* colour = kLineColours[s % std::size(kLineColours)];
+    const std::string colour = series.colour.empty() ? kLineColours[s % std::size(kLineColours)] : series.colour;
     const std::string title = series.name.empty() ? "notitle" : "title " + quoted(series.name);
     named = named || !series.name.empty();
     const std::string index = fmt::format("data index {} using ", first_index + s);
@@ -353,7 +355,7 @@ PlotText plot_text(const LinePlot& figure, std::size_t first_index) {
     const bool line = series.style == SeriesStyle::kLines;
     const char* style = line ? "lines" : series.style == SeriesStyle::kPoints ? "points" : "linespoints";
     const std::string marks = line ? "" : fmt::format("pt {} ps 0.8", s % 2 == 0 ? 7 : 5);
-    plots += fmt::format("{}1:2 with {} lc rgb '{}' lw 1.6 {} {}, ", index, style, colour, marks, title);
+    plots += fmt::format("{}1:2 with {} lc rgb '{}' lw {:g} {} {}, ", index, style, colour, series.width, marks, title);
   }
   SEAGLINT_CHECK(!plots.empty(), "a plot without series");
   std::string commands = axis_commands("x", figure.x) + axis_commands("y", figure.y);

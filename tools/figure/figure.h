@@ -50,6 +50,7 @@ struct Heatmap {
   std::vector<std::array<double, 2>> markers;  // x, y of open circles
   std::string marker_name;                     // in the legend, when not empty
   std::vector<std::array<double, 4>> boxes;    // x low, x high, y low, y high of frames
+  bool diverging = false;                      // blue below the middle of the colour's range, white there, red above
 };
 
 // kBand: the area between the interval's ends.
@@ -61,7 +62,15 @@ struct Series {
   std::vector<double> y;                        // NaN breaks a line
   std::vector<std::array<double, 2>> interval;  // low, high of error bars; empty or one per point
   SeriesStyle style = SeriesStyle::kLines;
+  std::string colour = {};  // "#0072b2"; empty: by the place among the series
+  double width = 1.6;       // of lines, pixels
 };
+
+// Every comparison has these, whatever else it shows.
+inline constexpr const char* kReferenceColour = "#000000";
+inline constexpr const char* kComputedColour = "#0072b2";
+inline constexpr const char* kKnownColour = "#009e73";       // exact and closed-form values
+inline constexpr const char* kDifferenceColour = "#d55e00";  // compared less reference
 
 struct LinePlot {
   std::string title;

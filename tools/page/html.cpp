@@ -171,8 +171,12 @@ std::string series_of(const Series& series) {
     for (const auto& interval : series.interval) values.push_back(interval[side]);
     bounds += fmt::format(R"(,"{}":{})", side == 0 ? "low" : "high", json_numbers(values));
   }
-  return fmt::format(R"({{"name":{},"style":"{}","x":{},"y":{}{}}})", json_string(series.name),
-                     kStyles[static_cast<int>(series.style)], json_numbers(series.x), json_numbers(series.y), bounds);
+  const std::string drawn = series.colour.empty()
+                                ? std::string()
+                                : fmt::format(R"(,"colour":{},"width":{:g})", json_string(series.colour), series.width);
+  return fmt::format(R"({{"name":{},"style":"{}","x":{},"y":{}{}{}}})", json_string(series.name),
+                     kStyles[static_cast<int>(series.style)], json_numbers(series.x), json_numbers(series.y), bounds,
+                     drawn);
 }
 
 }  // namespace

@@ -49,6 +49,7 @@ std::string_view benchmark_template();   // benchmark.html: a benchmark within a
 std::string_view report_script();        // report.js: maps and features of a report
 std::string_view hot_spots_script();     // hot_spots.js: targets of a report
 std::string_view comparison_template();  // comparison.html: body of a comparison
+std::string_view comparison_script();    // comparison.js: curves and images of a comparison
 std::string_view plotly_gzip();          // plotly.js (MIT licence) of Debian's python3-plotly, minified, gzip in Base64
 
 // JSON as content of an HTML script element: `<` is \u003c; null for a number that is not finite.
@@ -60,7 +61,7 @@ std::string json_numbers(std::span<const double> values, int digits = 6);
 // that shows and hides series.
 
 // {"columns", "panels": [{"title", "x": {"label", "log", "range"}, "y", "equal", "series": [{"name", "style", "x", "y",
-// "low", "high"}]}]}: numbers to six digits.
+// "low", "high", "colour", "width"}]}]}: numbers to six digits; colour and width of series that state a colour.
 std::string plot_json(std::span<const LinePlot> plots, int columns);
 std::string plot_json(const LinePlot& plot);
 

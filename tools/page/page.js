@@ -37,10 +37,10 @@ const seaglint = (() => {
       const first = !names.includes(series.name);
       if (first) names.push(series.name);
       const i = names.indexOf(series.name);
-      const colour = COLOURS[i % COLOURS.length];
+      const colour = series.colour ?? COLOURS[i % COLOURS.length];
       const trace = { x: series.x, y: series.y, name: series.name, legendgroup: series.name, showlegend: first && series.name !== "", type: series.x.length > 2000 ? "scattergl" : "scatter",
         xaxis: "x" + suffix, yaxis: "y" + suffix, mode: { lines: "lines", points: "markers", linespoints: "lines+markers", band: "lines" }[series.style],
-        line: { color: colour, width: 1.6, dash: ["solid", "dash", "dot"][i % 3] }, marker: { color: colour, symbol: SYMBOLS[i % SYMBOLS.length], size: 6, opacity: 0.75 } };
+        line: { color: colour, width: series.width ?? 1.6, dash: series.colour ? "solid" : ["solid", "dash", "dot"][i % 3] }, marker: { color: colour, symbol: SYMBOLS[i % SYMBOLS.length], size: 6, opacity: 0.75 } };
       if (!series.low) return [trace];
       if (series.style === "band") {
         const edge = { ...trace, showlegend: false, line: { width: 0 }, mode: "lines", hoverinfo: "skip" };
@@ -71,7 +71,9 @@ const seaglint = (() => {
   const CONFIG = { responsive: true, displaylogo: false, modeBarButtonsToRemove: ["lasso2d", "select2d"] };
 
   async function draw(element) {
-    const { data, layout } = figure(JSON.parse(element.querySelector("script").textContent));
+    const plot = JSON.parse(element.querySelector("script").textContent);
+    if (element.clientWidth < 700) plot.columns = 1;
+    const { data, layout } = figure(plot);
     const place = document.createElement("div");
     place.className = "interactive";
     place.setAttribute("role", "img");
@@ -107,5 +109,5 @@ const seaglint = (() => {
 
   const able = "DecompressionStream" in window;
   if (able) document.querySelectorAll("figure.plot").forEach((element) => whenSeen(element, draw));
-  return { able, inflate, plotly, whenSeen, takePlace, element, axis, COLOURS, SYMBOLS, CONFIG };
+  return { able, inflate, plotly, whenSeen, takePlace, element, axis, figure, COLOURS, SYMBOLS, CONFIG };
 })();

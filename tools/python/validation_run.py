@@ -129,7 +129,7 @@ def add_rays_curves(curves, rays):
         for model in ("po+diffraction", "po"):  # the model of the case is the last
             own = [series for series in other["series"] if series["name"].split(" - ")[0] == model]
             if own:
-                panel["series"] += [{**series, "name": series["name"].replace(model, "rays", 1)} for series in own]
+                panel["series"] += [{**series, "name": series["name"].replace(model, "rays", 1), "colour": "#cc79a7"} for series in own]
                 break
         else:
             raise Failure(f"no curve of the solver among {', '.join(names)}")

@@ -93,6 +93,20 @@ double vertex_change(const RcsSweep& sweep, std::size_t view, std::size_t elemen
   return share(sweep.uncertainty[view].displaced[element], echo(sweep, view, element));
 }
 
+void EchoChange::add(const Complex& reference_m, const Complex& other_m) {
+  reference_m2 += std::norm(reference_m);
+  other_m2 += std::norm(other_m);
+  difference_m2 += std::norm(other_m - reference_m);
+}
+
+double EchoChange::relative() const { return reference_m2 > 0 ? std::sqrt(difference_m2 / reference_m2) : 0; }
+
+double EchoChange::relative_db() const {
+  if (difference_m2 == 0) return -kMostRelativeDb;
+  if (reference_m2 == 0) return kMostRelativeDb;
+  return std::clamp(10 * std::log10(difference_m2 / reference_m2), -kMostRelativeDb, kMostRelativeDb);
+}
+
 std::vector<std::string> uncertainty_warnings(const RcsSweep& sweep, std::span<const std::string> part_names) {
   std::vector<std::string> found;
   if (sweep.uncertainty.empty()) return found;
@@ -438,15 +452,13 @@ class Views {
   std::vector<double> wavenumbers_;
 };
 
-double relative_change(const Matrices& from, const Matrices& to) {
-  double change = 0, power = 0;
+// Of hh and vv together.
+EchoChange change_of(const Matrices& from, const Matrices& to) {
+  EchoChange change;
   for (std::size_t q = 0; q < from.size(); ++q) {
-    for (const std::size_t channel : {0u, 3u}) {
-      change += std::norm(to[q][channel] - from[q][channel]);
-      power += std::norm(from[q][channel]);
-    }
+    for (const std::size_t channel : kCoPolar) change.add(from[q][channel], to[q][channel]);
   }
-  return power > 0 ? std::sqrt(change / power) : 0;
+  return change;
 }
 
 double mean_dbsm(const Matrices& matrices, std::size_t channel) {
@@ -477,7 +489,7 @@ MeshSensitivity mesh_sensitivity(const RcsRequest& request, double noise_m, int 
           views.matrices(changed(target.mesh, change, result),
                          change == MeshChange::kFlatFacets ? std::optional(0.0) : request.crease_deg);
       for (std::size_t view = 0; view < views.count(); ++view)
-        result.views[view].change[i] = relative_change(own[view], other[view]);
+        result.views[view].change[i] = change_of(own[view], other[view]).relative();
     }
   } catch (const Interrupted&) {
     throw WorkError("interrupted");

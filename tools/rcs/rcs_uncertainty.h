@@ -17,6 +17,17 @@
 
 namespace seaglint {
 
+// The echo of a place by two solutions, as of two methods or meshes: sums of squares over frequencies.
+struct EchoChange {
+  double reference_m2 = 0, other_m2 = 0, difference_m2 = 0;
+
+  void add(const Complex& reference_m, const Complex& other_m);
+  double relative() const;     // |other - reference| / |reference|, roots of the sums; 0 without a reference
+  double relative_db() const;  // the same within -+kMostRelativeDb, of a vanishing reference the highest
+};
+
+inline constexpr double kMostRelativeDb = 300;
+
 // How uncertain the echoes of a sweep are: warnings and columns from the estimates of its views, and a figure.
 
 // Estimated level of flat facets over that of smooth surfaces, dB, within -60 and 60. element: 0 hh, 1 vv.

@@ -179,6 +179,72 @@ TEST(ViewGrids, HoldEveryPointOnce) {
   EXPECT_THAT(view_grids({}), testing::IsEmpty());
 }
 
+// A cut over five azimuths at one frequency.
+PairedCut cut_at(double ghz, Polarisation element, double reference_dbsm, double compared_dbsm, double step_deg = 1) {
+  PairedCut cut;
+  cut.reference = "other.csv";
+  cut.element = element;
+  cut.frequency_hz = 1e9 * ghz;
+  cut.models.push_back({"seaglint", {}, {}});
+  for (int n = 0; n < 5; ++n) {
+    PairedCut::Place place;
+    place.frequency_hz = 1e9 * ghz;
+    place.azimuth_deg = n < 4 ? n : 3 + step_deg;
+    cut.x.push_back(place.azimuth_deg);
+    cut.places.push_back(place);
+    cut.level_dbsm.push_back(reference_dbsm - n);
+    cut.models[0].level_dbsm.push_back(compared_dbsm - 2 * n);
+  }
+  return cut;
+}
+
+TEST(ComparisonImages, HaveLevelsAndDifferencesOverAzimuthAndFrequency) {
+  std::vector<PairedCut> cuts;
+  for (const double ghz : {9.2, 9.0, 9.1}) {
+    cuts.push_back(cut_at(ghz, Polarisation::kHh, 3 + ghz, 4 + ghz));
+    cuts.push_back(cut_at(ghz, Polarisation::kHv, -20, -20));
+  }
+  const std::vector<Heatmap> images = comparison_images(cuts, 80);
+  ASSERT_EQ(images.size(), 3u);
+  EXPECT_THAT(images[0].title, testing::HasSubstr("hh"));
+  EXPECT_THAT(images[0].y_cells,
+              testing::ElementsAre(testing::DoubleEq(9.0), testing::DoubleEq(9.1), testing::DoubleEq(9.2)));
+  EXPECT_THAT(images[0].x_cells, testing::ElementsAre(0, 1, 2, 3, 4));
+  EXPECT_NEAR(images[0].values[5 * 2 + 3], 3 + 9.2 - 3, 1e-12);
+  EXPECT_NEAR(images[1].values[5 * 2 + 3], 4 + 9.2 - 6, 1e-12);
+  EXPECT_NEAR(images[2].values[5 * 2 + 3], 1 - 3, 1e-12);
+  EXPECT_TRUE(images[2].diverging);
+  EXPECT_EQ(images[2].colour.range->first, -images[2].colour.range->second);
+  EXPECT_EQ(images[0].colour.range, images[1].colour.range);
+}
+
+TEST(ComparisonImages, AreNoneOfTwoFrequenciesAndOfUnevenAngles) {
+  std::vector<PairedCut> cuts{cut_at(9, Polarisation::kHh, 0, 0), cut_at(10, Polarisation::kHh, 0, 0)};
+  EXPECT_TRUE(comparison_images(cuts, 80).empty());
+  for (PairedCut& cut : cuts) cut = cut_at(1e-9 * *cut.frequency_hz, Polarisation::kHh, 0, 0, 2);
+  cuts.push_back(cut_at(11, Polarisation::kHh, 0, 0, 2));
+  EXPECT_TRUE(comparison_images(cuts, 80).empty());
+}
+
+// Of nine frequencies in two polarisations the figure has two of each, not the first four.
+TEST(ComparisonPlots, HaveTheExportBlackTheComputedBlueAndFrequenciesFromTheWholeBand) {
+  std::vector<PairedCut> cuts;
+  for (int n = 0; n < 9; ++n) {
+    for (const Polarisation element : {Polarisation::kHh, Polarisation::kVv, Polarisation::kHv})
+      cuts.push_back(cut_at(9 + 0.1 * n, element, element == Polarisation::kHv ? -20 : 0, 0));
+  }
+  const PlotPanels panels = comparison_plots(cuts, 80);
+  ASSERT_EQ(panels.plots.size(), 8u);
+  std::vector<std::string> titles;
+  for (const LinePlot& plot : panels.plots) {
+    if (plot.title.empty()) continue;
+    titles.push_back(plot.title);
+    EXPECT_EQ(plot.series[0].colour, kReferenceColour);
+    EXPECT_EQ(plot.series[1].colour, kComputedColour);
+  }
+  EXPECT_THAT(titles, testing::UnorderedElementsAre("HH, 9.2 GHz", "VV, 9.2 GHz", "HH, 9.6 GHz", "VV, 9.6 GHz"));
+}
+
 // Levels of a uniform aperture, sinc(u), of which the lobes and nulls are known.
 struct Pattern {
   std::vector<double> u, level_db;

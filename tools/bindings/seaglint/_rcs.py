@@ -97,7 +97,8 @@ def compare(export: str | os.PathLike | Sequence[str | os.PathLike], against: st
 
     target: a Mesh or a file in `unit`, solved at the exports' own angles and frequencies, with the settings of rcs();
     or against: another file. Returns the dictionary of compare.json (tools/compare): for each export and polarisation
-    bias_db, mean_abs_db, rms_db, p95_db (compared - export), correlation of the complex values, what was fitted
+    summary (the verdict in two sentences), bias_db, mean_abs_db, rms_db, p90_db, p95_db (compared - export), correlation
+    of the complex values, what was fitted
     (phase, origin, conjugation, sign), lobes, nulls, solver settings, warnings; "known", the differences of both from
     the exact or closed-form values of a mesh that is a sphere, a plate, a dihedral or a trihedral; "trials", what a few
     views give with another unit of the mesh or with the settings of another program, where the agreement is poor.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Differences of an export and of compared values from exact and closed-form values.
-#include "tools/compare/known_values.h"
+#include "tools/compare/target_checks.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

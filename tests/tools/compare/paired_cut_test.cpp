@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Interpolated values of point scatterers against their sum, and the stated errors against the true ones.
-#include "tools/compare/interpolation.h"
+#include "tools/compare/paired_cut.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
