@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The pages of the manual: Markdown of the tree as HTML with links between the pages, and a frame with contents and search."""
+"""The pages of the manual: Markdown of the tree as HTML with links between the pages and typeset formulas, and a frame with contents and search."""
 import html
-import json
 import os
 import pathlib
 import re
 import shutil
 
-import markdown
+import manual_math
 import manual_reference
+import manual_search
+import markdown
 from figure_tables import ROOT
 
 STYLE = """
@@ -19,9 +20,11 @@ nav summary { font-weight: 600; color: var(--ink); margin-top: 8px; }
 nav ul { list-style: none; margin: 2px 0 2px 10px; padding: 0; }
 nav li { margin: 1px 0; }
 nav a[aria-current] { font-weight: 600; color: var(--ink); }
-nav input { width: 100%; padding: 4px 6px; font: inherit; }
 article code { background: var(--tint); border-radius: 3px; padding: 0 3px; font-size: 0.92em; overflow-wrap: anywhere; }
 article pre code { background: none; padding: 0; font-size: inherit; overflow-wrap: normal; }
+td:first-child code, th code { overflow-wrap: normal; }
+math[display=block] + small { display: block; margin: 0 24px; text-align: center; color: var(--soft); }
+math[display=block] { display: block math; margin: 10px 24px; overflow-x: auto; overflow-y: hidden; font-size: 1.08em; }
 article img { max-width: 100%; height: auto; }
 table.keys td:nth-child(3) { max-width: 260px; }
 table.keys td:first-child { white-space: nowrap; }
@@ -30,21 +33,9 @@ p, ul { max-width: 100ch; }
 @media print { main { display: block; } nav { display: none; } }
 """
 
-SCRIPT = """
-const input = document.getElementById("search"), found = document.getElementById("found");
-input.addEventListener("input", () => {
-  const words = input.value.toLowerCase().split(/\\s+/).filter(Boolean);
-  const hits = words.length === 0 ? [] : SEARCH.filter((entry) => words.every((word) => entry[0].toLowerCase().includes(word))).slice(0, 30);
-  found.replaceChildren(...hits.map(([title, page]) => {
-    const link = Object.assign(document.createElement("a"), { href: page, textContent: title }), item = document.createElement("li");
-    item.append(link);
-    return item;
-  }));
-});
-"""
-
 CURRENT = ' aria-current="page"'
-TUTORIALS = ("by_task", "data_set", "mesh", "sea_states")
+TUTORIALS = ("by_task", "data_set", "mesh_guide", "mesh", "sea_states")
+REFERENCE = ("sea_effects", "glossary")
 CHAPTERS = ("scenarios/benchmarks.md", "tests/accuracy.md", "tests/experiments.md")  # beside the READMEs
 STAGES = ("sim/core", "sim/scenario", "sim/geometry", "sim/sea", "sim/motion", "sim/scattering", "sim/canonical", "sim/cavity", "sim/field_tables", "sim/field_export",
           "radar/README.md", "radar/waveform", "radar/echo", "radar/rvmap", "classify/dataset", "classify/features", "classify/cnn", "classify/model")
@@ -58,8 +49,11 @@ def documents():
     def below(*folders):
         return [path for folder in folders for path in chapters if path.is_relative_to(folder)]
 
-    return [("Tutorials", [pathlib.Path(f"tools/tutorials/{name}.md") for name in TUTORIALS]),
-            ("Reference", [pathlib.Path("keys"), pathlib.Path("commands"), pathlib.Path("CONVENTIONS.md"), *below("scenarios", "assets")]),
+    def pages(*names):
+        return [pathlib.Path(f"tools/tutorials/{name}.md") for name in names]
+
+    return [("Tutorials", pages(*TUTORIALS)),
+            ("Reference", [pathlib.Path("keys"), pathlib.Path("commands"), *pages(*REFERENCE), pathlib.Path("CONVENTIONS.md"), *below("scenarios", "assets")]),
             ("The pipeline", below(*STAGES)),
             ("Tools", below("tools")),
             ("Tests", below("tests")),
@@ -122,7 +116,7 @@ def converted(path, links):
     """(title, HTML, headings) of a Markdown file."""
     converter = markdown.Markdown(extensions=["tables", "fenced_code", "toc", "sane_lists"])
     body = converter.convert(separated((ROOT / path).read_text(encoding="utf-8")))
-    body = links.mend(path.parent, body).replace("<table>", '<div class="scroll"><table>').replace("</table>", "</table></div>")
+    body = links.mend(path.parent, manual_math.typeset_blocks(path, body)).replace("<table>", '<div class="scroll"><table>').replace("</table>", "</table></div>")
     headings = []
 
     def collect(tokens):
@@ -135,7 +129,7 @@ def converted(path, links):
 
 
 def contents(groups, titles, current):
-    parts = ['<nav aria-label="Contents"><a href="index.html"><b>seaglint</b></a><br><input id="search" type="search" placeholder="search" aria-label="Search"><ul id="found" aria-live="polite"></ul>']
+    parts = ['<nav aria-label="Contents"><a href="index.html"><b>seaglint</b></a><br>' + manual_search.INPUT]
     for group, pages in groups:
         items = "".join(f'<li><a href="{page}"{CURRENT if page == current else ""}>{html.escape(titles[page])}</a></li>' for page in pages)
         parts.append(f'<details{" open" if current in pages or group in ("Tutorials", "Reference") else ""}><summary>{group}</summary><ul>{items}</ul></details>')
@@ -143,7 +137,7 @@ def contents(groups, titles, current):
 
 
 def frame(title, navigation, body):
-    style = (ROOT / "tools/page/style.css").read_text(encoding="utf-8") + STYLE
+    style = (ROOT / "tools/page/style.css").read_text(encoding="utf-8") + STYLE + manual_search.STYLE
     return f"""<!DOCTYPE html>
 <html lang="en">
 <head>
@@ -156,22 +150,36 @@ def frame(title, navigation, body):
 <body>
 <main>
 {navigation}
+{manual_search.FOUND}
 <article>
 {body}
 </article>
 </main>
 <script src="search.js"></script>
-<script>{SCRIPT}</script>
+<script>{manual_search.SCRIPT}</script>
 </body>
 </html>
 """
 
 
-def index_body(groups, titles, version):
-    parts = [f"<h1>seaglint: manual</h1><p>{html.escape(version)}. A simulator for radar engineers: synthetic data of ships and of corner-reflector decoys at sea as a frequency-agile radar sees them, and what tells them apart.</p>"]
+def index_body(groups, titles, version, by_task):
+    """The first page: the table of tasks of the page `by_task`, (name, HTML), and the contents."""
+    page, body = by_task
+    tasks = re.search(r'<div class="scroll"><table>.*?</table></div>', body, re.DOTALL)[0].replace('href="#', f'href="{page}#')
+    parts = [f"<h1>seaglint: manual</h1><p>{html.escape(version)}. A simulator for radar engineers: synthetic data of ships and of corner-reflector decoys at sea as a frequency-agile radar sees them, and what tells them apart.</p>",
+             f"<p>The key <code>/</code> searches the text of all pages; arrows and Enter choose a passage, Escape leaves.</p>{tasks}"]
     for group, pages in groups:
         parts.append(f"<h2>{group}</h2><ul>" + "".join(f'<li><a href="{page}">{html.escape(titles[page])}</a></li>' for page in pages) + "</ul>")
     return "\n".join(parts)
+
+
+def key_links(body, places):
+    """The HTML of a page with links from keys of a scenario in code, with all their words, to their rows on the page of keys."""
+    def link(match):
+        breakable = re.sub("([._])", "\\1<wbr>", match[1])
+        return f'<a href="keys.html#{places[match[1]]}"><code>{breakable}</code></a>' if match[1] in places else match[0]
+
+    return re.sub(r"<code>([a-z_]+(?:\.\w+)+)</code>(?!</a>)", link, body)
 
 
 def build(program, output):
@@ -186,18 +194,22 @@ def build(program, output):
     made[page_name(pathlib.Path("keys"))] = manual_reference.keys_page(program)
     made[page_name(pathlib.Path("commands"))] = manual_reference.commands_page(program)
     titles = {page: title for page, (title, _, _) in made.items()}
+    places = dict(made["keys.html"][2])
+    made = {page: (title, key_links(body, places), headings) for page, (title, body, headings) in made.items()}
     listed = [(group, [pages[path] for path in paths]) for group, paths in groups]
-    search = [[title if title == titles[page] else f"{titles[page]}: {title}", page + "#" + name] for page, (_, _, headings) in made.items() for title, name in headings]
+    by_task = pages[pathlib.Path("tools/tutorials/by_task.md")]
+    first_page = index_body(listed, titles, manual_reference.printed(program, "--version").strip(), (by_task, made[by_task][1]))
+    made = {page: (title, manual_search.numbered(body), headings) for page, (title, body, headings) in made.items()}
+    search = [(page, title, manual_search.Passages(title, body, headings).found) for page, (title, body, headings) in made.items()]
     made_in = output.with_name(output.name + ".new")
     shutil.rmtree(made_in, ignore_errors=True)
     (made_in / "pictures").mkdir(parents=True)
-    (made_in / "search.js").write_text("const SEARCH = " + json.dumps(search, ensure_ascii=False) + ";\n", encoding="utf-8")
+    (made_in / "search.js").write_text(manual_search.index_script(search), encoding="utf-8")
     for path, name in links.pictures.items():
         shutil.copy(ROOT / path, made_in / name)
     for page, (title, body, _) in made.items():
         (made_in / page).write_text(frame(title, contents(listed, titles, page), body), encoding="utf-8")
-    version = manual_reference.printed(program, "--version").strip()
-    (made_in / "index.html").write_text(frame("Manual", contents(listed, titles, ""), index_body(listed, titles, version)), encoding="utf-8")
+    (made_in / "index.html").write_text(frame("Manual", contents(listed, titles, ""), first_page), encoding="utf-8")
     shutil.rmtree(output, ignore_errors=True)
     made_in.rename(output)
     return output / "index.html"

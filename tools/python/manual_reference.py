@@ -20,12 +20,12 @@ def drawn(per):
 
 def keys_page(program):
     """Every key of a scenario with default, allowed values and meaning, by sections: (title, HTML, [(heading, anchor)])."""
-    sections, headings = {}, []
+    sections, headings = {}, [("Keys of a scenario", "keys")]
     for entry in json.loads(printed(program, "keys", "--json")):
         words = entry["key"].split(".")
         depth = 3 if words[0] == "targets" and len(words) > 3 else 1
         sections.setdefault(".".join(words[:depth]) if len(words) > 1 else "", []).append(entry)
-    parts = ["<h1>Keys of a scenario</h1>",
+    parts = ['<h1 id="keys">Keys of a scenario</h1>',
              "<p>As <code>seaglint keys --json</code> lists them. <code>NAME</code> is the name of a target, <code>N</code> an index. "
              '<a href="sim_scenario.html">Scenario</a> describes sweeps, files and overrides.</p>']
     for section, entries in sections.items():
@@ -53,7 +53,7 @@ def commands(program, *words):
 
 def commands_page(program):
     """Every command with its help text: (title, HTML, [(heading, anchor)])."""
-    headings, parts = [], ["<h1>Commands</h1>", "<p>The help texts of the program. Exit codes: 0 done, 1 the work failed, 2 the input is wrong, 130 Ctrl-C.</p>"]
+    headings, parts = [("Commands", "commands")], ['<h1 id="commands">Commands</h1>', "<p>The help texts of the program. Exit codes: 0 done, 1 the work failed, 2 the input is wrong, 130 Ctrl-C.</p>"]
     for words, text in commands(program):
         title = " ".join(("seaglint", *words))
         parts.append(f'<h2 id="{anchor(title)}">{title}</h2>\n<pre>{html.escape(text)}</pre>')
