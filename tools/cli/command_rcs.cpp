@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <filesystem>
 #include <memory>
@@ -20,6 +21,7 @@
 #include "tools/options/rcs_arguments.h"
 #include "tools/page/html.h"
 #include "tools/pipeline/warnings.h"
+#include "tools/rcs/rcs_figure.h"
 #include "tools/rcs/rcs_table.h"
 #include "tools/rcs/rcs_uncertainty.h"
 #include "tools/rcs/rcs_views.h"
@@ -66,8 +68,12 @@ void run_rcs_cross_check(const RcsArguments& arguments, const CommandContext& co
 }
 
 std::filesystem::path figure_file(const RcsArguments& arguments) {
-  if (!arguments.reference.figure.empty()) return arguments.reference.figure;
+  if (arguments.reference.figure_given()) return arguments.reference.figure;
   return std::filesystem::path(arguments.output).replace_extension(".png");
+}
+
+bool is_figure_asked(const RcsArguments& arguments) {
+  return arguments.reference.figure_given() || !arguments.reference.files.empty() || arguments.request.uncertainty;
 }
 
 void require_files(const RcsArguments& arguments) {
@@ -75,24 +81,34 @@ void require_files(const RcsArguments& arguments) {
   std::vector<std::filesystem::path> inputs(arguments.reference.files.begin(), arguments.reference.files.end());
   inputs.insert(inputs.end(), arguments.targets.begin(), arguments.targets.end());
   std::vector<std::string> outputs{arguments.output, exports.centres, exports.hot_spots, arguments.reference.curves};
-  if (!arguments.reference.files.empty() || arguments.request.uncertainty) {
+  if (arguments.reference.draws()) {
     outputs.push_back(figure_file(arguments));
-    require_figure(outputs.back());
+    if (is_figure_asked(arguments)) require_figure(outputs.back());
   }
   require_outputs(outputs, inputs);
   if (!exports.hot_spots.empty()) require_coloured_mesh(exports.hot_spots);
 }
 
-// Draws the comparison, or without references the uncertainty.
+// Draws the comparison; without references the uncertainty where it is asked for, else the levels. A figure that was
+// not asked for is left out, with the reason, where gnuplot or the place is missing.
 void show_figure(const RcsArguments& arguments, const std::vector<PairedCut>& cuts, const RcsSweep& sweep) {
   const std::filesystem::path figure = figure_file(arguments);
   const std::string title = fmt::format("{}, seaglint {}", arguments.target_name(), kVersion);
-  const PlotPanels panels = comparison_plots(cuts, arguments.reference.floor_db);
-  if (!panels.plots.empty()) write_figure(title, panels, figure);
-  if (!panels.plots.empty() || (cuts.empty() && draw_uncertainty(sweep, title, figure))) {
-    print_out("Figure: {}\n", figure.string());
-  } else {
-    print_out("No figure: it needs a cut along azimuth, elevation or frequency of two points or more\n");
+  const bool is_asked = is_figure_asked(arguments);
+  try {
+    const PlotPanels panels = !cuts.empty()                   ? comparison_plots(cuts, arguments.reference.floor_db)
+                              : arguments.request.uncertainty ? PlotPanels()
+                                                              : level_plots(sweep);
+    if (!panels.plots.empty()) write_figure(title, panels, figure);
+    if (!panels.plots.empty() ||
+        (arguments.request.uncertainty && cuts.empty() && draw_uncertainty(sweep, title, figure)))
+      print_out("Figure: {}\n", figure.string());
+    else if (is_asked)
+      print_out("No figure: it needs a cut along azimuth, elevation or frequency of {} points or more\n",
+                cuts.empty() && !arguments.request.uncertainty ? kFewestDrawn : std::size_t{2});
+  } catch (const WorkError& error) {
+    if (is_asked) throw;
+    print_out("No figure: {}\n", error.what());
   }
 }
 
@@ -142,6 +158,7 @@ void run_rcs(const RcsArguments& arguments, const CommandContext& context) {
   warnings.insert(warnings.end(), prepared.warnings.begin(), prepared.warnings.end());
   warn(prepared.warnings);
   const RcsTarget target = select_echoes(request, std::move(prepared));
+  if (const auto lobes = lobe_warning(request, target.prepared.mesh)) warn(std::array{*lobes});
   for (const NamedCavity& cavity : target.cavities) {
     print_error(fmt::format("cavity {}: aperture of {:.4g} m^2, walls of {:.4g} m^2, {} patches at {:.6g} GHz\n",
                             cavity.name, cavity.size.aperture_m2, cavity.size.walls_m2, cavity.size.patches,
@@ -176,7 +193,8 @@ void run_rcs(const RcsArguments& arguments, const CommandContext& context) {
   if (request.exports.wanted()) print_out("{}", export_view(request, target, result.points));
   for (PairedCut& cut : cuts) set_models(cut, sweep);
   if (!cuts.empty()) print_out("{}", error_table(cuts, arguments.reference.floor_db));
-  if (!cuts.empty() || request.uncertainty) show_figure(arguments, cuts, sweep);
+  if (cuts.empty()) print_out("{}", statistics_text(level_statistics(sweep)));
+  if (arguments.reference.draws()) show_figure(arguments, cuts, sweep);
   if (!arguments.reference.curves.empty()) write_curves(arguments.reference.curves, cuts, arguments.reference.floor_db);
   if (!computed.converged) throw WorkError(fmt::format("{}: {}", arguments.output, warnings.back()));
 }
@@ -195,7 +213,6 @@ void add_rcs(CommandOptions& program, CommandContext& context) {
       "ref.H.txt --reference ref.V.txt");
   command.callback([arguments, command, &context] {
     command.require_any_of("--transmit-elevation-deg", {"--transmit-azimuth-deg"});
-    command.require_any_of("--figure", {"--reference", "--uncertainty"});
     command.require_any_of("--centre-cell-m", {"--export-scattering-centres"});
     command.require_any_of("--export-dynamic-range-db", {"--export-scattering-centres", "--export-hot-spots"});
     command.require_one_of({"--output", "--cross-check"});

@@ -28,8 +28,10 @@ struct ReferenceArguments {
   // Each is empty, given once for all files, or given once per file or folder in their order.
   std::vector<std::string> polarisation, phi, frequency_ghz, elevation_deg, incidence, origin_m;
   double floor_db = 80;
-  std::string figure, curves;
+  std::string figure, curves;  // figure: "off" for none
 
+  bool draws() const { return figure != "off"; }
+  bool figure_given() const { return draws() && !figure.empty(); }
   void add_to(CommandOptions& command);
   // Only those that say what the files do not.
   std::vector<CommandOption> add_properties_to(CommandOptions& command);

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/rcs/rcs_figure.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <deque>
+#include <functional>
+
+#include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/real_functions.h"
+#include "sim/geometry/mesh/triangle_mesh.h"
+
+namespace seaglint {
+
+namespace {
+
+// The values along one axis of a sweep, at one place of the other two.
+struct LevelCurve {
+  std::string title;
+  std::vector<double> x;
+  std::array<std::vector<double>, 2> dbsm;  // hh, vv
+};
+
+double level_at(const RcsSweep& sweep, std::size_t azimuth, std::size_t elevation, std::size_t frequency,
+                std::size_t element) {
+  const auto& matrices = sweep.models.back().matrices;
+  return dbsm(matrices[elevation * sweep.azimuth_deg.size() + azimuth][frequency][kCoPolar[element]], kMinPrinted_m2);
+}
+
+constexpr double kMostLevelSpan = 70;  // dB, of the axis of levels
+
+enum class DrawnAxis { kAzimuth, kFrequency, kElevation };
+
+LevelCurve curve_along(const RcsSweep& sweep, DrawnAxis axis, std::size_t first, std::size_t second) {
+  LevelCurve curve;
+  const auto add = [&](double x, std::size_t azimuth, std::size_t elevation, std::size_t frequency) {
+    curve.x.push_back(x);
+    for (std::size_t element = 0; element < 2; ++element)
+      curve.dbsm[element].push_back(level_at(sweep, azimuth, elevation, frequency, element));
+  };
+  const auto ghz = [&](std::size_t i) { return 1e-9 * sweep.frequency_hz[i]; };
+  switch (axis) {
+    case DrawnAxis::kAzimuth:
+      curve.title = fmt::format("{:g} GHz, elevation {:g} deg", ghz(second), sweep.elevation_deg[first]);
+      for (std::size_t i = 0; i < sweep.azimuth_deg.size(); ++i) add(sweep.azimuth_deg[i], i, first, second);
+      break;
+    case DrawnAxis::kFrequency:
+      curve.title =
+          fmt::format("azimuth {:g} deg, elevation {:g} deg", sweep.azimuth_deg[second], sweep.elevation_deg[first]);
+      for (std::size_t i = 0; i < sweep.frequency_hz.size(); ++i) add(ghz(i), second, first, i);
+      break;
+    case DrawnAxis::kElevation:
+      curve.title = fmt::format("{:g} GHz, azimuth {:g} deg", ghz(second), sweep.azimuth_deg[first]);
+      for (std::size_t i = 0; i < sweep.elevation_deg.size(); ++i) add(sweep.elevation_deg[i], first, i, second);
+      break;
+  }
+  return curve;
+}
+
+// At most `most` of the indices 0 ... count - 1, evenly chosen, the first and last among them.
+std::vector<std::size_t> evenly(std::size_t count, std::size_t most) {
+  std::vector<std::size_t> chosen;
+  const std::size_t kept = std::min(count, most);
+  for (std::size_t i = 0; i < kept; ++i) chosen.push_back(kept == 1 ? 0 : i * (count - 1) / (kept - 1));
+  return chosen;
+}
+
+double percentile(std::vector<double> values, double p) {
+  std::ranges::sort(values);
+  return quantile(values, p);
+}
+
+// The median of the values within half a window on either side of each. x ascending.
+std::vector<double> moving_median(const std::vector<double>& x, const std::vector<double>& values, double window) {
+  std::vector<double> medians;
+  std::size_t first = 0, last = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    while (x[first] < x[i] - window / 2) ++first;
+    while (last < x.size() && x[last] <= x[i] + window / 2) ++last;
+    const auto begin = values.begin();
+    medians.push_back(
+        percentile({begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(last)}, 0.5));
+  }
+  return medians;
+}
+
+LinePlot plot_of_levels(const LevelCurve& curve, DrawnAxis axis) {
+  constexpr std::array kLabels{"azimuth (deg)", "frequency (GHz)", "elevation (deg)"};
+  LinePlot plot;
+  plot.title = curve.title;
+  plot.x = {kLabels[static_cast<std::size_t>(axis)], {}, false};
+  double highest = -kMostLevelSpan, lowest = 0;
+  for (const auto& levels : curve.dbsm) highest = std::max(highest, *std::ranges::max_element(levels));
+  lowest = highest;
+  for (const auto& levels : curve.dbsm) lowest = std::min(lowest, percentile(levels, 0.02));
+  lowest = std::max(lowest, highest - kMostLevelSpan);
+  plot.y = {"radar cross section (dBsm)", AxisRange{5 * std::floor(lowest / 5), 5 * std::ceil(highest / 5 + 0.2)},
+            false};
+  for (std::size_t element = 0; element < 2; ++element)
+    plot.series.push_back({kCoPolarNames[element], curve.x, curve.dbsm[element], {}, SeriesStyle::kLines});
+  const bool is_ascending = std::ranges::is_sorted(curve.x);
+  if (axis != DrawnAxis::kAzimuth || !is_ascending || curve.x.back() - curve.x.front() < 4 * kMedianWindow_deg)
+    return plot;
+  for (std::size_t element = 0; element < 2; ++element)
+    plot.series.push_back({fmt::format("{}, median in {:g} deg", kCoPolarNames[element], kMedianWindow_deg),
+                           curve.x,
+                           moving_median(curve.x, curve.dbsm[element], kMedianWindow_deg),
+                           {},
+                           SeriesStyle::kLines});
+  return plot;
+}
+
+}  // namespace
+
+std::vector<LevelStatistics> level_statistics(const RcsSweep& sweep) {
+  std::vector<LevelStatistics> all;
+  if (sweep.azimuth_deg.size() < kFewestDrawn) return all;
+  for (std::size_t f = 0; f < sweep.frequency_hz.size(); ++f) {
+    for (std::size_t e = 0; e < sweep.elevation_deg.size(); ++e) {
+      const LevelCurve curve = curve_along(sweep, DrawnAxis::kAzimuth, e, f);
+      for (std::size_t element = 0; element < 2; ++element) {
+        const std::vector<double>& levels = curve.dbsm[element];
+        const auto largest = static_cast<std::size_t>(std::ranges::max_element(levels) - levels.begin());
+        double area = 0;
+        for (const double level : levels) area += std::pow(10, level / 10) / static_cast<double>(levels.size());
+        all.push_back({element, sweep.frequency_hz[f], sweep.elevation_deg[e], percentile(levels, 0.1),
+                       percentile(levels, 0.5), percentile(levels, 0.9), dbsm_of_area(area, kMinPrinted_m2),
+                       levels[largest], curve.x[largest]});
+      }
+    }
+  }
+  return all;
+}
+
+std::string statistics_text(const std::vector<LevelStatistics>& statistics) {
+  constexpr std::size_t kMost = 8;
+  if (statistics.empty()) return "";
+  std::string text = "dBsm over azimuth           10 %    50 %    90 %    mean   largest  at azimuth\n";
+  for (std::size_t i = 0; i < std::min(kMost, statistics.size()); ++i) {
+    const LevelStatistics& s = statistics[i];
+    text += fmt::format("{}, {:>7.6g} GHz, {:>5.4g} deg  {:8.1f}{:8.1f}{:8.1f}{:8.1f}{:10.1f}  {:8.6g} deg\n",
+                        kCoPolarNames[s.element], 1e-9 * s.frequency_hz, s.elevation_deg, s.lowest_tenth_dbsm,
+                        s.median_dbsm, s.highest_tenth_dbsm, s.mean_dbsm, s.largest_dbsm, s.largest_azimuth_deg);
+  }
+  if (statistics.size() > kMost)
+    text += fmt::format("and {} more frequencies and elevations\n", statistics.size() / 2 - kMost / 2);
+  return text;
+}
+
+PlotPanels level_plots(const RcsSweep& sweep) {
+  constexpr std::size_t kMostPanels = 4;
+  const std::size_t azimuths = sweep.azimuth_deg.size(), frequencies = sweep.frequency_hz.size(),
+                    elevations = sweep.elevation_deg.size();
+  DrawnAxis axis = DrawnAxis::kAzimuth;
+  if (azimuths < kFewestDrawn) axis = frequencies >= kFewestDrawn ? DrawnAxis::kFrequency : DrawnAxis::kElevation;
+  if (axis == DrawnAxis::kElevation && elevations < kFewestDrawn) return {};
+  const std::size_t firsts = axis == DrawnAxis::kElevation ? azimuths : elevations;
+  const std::size_t seconds = axis == DrawnAxis::kFrequency ? azimuths : frequencies;
+  PlotPanels panels;
+  for (const std::size_t place : evenly(firsts * seconds, kMostPanels))
+    panels.plots.push_back(plot_of_levels(curve_along(sweep, axis, place / seconds, place % seconds), axis));
+  const bool is_one = panels.plots.size() == 1;
+  panels.columns = is_one ? 1 : 2;
+  panels.size = {is_one ? 1100 : 1500, panels.plots.size() > 2 ? 1000 : 520};
+  return panels;
+}
+
+std::optional<std::string> lobe_warning(const RcsRequest& request, const TriangleMesh& mesh) {
+  const std::vector<double>& azimuths = request.azimuth_deg;
+  if (azimuths.size() < kFewestDrawn) return {};
+  double step = 0;
+  for (std::size_t i = 1; i < azimuths.size(); ++i) step = std::max(step, std::abs(azimuths[i] - azimuths[i - 1]));
+  const Bounds box = bounds(mesh);
+  const double extent = std::hypot(box.upper.x() - box.lower.x(), box.upper.y() - box.lower.y());
+  const double highest_hz = *std::ranges::max_element(request.frequency_hz);
+  const double lobe = degrees(kSpeedOfLight / highest_hz / ((request.transmitter ? 1 : 2) * extent));
+  if (step <= lobe * (1 + 1e-9)) return {};
+  return fmt::format(
+      "the azimuths are {:.4g} deg apart, the narrowest lobes of a target of {:.3g} m at {:.4g} GHz {:.2g} deg wide "
+      "({}): single values are samples of them, largest ones may be missed; steps of {:.2g} deg miss none",
+      step, extent, 1e-9 * highest_hz, lobe, request.transmitter ? "lambda / D" : "lambda / 2D", lobe / 2);
+}
+
+}  // namespace seaglint

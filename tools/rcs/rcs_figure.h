@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// What a sweep shows at first sight: levels over its angle or frequency as a figure, their percentiles and largest
+// values as text, and steps that are wider than the lobes of the target.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/figure/figure.h"
+#include "tools/rcs/rcs_request.h"
+
+namespace seaglint {
+
+// Of one co-polar element along the azimuths of one elevation and frequency; levels in dBsm, percentiles over the
+// values as they are given.
+struct LevelStatistics {
+  std::size_t element = 0;  // of kCoPolar
+  double frequency_hz = 0, elevation_deg = 0;
+  double lowest_tenth_dbsm = 0, median_dbsm = 0, highest_tenth_dbsm = 0;  // 10, 50 and 90 %
+  double mean_dbsm = 0;                                                   // of the area, not of the level
+  double largest_dbsm = 0, largest_azimuth_deg = 0;
+};
+
+// hh and vv of every elevation and frequency; empty for a sweep of less than kFewestDrawn azimuths.
+std::vector<LevelStatistics> level_statistics(const RcsSweep& sweep);
+
+// A table of the first eight, a line each below a heading, and how many more there are; empty without any.
+std::string statistics_text(const std::vector<LevelStatistics>& statistics);
+
+inline constexpr std::size_t kFewestDrawn = 8;
+inline constexpr double kMedianWindow_deg = 5;
+
+// hh and vv of the last model over the longest axis of the sweep (azimuth, else frequency, else elevation), a panel for
+// each of at most four other values, evenly chosen; over azimuths of a sector of four windows and more also their
+// medians in a window of kMedianWindow_deg. No panels below kFewestDrawn values.
+PlotPanels level_plots(const RcsSweep& sweep);
+
+// The narrowest lobe over azimuth of scatterers D apart, lambda / 2D of one antenna and lambda / D of two, against the
+// step: a sentence with the step that has two values per lobe, if the step of a sweep is wider than the lobe. D: the
+// largest horizontal extent of the mesh (Knott, Shaeffer and Tuley, Radar Cross Section, 2nd ed., section 5.2).
+std::optional<std::string> lobe_warning(const RcsRequest& request, const TriangleMesh& mesh);
+
+}  // namespace seaglint
