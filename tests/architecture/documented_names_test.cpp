@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -103,9 +102,8 @@ void check_commands(const std::string& line, Faults& faults) {
     const std::string name = (*match)[1];
     if (!runnable().test_programs.contains(name)) faults.push_back("no program " + name);
   }
-  for (std::sregex_iterator match(line.begin(), line.end(), command), end; match != end; ++match) {
+  for (std::sregex_iterator match(line.begin(), line.end(), command), end; match != end; ++match)
     if (!runnable().commands.contains((*match)[1])) faults.push_back("no command " + (*match)[1].str());
-  }
 }
 
 // A file or folder of tools/, by its path from the root.

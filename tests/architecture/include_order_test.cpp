@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <functional>
@@ -50,10 +49,9 @@ using Circle = std::set<std::string>;  // modules that all reach one another
 // Strongly connected sets of two and more modules (Tarjan, SIAM J. Comput. 1 (1972) 146).
 std::set<Circle> circles_of(const std::vector<Include>& includes) {
   std::map<std::string, std::set<std::string>> graph;
-  for (const Include& include : includes) {
+  for (const Include& include : includes)
     if (!include.system && module_of(include.file) != module_of(include.header))
       graph[module_of(include.file)].insert(module_of(include.header));
-  }
   std::map<std::string, std::size_t> index, lowest;
   std::vector<std::string> stack;
   std::set<Circle> circles;
@@ -78,9 +76,8 @@ std::set<Circle> circles_of(const std::vector<Include>& includes) {
   };
   std::vector<std::string> modules;
   for (const auto& [module, headers] : graph) modules.push_back(module);
-  for (const std::string& module : modules) {
+  for (const std::string& module : modules)
     if (!index.contains(module)) visit(module);
-  }
   return circles;
 }
 
@@ -89,9 +86,8 @@ std::set<Circle> circles_of(const std::vector<Include>& includes) {
 
 // Index of a file's folder in the order, -1 when it belongs to none. Rooms precede the stage that they are in.
 int place_of(const std::vector<std::string>& folders, const std::string& file) {
-  for (std::size_t i = 0; i < folders.size(); ++i) {
+  for (std::size_t i = 0; i < folders.size(); ++i)
     if (file.starts_with(folders[i] + "/")) return static_cast<int>(i);
-  }
   return -1;
 }
 
@@ -210,17 +206,15 @@ TEST(StageLinks, AreTheIncludes) {
 
 TEST(StageLinks, EverySourceIsListed) {
   std::map<std::string, std::string> lists;
-  for (const SourceFile& file : source_files()) {
+  for (const SourceFile& file : source_files())
     if (file.path.ends_with("/CMakeLists.txt")) lists[file.path] = file.text;
-  }
   int sources = 0;
   for (const SourceFile& file : code_files()) {
     if (!file.path.ends_with(".cpp") || file.is_below("tests") || file.is_below("tools/bindings")) continue;
     const std::size_t top = file.path.find('/');
     std::string name = file.path.substr(top + 1);
-    for (const std::string& stage : stage_list()) {
+    for (const std::string& stage : stage_list())
       if (file.is_below(stage)) name = file.path.substr(stage.size() + 1);
-    }
     if (file.path == "classify/cnn/layers.cpp") name = "cnn/layers.cpp";
     ++sources;
     EXPECT_TRUE(

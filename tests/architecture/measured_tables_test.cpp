@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The measured tables of the documents show the records in tests/figures, which hold the figures that tests record.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <algorithm>
 #include <map>
 #include <regex>
 #include <set>
@@ -51,9 +49,8 @@ Record record_in(const std::string& text, Faults& faults) {
 // Both records; an identifier stands in one of them only.
 Record all_figures(Faults& faults) {
   Record all = record_in(text_of("tests/figures/accuracy.tsv"), faults);
-  for (const auto& [identifier, figure] : record_in(text_of("tests/figures/speed.tsv"), faults)) {
+  for (const auto& [identifier, figure] : record_in(text_of("tests/figures/speed.tsv"), faults))
     if (!all.emplace(identifier, figure).second) faults.push_back("in both records: " + identifier);
-  }
   return all;
 }
 
@@ -95,9 +92,8 @@ std::string filled(std::string text, const Record& record) {
 Faults rows_without_figures(const std::string& table) {
   Faults found;
   const std::vector<std::string> lines = lines_of(table);
-  for (std::size_t i = 2; i < lines.size(); ++i) {
+  for (std::size_t i = 2; i < lines.size(); ++i)
     if (identifiers_in(lines[i]).empty()) found.push_back(lines[i]);
-  }
   return found;
 }
 
@@ -114,9 +110,8 @@ std::vector<std::string> recorded_in(const std::string& source) {
 Faults differences(const std::vector<std::string>& expressions, const Record& record) {
   Faults faults;
   std::set<std::string> unclaimed;
-  for (const auto& [identifier, figure] : record) {
+  for (const auto& [identifier, figure] : record)
     if (figure.part == "tests") unclaimed.insert(identifier);
-  }
   const std::set<std::string> recorded = unclaimed;
   for (const std::string& expression : expressions) {
     const std::regex pattern(expression);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The text files of the repository, and the names of the tests and benchmarks in them.
+// The text files of the repository, their C++ without comments and literals, and the names of tests and benchmarks in
+// it.
 
 #include <algorithm>
 #include <cctype>
@@ -36,9 +37,8 @@ inline std::vector<std::string> lines_of(const std::string& text) {
 inline std::vector<std::string> split(const std::string& list, char separator) {
   std::vector<std::string> items;
   std::istringstream stream(list);
-  for (std::string item; std::getline(stream, item, separator);) {
+  for (std::string item; std::getline(stream, item, separator);)
     if (!item.empty()) items.push_back(item);
-  }
   return items;
 }
 
@@ -62,9 +62,8 @@ inline const std::vector<SourceFile>& source_files() {
       found.push_back({fs::relative(entry.path(), root).string(), std::move(text)});
     };
     for (const auto& entry : fs::directory_iterator(root)) add(entry);
-    for (const char* folder : {"assets", "scenarios", "sim", "radar", "classify", "tools", "tests"}) {
+    for (const char* folder : {"assets", "scenarios", "sim", "radar", "classify", "tools", "tests"})
       for (const auto& entry : fs::recursive_directory_iterator(root / folder)) add(entry);
-    }
     std::sort(found.begin(), found.end(), [](const SourceFile& a, const SourceFile& b) { return a.path < b.path; });
     return found;
   }();
@@ -74,9 +73,8 @@ inline const std::vector<SourceFile>& source_files() {
 // The C++ files among them.
 inline std::vector<SourceFile> code_files() {
   std::vector<SourceFile> code;
-  for (const SourceFile& file : source_files()) {
+  for (const SourceFile& file : source_files())
     if (file.is_code()) code.push_back(file);
-  }
   return code;
 }
 
@@ -86,9 +84,8 @@ inline std::vector<std::string> ordered_folders(const std::vector<std::string>& 
                                                 const std::vector<std::string>& rooms) {
   std::vector<std::string> folders;
   for (const std::string& stage : stages) {
-    for (const std::string& room : rooms) {
+    for (const std::string& room : rooms)
       if (room.starts_with(stage + "/")) folders.push_back(room);
-    }
     folders.push_back(stage);
   }
   return folders;
@@ -96,6 +93,31 @@ inline std::vector<std::string> ordered_folders(const std::vector<std::string>& 
 
 inline std::vector<std::string> stage_list() { return split(SEAGLINT_STAGES, ','); }
 inline std::vector<std::string> room_list() { return split(SEAGLINT_ROOMS, ','); }
+
+// C++ text without comments and with empty literals of text; its lines stay.
+inline std::string code_of(const std::string& text) {
+  std::string code;
+  const auto is_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+  for (std::size_t i = 0; i < text.size();) {
+    std::size_t end = i + 1;
+    if (text.compare(i, 2, "//") == 0) {
+      i = std::min(text.find('\n', i), text.size());
+    } else if (text.compare(i, 2, "R\"") == 0) {
+      const std::size_t open = text.find('(', i);
+      const std::string close = ")" + text.substr(i + 2, open - i - 2) + "\"";
+      end = text.find(close, open) + close.size();
+      code += "\"\"" + std::string(static_cast<std::size_t>(std::count(&text[i], &text[end], '\n')), '\n');
+      i = end;
+    } else if (text[i] == '"' || (text[i] == '\'' && (i == 0 || !is_word(text[i - 1])))) {
+      while (end < text.size() && text[end] != text[i]) end += text[end] == '\\' ? 2 : 1;
+      code += std::string(2, text[i]);
+      i = end + 1;
+    } else {
+      code += text[i++];
+    }
+  }
+  return code;
+}
 
 // A test as its macro names it.
 struct NamedTest {
@@ -112,15 +134,18 @@ inline std::vector<std::smatch> matches_in(const std::string& text, const std::s
 
 // The tests of one file; instantiations are in the file of their tests.
 inline std::vector<NamedTest> tests_in(const SourceFile& file) {
+  static const std::regex test(R"((?:^|\n)(?:TEST|TEST_F|TYPED_TEST|(TEST_P))\((\w+),\s*(\w+)\))"),
+      instance(R"(\nINSTANTIATE_TEST_SUITE_P\((\w*),\s*(\w+),)");
   std::vector<NamedTest> tests;
-  for (const auto& test : matches_in(file.text, R"(^(TEST|TEST_F|TEST_P|TYPED_TEST)\(\s*(\w+),\s*(\w+)\))")) {
-    const std::string suite = test[2], name = suite + "." + test[3].str();
-    if (test[1] != "TEST_P") {
+  for (std::sregex_iterator match(file.text.begin(), file.text.end(), test), end; match != end; ++match) {
+    const std::string suite = (*match)[2], name = suite + "." + (*match)[3].str();
+    if (!(*match)[1].matched) {
       tests.push_back({suite, name, file.path});
       continue;
     }
-    for (const auto& instance : matches_in(file.text, R"(^INSTANTIATE_TEST_SUITE_P\(\s*(\w*),\s*)" + suite + R"(\b)"))
-      tests.push_back({suite, (instance[1].length() == 0 ? "" : instance[1].str() + "/") + name + "/0", file.path});
+    for (std::sregex_iterator found(file.text.begin(), file.text.end(), instance); found != end; ++found)
+      if ((*found)[2] == suite)
+        tests.push_back({suite, (*found)[1].str() + ((*found)[1].length() > 0 ? "/" : "") + name + "/0", file.path});
   }
   return tests;
 }
@@ -135,10 +160,12 @@ inline std::vector<NamedTest> all_tests() {
 }
 
 inline std::set<std::string> benchmarks_in(const std::vector<SourceFile>& files) {
+  static const std::regex benchmark(R"(\nBENCHMARK\w*\((\w+))");
   std::set<std::string> names;
   for (const SourceFile& file : files) {
     if (!file.path.ends_with("_bench.cpp")) continue;
-    for (const auto& name : matches_in(file.text, R"(^BENCHMARK\w*\((\w+))")) names.insert(name[1]);
+    for (std::sregex_iterator match(file.text.begin(), file.text.end(), benchmark), end; match != end; ++match)
+      names.insert((*match)[1]);
   }
   return names;
 }

@@ -2,7 +2,6 @@
 // Text reaches the terminal through print_out(), print_text() and print_error() alone, which escape what a terminal
 // could take for a command.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <regex>
 #include <set>
@@ -28,14 +27,14 @@ std::vector<std::string> prints_in(const SourceFile& file) {
   static const std::set<std::string> names{"cout",    "cerr",     "clog",    "wcout", "wcerr",  "printf", "fprintf",
                                            "vprintf", "vfprintf", "dprintf", "puts",  "fputs",  "putc",   "fputc",
                                            "putchar", "perror",   "psignal", "print", "println"};
-  static const std::regex literal(R"("([^"\\]|\\.)*"|//.*)");
   std::vector<std::string> found;
   int number = 0;
-  for (const std::string& line : lines_of(file.text)) {
+  for (const std::string& line : lines_of(code_of(file.text))) {
     ++number;
-    const std::string code = line.starts_with('#') ? "" : std::regex_replace(line, literal, "");
-    for (const auto& word : matches_in(code, R"(\w+)"))
-      if (names.contains(word[0])) found.push_back(file.path + ":" + std::to_string(number) + ": " + word.str());
+    static const std::regex word(R"([A-Za-z_]\w*)");
+    for (std::sregex_iterator match(line.begin(), line.end(), word), end; match != end; ++match)
+      if (names.contains(match->str()) && !line.starts_with("#"))
+        found.push_back(file.path + ":" + std::to_string(number) + ": " + match->str());
   }
   return found;
 }

@@ -19,7 +19,7 @@
 #include "sim/scattering/observation/observation.h"
 #include "sim/scattering/scatterer/prepare_target.h"
 #include "sim/scenario/scenario.h"
-#include "tests/mean_around.h"
+#include "tests/map_levels.h"
 #include "tests/measured.h"
 #include "tests/sim/scattering/solve_calls.h"
 #include "tests/temporary_folder.h"
@@ -96,10 +96,9 @@ int local_maxima(const RvMap& map) {
   for (std::size_t v = 1; v + 1 < map.velocity_mps.size(); ++v) {
     for (std::size_t r = 1; r + 1 < map.range_m.size(); ++r) {
       bool highest = level(v, r) > peak * std::pow(10, -30.0 / 20);
-      for (int dv = -1; highest && dv <= 1; ++dv) {
+      for (int dv = -1; highest && dv <= 1; ++dv)
         for (int dr = -1; highest && dr <= 1; ++dr)
           highest = (dv == 0 && dr == 0) || level(v, r) > level(v + dv, r + dr);
-      }
       count += highest;
     }
   }

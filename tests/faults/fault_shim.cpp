@@ -63,9 +63,8 @@ Plan plan_of_environment() {
   int error = 0;
   const char* const fault = std::getenv("SEAGLINT_FAULT");
   if (fault != nullptr && ::sscanf(fault, "%15[a-z]:%llu:%d:%63s", kind, &number, &error, plan.end) >= 3) {
-    for (std::size_t i = 0; i < kFaultKinds.size(); ++i) {
+    for (std::size_t i = 0; i < kFaultKinds.size(); ++i)
       if (std::strcmp(kind, kFaultKinds[i]) == 0) plan.kind = static_cast<int>(i);
-    }
     plan.number = number;
     plan.error = error;
   }
@@ -105,11 +104,10 @@ int fault_at(FaultKind kind, const char* path) {
 // The path of an open descriptor or, for AT_FDCWD, of the working directory; false if it has none.
 bool path_of(int descriptor, char (&path)[PATH_MAX]) {
   char link[64];
-  if (descriptor == AT_FDCWD) {
+  if (descriptor == AT_FDCWD)
     std::strcpy(link, "/proc/self/cwd");
-  } else {
+  else
     std::snprintf(link, sizeof link, "/proc/self/fd/%d", descriptor);
-  }
   const ssize_t length = static_cast<ssize_t>(::syscall(SYS_readlink, link, path, sizeof path - 1));
   if (length < 0) return false;
   path[length] = '\0';

@@ -2,7 +2,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/mman.h>
 #include <sys/mount.h>
@@ -15,7 +14,6 @@
 #include <map>
 #include <new>
 #include <regex>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -130,9 +128,8 @@ class JobFolder {
       if (!all && (name == "run/metrics.json" || is_of_start(job, name, content))) continue;
       if (right.contains(name) && right.at(name) != content) names.push_back("other bytes: " + name);
     }
-    for (const auto& [name, content] : right) {
+    for (const auto& [name, content] : right)
       if (all && !there.contains(name)) names.push_back("missing: " + name);
-    }
     return names;
   }
 
@@ -250,9 +247,8 @@ Fault draw_fault(JobFolder& folder, std::uint64_t seed, std::uint64_t index) {
   fault.job = &(index % 10 == 9 ? jobs().back() : jobs()[index % (jobs().size() - 1)]);
   const CallCounts& calls = calls_of(*fault.job, folder);
   std::vector<FaultKind> kinds;
-  for (std::size_t kind = 0; kind < calls.size(); ++kind) {
+  for (std::size_t kind = 0; kind < calls.size(); ++kind)
     if (calls[kind] > 0) kinds.push_back(static_cast<FaultKind>(kind));
-  }
   const auto below = [&](std::uint64_t count) { return random.below(static_cast<std::uint32_t>(count)); };
   fault.kind = kinds[below(kinds.size())];
   fault.number = 1 + below(calls[static_cast<std::size_t>(fault.kind)]);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cstdint>
 #include <filesystem>
-#include <vector>
 
 #include "classify/dataset/directory/dataset_reader.h"
 #include "classify/dataset/format/manifest.h"

@@ -13,11 +13,10 @@ void read_file_of(const std::filesystem::path& file, const FieldTableSettings& s
   is_refused([&] {
     for (const RcsCut& cut : read_field_table(file, settings).cuts) {
       SEAGLINT_CHECK(!cut.values.empty(), "a cut without values");
-      for (const FieldValue& value : cut.values) {
+      for (const FieldValue& value : cut.values)
         SEAGLINT_CHECK(std::isfinite(value.theta_deg) && std::isfinite(value.phi_deg) && value.frequency_hz > 0 &&
                            std::isfinite(value.level_dbsm),
                        "no direction, frequency or level");
-      }
     }
   });
 }

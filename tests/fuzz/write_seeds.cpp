@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "classify/cnn/network.h"
@@ -56,7 +57,8 @@ TriangleMesh tetrahedron() {
 
 // Two headings and two frequencies, shortened from tests/reference/ship_motion/s175_veres.re1 (source and licence:
 // SOURCE.md there).
-const char* const kVeres = R"( MOTION TRANSFER FUNCTIONS  - VERES Version  4.02.3
+std::string veres() {
+  std::string text = R"( MOTION TRANSFER FUNCTIONS  - VERES Version  4.02.3
  Run name:
  Ship name: S175
  Loading condition description: Design waterline
@@ -67,47 +69,25 @@ const char* const kVeres = R"( MOTION TRANSFER FUNCTIONS  - VERES Version  4.02.
   0.2547E+01  0.955E+01
      1     2     2     6
   0.0000E+00  0.0000E+00  0.0000E+00   2.547       9.550
-       0.00
-  0.1047198
-  1 -0.43E-02 -0.99E+00
-  2  0.34E-06  0.20E-07
-  3  0.99E+00  0.66E-05
-  4  0.21E-08 -0.14E-09
-  5  0.46E-05  0.11E-02
-  6 -0.12E-07  0.16E-08
-  0.2094395
-  1 -0.16E-01 -0.96E+00
-  2  0.55E-07 -0.11E-06
-  3  0.98E+00 -0.22E-02
-  4  0.63E-08 -0.18E-08
-  5  0.90E-04  0.45E-02
-  6  0.32E-09 -0.14E-08
-     180.00
-  0.1047198
-  1  0.43E-02  0.99E+00
-  2  0.34E-06  0.20E-07
-  3  0.99E+00  0.66E-05
-  4  0.21E-08 -0.14E-09
-  5 -0.46E-05 -0.11E-02
-  6 -0.12E-07  0.16E-08
-  0.2094395
-  1  0.16E-01  0.96E+00
-  2  0.55E-07 -0.11E-06
-  3  0.98E+00 -0.22E-02
-  4  0.63E-08 -0.18E-08
-  5 -0.90E-04 -0.45E-02
-  6  0.32E-09 -0.14E-08
 )";
+  for (const auto& [heading, from, along] : {std::tuple{"0.00", "-", " "}, {"180.00", " ", "-"}})
+    text += fmt::format(
+        "     {}\n  0.1047198\n  1 {}0.43E-02 {}0.99E+00\n  2  0.34E-06  0.20E-07\n  3  0.99E+00  0.66E-05\n"
+        "  4  0.21E-08 -0.14E-09\n  5 {}0.46E-05 {}0.11E-02\n  6 -0.12E-07  0.16E-08\n"
+        "  0.2094395\n  1 {}0.16E-01 {}0.96E+00\n  2  0.55E-07 -0.11E-06\n  3  0.98E+00 -0.22E-02\n"
+        "  4  0.63E-08 -0.18E-08\n  5 {}0.90E-04 {}0.45E-02\n  6  0.32E-09 -0.14E-08\n",
+        heading, from, from, along, along, from, from, along, along);
+  return text;
+}
 
 // Two periods and two headings.
 std::string wamit() {
   std::string rows;
-  for (const char* at : {"0.11E+01  0.0E+00", "0.11E+01  0.9E+02", "0.12E+02  0.0E+00", "0.12E+02  0.9E+02"}) {
+  for (const char* at : {"0.11E+01  0.0E+00", "0.11E+01  0.9E+02", "0.12E+02  0.0E+00", "0.12E+02  0.9E+02"})
     for (const char* mode : {"1  5.0E-01  6.0E+01  2.5E-01  4.33E-01", "2  0.0E+00  9.0E+01  0.0E+00  0.0E+00",
                              "3  1.0E+00  0.0E+00  1.0E+00  0.0E+00", "4  0.0E+00  9.0E+01  0.0E+00  0.0E+00",
                              "5  1.0E-02 -9.0E+01  0.0E+00 -1.0E-02", "6  0.0E+00  9.0E+01  0.0E+00  0.0E+00"})
       rows += fmt::format("  {}  {}\n", at, mode);
-  }
   return rows;
 }
 
@@ -196,7 +176,7 @@ void write_network(const fs::path& file, std::size_t classes) {
 }
 
 void write_texts(const fs::path& root) {
-  write_file(seed(root, "veres", "small.re1"), kVeres);
+  write_file(seed(root, "veres", "small.re1"), veres());
   write_file(seed(root, "wamit", "small.4"), wamit());
   write_file(seed(root, "series", "openfast.out"), kOpenFast);
   write_file(seed(root, "own_table", "own.csv"), kOwnCut);

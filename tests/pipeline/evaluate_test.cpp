@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -13,6 +11,7 @@
 #include "classify/model/saved_model.h"
 #include "sim/core/process/file.h"
 #include "tests/pipeline/program.h"
+#include "tests/refusal.h"
 #include "tests/temporary_folder.h"
 
 namespace seaglint {
@@ -26,24 +25,16 @@ namespace fs = std::filesystem;
 // several data sets with values held out.
 
 // A data set of ideal points, another of another seed, and a model of the first, for all tests of this file.
-class ModelOnOtherData : public testing::Test {
+class ModelOnOtherData : public SharedFolder {
  protected:
   static void SetUpTestSuite() {
-    folder_ = new TemporaryFolder;
     generate("data", {});
     generate("other", {"seed=7"});
     completed(train({path("data")}, "model", {}));
   }
-  static void TearDownTestSuite() { delete folder_; }
-
-  static std::string path(const std::string& name) { return folder_->path() / name; }
-
   static void generate(const std::string& name, const Words& settings) {
-    Words words{"generate", "scenarios/points.yaml", "-o", path(name), "--set", "radar.pulses=64"};
-    for (const std::string& setting : settings) words.insert(words.end(), {"--set", setting});
-    completed(words);
+    completed(with_settings({"generate", kPoints, "-o", path(name), "--set", "radar.pulses=64"}, settings));
   }
-
   static ProgramResult train(const Words& data, const std::string& model, const Words& options) {
     const Words small{"-o", path(model), "--set", "learning.epochs=2", "--set", "learning.trees=20"};
     return run_program(with(with({"train"}, data), small), options);
@@ -57,8 +48,6 @@ class ModelOnOtherData : public testing::Test {
     completed(with(words, {"-o", path(output)}), options);
     return json::parse(read_file(path(output) + "/evaluation.json"));
   }
-
-  static inline TemporaryFolder* folder_ = nullptr;
 };
 
 // The lines of a CSV file as cells by the names of the first one; no cell is quoted.
@@ -67,14 +56,9 @@ std::vector<std::map<std::string, std::string>> rows_of(const fs::path& file) {
   std::vector<std::string> names;
   std::vector<std::map<std::string, std::string>> rows;
   for (std::string line; std::getline(lines, line);) {
-    std::vector<std::string> cells(1);
-    for (const char c : line) {
-      if (c == ',') {
-        cells.emplace_back();
-      } else {
-        cells.back() += c;
-      }
-    }
+    std::istringstream row(line + ",");
+    std::vector<std::string> cells;
+    for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);
     if (names.empty()) {
       names = cells;
       continue;
@@ -88,11 +72,9 @@ std::vector<std::map<std::string, std::string>> rows_of(const fs::path& file) {
 TEST_F(ModelOnOtherData, OfItsOwnHeldOutPartHasTheFiguresOfTheTrainingToTheLastDigit) {
   const json metrics = json::parse(read_file(path("model") + "/metrics.json"));
   const json evaluation = evaluate({"data"}, "own", {});
-  for (const char* model : {"handmade", "cnn", "fused", "extended"}) {
-    for (const char* figure : {"rows", "groups", "accuracy", "accuracy_95", "auc", "log_loss", "confusion", "roc"}) {
+  for (const char* model : {"handmade", "cnn", "fused", "extended"})
+    for (const char* figure : {"rows", "groups", "accuracy", "accuracy_95", "auc", "log_loss", "confusion", "roc"})
       EXPECT_EQ(evaluation.at(model).at(figure), metrics.at(model).at("group").at(figure)) << model << " " << figure;
-    }
-  }
   EXPECT_EQ(evaluation.at("maps").at("trained"), 40 - evaluation.at("maps").at("evaluated").get<int>());
   EXPECT_EQ(evaluation.at("maps").at("sea_seen"), 0);
 
@@ -164,7 +146,7 @@ TEST_F(ModelOnOtherData, FlagsMapsOutsideTheTrainingRange) {
     }
   }
   for (const auto& row : rows_of(path("weak_evaluated") + "/probabilities.csv"))
-    EXPECT_THAT(row.at("outside"), HasSubstr("scr_peak_cell_db"));
+    EXPECT_HAS(row.at("outside"), "scr_peak_cell_db");
 }
 
 TEST_F(ModelOnOtherData, OfOneClassHasAccuracyAndNoRoc) {
@@ -188,53 +170,54 @@ TEST_F(ModelOnOtherData, SharesSeasOnlyWithDataOfItsSeed) {
 TEST_F(ModelOnOtherData, IsRefusedWhereItDoesNotFit) {
   generate("grid", {"radar.hop_count=4"});
   generate("settings", {"features.max_centres=32"});
-  expect_refused({"evaluate", path("model"), path("grid")}, "maps of another grid");
-  expect_refused({"evaluate", path("model"), path("settings")},
-                 "features of other settings: features.max_centres: 32 instead of 64");
-  expect_refused({"classify", path("model"), path("settings")}, "features.max_centres: 32 instead of 64");
-  expect_refused({"evaluate", path("data"), path("other")}, "no model.json");
-  expect_refused({"evaluate", path("nowhere"), path("other")}, "nowhere/model.json");
-  expect_refused({"evaluate", path("model"), path("nowhere")}, "nowhere");
-  expect_refused({"evaluate", path("model")}, "DATA");
-  expect_refused({"evaluate", path("model"), path("other"), path("other")}, "the same maps as");
-  expect_refused({"evaluate", path("model"), path("other"), "--by", "azimut_deg"}, "did you mean 'azimuth_deg'?");
-  expect_refused({"evaluate", path("model"), path("other"), "-o", path("data")}, "is the directory of a data set");
-  expect_refused({"classify", path("model"), path("other"), "--sample", "40"}, "has samples 0 to 39");
-  expect_refused({"classify", path("model"), path("other"), "-o", path("x.txt")}, "must end in .csv");
+  const std::string model = path("model"), other = path("other");
+  const std::pair<Words, const char*> refusals[] = {
+      {{"evaluate", model, path("grid")}, "maps of another grid"},
+      {{"evaluate", model, path("settings")}, "features of other settings: features.max_centres: 32 instead of 64"},
+      {{"classify", model, path("settings")}, "features.max_centres: 32 instead of 64"},
+      {{"evaluate", path("data"), other}, "no model.json"},
+      {{"evaluate", path("nowhere"), other}, "nowhere/model.json"},
+      {{"evaluate", model, path("nowhere")}, "nowhere"},
+      {{"evaluate", model}, "DATA"},
+      {{"evaluate", model, other, other}, "the same maps as"},
+      {{"evaluate", model, other, "--by", "azimut_deg"}, "did you mean 'azimuth_deg'?"},
+      {{"evaluate", model, other, "-o", path("data")}, "is the directory of a data set"},
+      {{"classify", model, other, "--sample", "40"}, "has samples 0 to 39"},
+      {{"classify", model, other, "-o", path("x.txt")}, "must end in .csv"}};
+  for (const auto& [words, message] : refusals) expect_refused(words, message);
   EXPECT_FALSE(fs::exists(path("x.txt")));
 }
 
 TEST_F(ModelOnOtherData, OfAnotherVersionClassesOrTrainingIsRefused) {
-  const auto changed = [](const std::string& key, const json& value) {
+  const auto copy = [] {
     fs::remove_all(path("changed"));
     fs::copy(path("model"), path("changed"));
-    json card = json::parse(read_file(path("model") + "/model.json"));
-    card[key] = value;
-    write_file(path("changed") + "/model.json", card.dump());
   };
   const Words words{"evaluate", path("changed"), path("other")};
-  changed("program_version", "0.0.9");
-  expect_refused(words, "model.json: program_version 0.0.9; this program applies models of ");
-  changed("classes", {"ship", "ship"});
-  expect_refused(words, "model.json: classes ship, ship: must be 2 to 10 different names");
-  changed("classes", {"decoy", "raft", "ship"});  // without their quantiles
-  expect_refused(words, "model.json: ");
-  changed("format", "seaglint model 9");
-  expect_refused(words, "model.json: format");
-  changed("features", 3);
-  expect_refused(words, "model.json: ");
-  changed("settings", {{"map", json::object()}, {"features", json::object()}, {"learning", {{"epoch", "3"}}}});
-  expect_refused(words, "epoch: unknown key");
-  changed("features", {"mwr", "ccf", "sigma_r_m", "sigma_w"});
-  expect_refused(words, "model.json: feature_ranges: not those of features");
-  changed("seed", -1);
-  expect_refused(words, "model.json: seed: -1: must be a whole number");
-  json ranges = json::parse(read_file(path("model") + "/model.json")).at("feature_ranges");
+  const json whole = json::parse(read_file(path("model") + "/model.json"));
+  json ranges = whole.at("feature_ranges");
   ranges[0]["units"] = "km";
-  changed("feature_ranges", ranges);
-  expect_refused(words, "model.json: mwr: units 'km', must be '(m/s)^2'");
-  fs::remove_all(path("changed"));
-  fs::copy(path("model"), path("changed"));
+  const std::tuple<const char*, json, const char*> changes[] = {
+      {"program_version", "0.0.9", "program_version 0.0.9; this program applies models of "},
+      {"classes", {"ship", "ship"}, "classes ship, ship: must be 2 to 10 different names"},
+      {"classes", {"decoy", "raft", "ship"}, ""},  // without their quantiles
+      {"format", "seaglint model 9", "format"},
+      {"features", 3, ""},
+      {"features", {"mwr", "ccf", "sigma_r_m", "sigma_w"}, "feature_ranges: not those of features"},
+      {"seed", -1, "seed: -1: must be a whole number"},
+      {"feature_ranges", ranges, "mwr: units 'km', must be '(m/s)^2'"}};
+  for (const auto& [key, value, message] : changes) {
+    copy();
+    json card = whole;
+    card[key] = value;
+    write_file(path("changed") + "/model.json", card.dump());
+    expect_refused(words, std::string("model.json: ") + message);
+  }
+  json card = whole;
+  card["settings"] = {{"map", json::object()}, {"features", json::object()}, {"learning", {{"epoch", "3"}}}};
+  write_file(path("changed") + "/model.json", card.dump());
+  expect_refused(words, "epoch: unknown key");
+  copy();
   write_file(path("changed") + "/network.bin", read_file(path("model") + "/network.bin") + "x");
   expect_refused(words, "network.bin: damaged, or of another training than ");
   write_file(path("changed") + "/model.json", "{\"format\": ");
@@ -248,8 +231,8 @@ TEST_F(ModelOnOtherData, ClassifiesOneMapAsAmongAll) {
   for (const std::size_t sample : {0u, 17u, 39u}) {
     const ProgramResult one = completed(
         {"classify", path("model"), path("other"), "--sample", std::to_string(sample), "-o", path("one.csv")});
-    EXPECT_THAT(one.out, HasSubstr("handmade"));
-    EXPECT_THAT(one.out, HasSubstr("training range"));
+    EXPECT_HAS(one.out, "handmade");
+    EXPECT_HAS(one.out, "training range");
     const auto single = rows_of(path("one.csv"));
     ASSERT_EQ(single.size(), 1u);
     EXPECT_EQ(single.front(), rows[sample]);
@@ -261,8 +244,8 @@ TEST_F(ModelOnOtherData, ClassifiesOneMapAsAmongAll) {
 }
 
 TEST_F(ModelOnOtherData, TrainedOnTwoDataSetsIsTestedOnTheOneHeldOut) {
-  EXPECT_THAT(completed(train({path("data"), path("other")}, "two", {"--hold-out", "data_set=1", "--by", "sea"})).out,
-              HasSubstr("tested on data_set=1 only; split by sea realisation"));
+  EXPECT_HAS(completed(train({path("data"), path("other")}, "two", {"--hold-out", "data_set=1", "--by", "sea"})).out,
+             "tested on data_set=1 only; split by sea realisation");
   const auto splits = rows_of(path("two") + "/splits.csv");
   ASSERT_EQ(splits.size(), 80u);
   for (const auto& row : splits) EXPECT_EQ(row.at("by_group"), row.at("data_set") == "0" ? "train" : "test");
@@ -329,8 +312,8 @@ TEST(SmallBenchmark, HasAccuraciesInTheirIntervalsThatMotionAloneExplains) {
     return run_program({"benchmark", "rigid_twin", "--small", "--threads", threads, "-o", folder.path() / name});
   };
   const ProgramResult one = completed(run("one", "1"));
-  EXPECT_THAT(one.out, HasSubstr("The paper's claims on this data set"));
-  EXPECT_THAT(one.out, HasSubstr((folder.path() / "one" / "report.html").string()));
+  EXPECT_HAS(one.out, "The paper's claims on this data set");
+  EXPECT_HAS(one.out, (folder.path() / "one" / "report.html").string());
   const std::string text = read_file(folder.path() / "one" / "benchmark.json");
   const json result = json::parse(text);
   EXPECT_EQ(result.at("benchmark"), "rigid_twin");
@@ -338,7 +321,7 @@ TEST(SmallBenchmark, HasAccuraciesInTheirIntervalsThatMotionAloneExplains) {
   EXPECT_EQ(result.at("maps"), 120);
   EXPECT_EQ(result.at("seas"), 30);
   EXPECT_EQ(result.at("seed"), 42);
-  EXPECT_THAT(result.at("division").get<std::string>(), HasSubstr("no test sea was seen in training"));
+  EXPECT_HAS(result.at("division").get<std::string>(), "no test sea was seen in training");
 
   for (const char* name : {"handmade", "network", "fused", "handmade_logistic", "network_logistic", "fused_logistic"}) {
     ASSERT_TRUE(result.at("baselines").contains(name));
@@ -362,8 +345,8 @@ TEST(SmallBenchmark, HasAccuraciesInTheirIntervalsThatMotionAloneExplains) {
   fs::copy_file(folder.path() / "one" / "benchmark.json", folder.path() / "one" / "copy" / "benchmark.json");
   const ProgramResult report = completed({"report", folder.path() / "one"});
   const std::string page = read_file(folder.path() / "one" / "report.html");
-  EXPECT_THAT(page, HasSubstr("Benchmark <b>rigid_twin</b> at its small size"));
-  EXPECT_THAT(page, HasSubstr("href=\"copy/report.html\""));
+  EXPECT_HAS(page, "Benchmark <b>rigid_twin</b> at its small size");
+  EXPECT_HAS(page, "href=\"copy/report.html\"");
 
   const ProgramResult two = completed(run("two", "2"));
   EXPECT_EQ(read_file(folder.path() / "two" / "benchmark.json"), text);
@@ -375,9 +358,8 @@ TEST(SmallBenchmark, HasTheFiguresAndTheModelOfARun) {
     const TemporaryFolder folder;
     const auto made = [&](const char* command) {
       const fs::path directory = folder.path() / command;
-      completed({command, "scenarios/points.yaml", "-o", directory, "--set", "learning.epochs=2", "--set",
-                 "learning.trees=20", "--set", "learning.split_repeats=2", "--set",
-                 std::string("learning.fusion=") + fusion});
+      completed({command, kPoints, "-o", directory, "--set", "learning.epochs=2", "--set", "learning.trees=20", "--set",
+                 "learning.split_repeats=2", "--set", std::string("learning.fusion=") + fusion});
       return json::parse(read_file(directory / "metrics.json"));
     };
     const json run = made("run"), benchmark = made("benchmark");
@@ -396,7 +378,7 @@ TEST(SmallBenchmark, HasTheFiguresAndTheModelOfARun) {
           << file;
     }
     const std::string page = read_file(folder.path() / "benchmark/report.html");
-    EXPECT_THAT(page, HasSubstr("Split by sea realisation"));
+    EXPECT_HAS(page, "Split by sea realisation");
     EXPECT_THAT(page, testing::Not(HasSubstr("andom split of the maps")));
     EXPECT_THAT(page, testing::Not(HasSubstr("paper's random split")));
     EXPECT_THAT(page, testing::Not(HasSubstr("in_sample</code>, the paper")));

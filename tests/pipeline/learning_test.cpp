@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +12,7 @@
 #include "classify/dataset/format/shard.h"
 #include "sim/core/numbers/constants.h"
 #include "tests/pipeline/program.h"
+#include "tests/refusal.h"
 
 namespace seaglint {
 namespace {
@@ -50,25 +50,21 @@ std::string scenario_text(const std::string& classes, const std::string& third_l
 
 constexpr const char* kThree = "classes: [decoys, ship, guarded ship], ";
 
-class ThreeClasses : public testing::Test {
+class ThreeClasses : public SharedFolder {
  protected:
   static void SetUpTestSuite() {
-    folder_ = new TemporaryFolder;
     write_file(path("three.yaml"), scenario_text(kThree, "2"));
     run_ = run_program({"run", path("three.yaml"), "-o", path("run"), "--threads", "2"});
   }
-  static void TearDownTestSuite() { delete folder_; }
-  static std::string path(const std::string& name) { return folder_->path() / name; }
+  void SetUp() override { ASSERT_EQ(run_.code, 0) << run_.err; }
 
-  static inline TemporaryFolder* folder_ = nullptr;
   static inline ProgramResult run_;
 };
 
 TEST_F(ThreeClasses, AreNamedInTheDataSetAndItsCard) {
-  ASSERT_EQ(run_.code, 0) << run_.err;
   const json manifest = json::parse(read_file(path("run/data/manifest.json")));
   EXPECT_EQ(manifest["classes"], (Words{"decoys", "ship", "guarded ship"}));
-  EXPECT_THAT(manifest["columns"].dump(), HasSubstr("0 = decoys, 1 = ship, 2 = guarded ship"));
+  EXPECT_HAS(manifest["columns"].dump(), "0 = decoys, 1 = ship, 2 = guarded ship");
   EXPECT_THAT(read_shard(path("run/data/shard_00000.h5")).classes, ElementsAre("decoys", "ship", "guarded ship"));
   EXPECT_THAT(read_file(path("run/data/README.md")),
               AllOf(HasSubstr("| guarded | 2 (guarded ship) | 20 |"), HasSubstr("0 = decoys, 1 = ship, 2 = guarded")));
@@ -77,7 +73,6 @@ TEST_F(ThreeClasses, AreNamedInTheDataSetAndItsCard) {
 }
 
 TEST_F(ThreeClasses, AreScoredAndReported) {
-  ASSERT_EQ(run_.code, 0) << run_.err;
   const json metrics = json::parse(read_file(path("run/metrics.json")));
   for (const char* protocol : {"random", "group"}) {
     const json& scores = metrics.at("fused").at(protocol);
@@ -100,31 +95,28 @@ TEST_F(ThreeClasses, AreScoredAndReported) {
 }
 
 TEST_F(ThreeClasses, HaveOneModelForAnyNumberOfThreads) {
-  ASSERT_EQ(run_.code, 0) << run_.err;
   completed({"train", path("run/data"), "-o", path("again"), "--threads", "1"});
   for (const char* file : {"network.bin", "fused.json", "metrics.json", "model.json", "embeddings.csv"})
     EXPECT_EQ(read_file(path("again") + "/" + file), read_file(path("run/model/") + file)) << file;
 }
 
 TEST_F(ThreeClasses, AreEvaluatedAndClassifiedWithAProbabilityEach) {
-  ASSERT_EQ(run_.code, 0) << run_.err;
-  EXPECT_THAT(completed({"evaluate", path("run/model"), path("run/data"), "-o", path("evaluation")}).out,
-              HasSubstr("guarded ship declared ship"));
+  EXPECT_HAS(completed({"evaluate", path("run/model"), path("run/data"), "-o", path("evaluation")}).out,
+             "guarded ship declared ship");
   const json evaluation = json::parse(read_file(path("evaluation/evaluation.json")));
   EXPECT_TRUE(evaluation.at("fused").at("calibration").at("bins")[0].contains("right"));
   EXPECT_TRUE(evaluation.at("fused").at("roc").contains("guarded_ship"));
-  EXPECT_THAT(read_file(path("evaluation/probabilities.csv")),
-              HasSubstr(",probability_fused_decoys,probability_fused_ship,probability_fused_guarded_ship,"));
+  EXPECT_HAS(read_file(path("evaluation/probabilities.csv")),
+             ",probability_fused_decoys,probability_fused_ship,probability_fused_guarded_ship,");
 
   EXPECT_THAT(run_program({"classify", path("run/model"), path("run/data"), "--sample", "3"}).out,
               AllOf(HasSubstr("P(guarded ship)"), HasSubstr("guarded ship, 5 / 50 / 95 %")));
   const ProgramResult all = run_program({"classify", path("run/model"), path("run/data"), "-o", path("all.csv")});
-  EXPECT_THAT(all.out, HasSubstr("P(decision)"));
-  EXPECT_THAT(read_file(path("all.csv")), HasSubstr("probability_cnn_guarded_ship"));
+  EXPECT_HAS(all.out, "P(decision)");
+  EXPECT_HAS(read_file(path("all.csv")), "probability_cnn_guarded_ship");
 }
 
 TEST_F(ThreeClasses, OfAnotherDataSetOrModelAreRefused) {
-  ASSERT_EQ(run_.code, 0) << run_.err;
   for (const auto& [name, classes] :
        {std::pair{"renamed", "[decoys, ship, escort]"}, {"reordered", "[ship, decoys, guarded ship]"}}) {
     completed({"generate", path("three.yaml"), "-o", path(name), "--set", fmt::format("dataset.classes={}", classes),
@@ -152,7 +144,7 @@ TEST_F(ThreeClasses, NeedATargetEachToLearn) {
   expect_refused({"check", path("default.yaml")}, "must be 0 or 1, a class of dataset.classes: array, ship");
 
   const ProgramResult shared = completed({"check", path("lacking.yaml")});
-  EXPECT_THAT(shared.err, HasSubstr("label 1 (ship) is shared by 2 targets (line, guarded): 40 of 60 maps"));
+  EXPECT_HAS(shared.err, "label 1 (ship) is shared by 2 targets (line, guarded): 40 of 60 maps");
   completed({"generate", path("lacking.yaml"), "-o", path("lacking")});
   expect_refused({"train", path("lacking"), "-o", path("none")},
                  "none of 60 maps is of class 2 (guarded ship); learning needs all 3 classes");
@@ -189,25 +181,18 @@ constexpr const char* kTwoPoints =
     "{position_m: [-30, 0, 0], amplitude_m: 2, velocity_mps: [-1.2, 0, 0]}]}, reflectors: {label: 0, points: "
     "[{position_m: [0, 0, 0]}]}}";
 
-class EchoOverTime : public testing::Test {
+class EchoOverTime : public SharedFolder {
  protected:
   static void SetUpTestSuite() {
-    folder_ = new TemporaryFolder;
-    run({"generate", "scenarios/points.yaml", "-o", path("data"), "--set", kFaintNoise});
+    run({"generate", kPoints, "-o", path("data"), "--set", kFaintNoise});
     run({"train", path("data"), "-o", path("model"), "--set", "learning.epochs=2", "--set", "learning.trees=20"});
   }
-  static void TearDownTestSuite() { delete folder_; }
-
-  static std::string path(const std::string& name) { return folder_->path() / name; }
-
   static std::string run(const Words& words) { return completed(words).out; }
 
   // The echo of a sample of points.yaml with these settings.
   static std::string echo(int sample, const Words& settings) {
     std::string file = path("echo.npz");
-    Words words{"echo", "scenarios/points.yaml", "--sample", std::to_string(sample), "-o", file};
-    for (const std::string& setting : settings) words.insert(words.end(), {"--set", setting});
-    run(words);
+    run(with_settings({"echo", kPoints, "--sample", std::to_string(sample), "-o", file}, settings));
     return file;
   }
 
@@ -217,8 +202,9 @@ class EchoOverTime : public testing::Test {
     std::istringstream lines(read_file(path("one.csv")));
     std::string line;
     std::getline(lines, line);
-    EXPECT_THAT(line, HasSubstr("sample,label,probability_handmade,probability_cnn,probability_fused,probability_"
-                                "extended,mwr,ccf,sigma_r_m,sigma_v_mps,outside"));
+    EXPECT_HAS(line,
+               "sample,label,probability_handmade,probability_cnn,probability_fused,probability_"
+               "extended,mwr,ccf,sigma_r_m,sigma_v_mps,outside");
     std::getline(lines, line);
     std::istringstream cells(line + " ");
     std::vector<std::string> values;
@@ -226,8 +212,6 @@ class EchoOverTime : public testing::Test {
     EXPECT_EQ(values.size(), 11u);
     return values;
   }
-
-  static inline TemporaryFolder* folder_ = nullptr;
 };
 
 // Samples of an echo are rounded to 24 bits, of the largest amplitude of all points, 8 m, relative to the smallest one
@@ -258,9 +242,7 @@ TEST_F(EchoOverTime, HasTheFeaturesAndProbabilitiesOfItsSampleToRounding) {
 // that.
 TEST_F(EchoOverTime, WithNoiseDiffersByTheBoundOfCramerAndRao) {
   const Words settings{kTwoPoints, "clutter={enabled: false, noise_level: snr, snr_db: -5}", "view.azimuth_deg=0"};
-  Words words{"generate", "scenarios/points.yaml", "-o", path("noisy")};
-  for (const std::string& setting : settings) words.insert(words.end(), {"--set", setting});
-  run(words);
+  run(with_settings({"generate", kPoints, "-o", path("noisy")}, settings));
   const double cell_mps = kSpeedOfLight / 16.0875e9 / (2 * 256 * 250e-6);
   const double snr = std::pow(10, -0.5) * 256 * 33 / 2 / std::pow(10, 0.176);
   const double standard_error = std::sqrt(6 / snr) / (2 * kPi) * cell_mps;
@@ -319,74 +301,64 @@ clutter: {scr_db: 10}
 dataset: {maps_per_case: 6, realisations_per_case: 2, maps_per_interval: 3, maps_per_shard: 8}
 )yaml";
 
-class StoredEchoFeatures : public testing::Test {
+class StoredEchoFeatures : public SharedFolder {
  protected:
   static void SetUpTestSuite() {
-    folder_ = new TemporaryFolder;
-    write_file(folder_->path() / "floats.yaml", kFloats);
-    make(data(), {"--set", "dataset.echoes=true"});
+    write_file(path("floats.yaml"), kFloats);
+    make(path("data"), {"--set", "dataset.echoes=true"});
   }
-  static void TearDownTestSuite() { delete folder_; }
-
-  static fs::path data() { return folder_->path() / "data"; }
-  static fs::path place() { return folder_->path() / testing::UnitTest::GetInstance()->current_test_info()->name(); }
-  static void make(const fs::path& directory, Words more) {
-    completed({"generate", folder_->path() / "floats.yaml", "-o", directory}, more);
+  static std::string place() { return path(testing::UnitTest::GetInstance()->current_test_info()->name()); }
+  static void make(const std::string& directory, const Words& more) {
+    completed({"generate", path("floats.yaml"), "-o", directory}, more);
   }
-  static ProgramResult features(const fs::path& directory, Words more) {
-    return run_program({"features", data(), "-o", directory}, more);
+  static ProgramResult features(const std::string& directory, const Words& more) {
+    return run_program({"features", path("data"), "-o", directory}, more);
   }
   static void expect_equal(const fs::path& a, const fs::path& b) {
     EXPECT_THAT(differences(bytes_of(a), bytes_of(b)), testing::IsEmpty());
   }
-
-  static inline TemporaryFolder* folder_ = nullptr;
 };
 
 TEST_F(StoredEchoFeatures, OfTheSameSettingsGiveTheSameBytes) {
-  EXPECT_THAT(completed(features(place(), {"--threads", "2"})).out, HasSubstr("24 maps made from stored echoes in "));
-  expect_equal(data(), place());
+  EXPECT_HAS(completed(features(place(), {"--threads", "2"})).out, "24 maps made from stored echoes in ");
+  expect_equal(path("data"), place());
 }
 
 TEST_F(StoredEchoFeatures, OfOtherSettingsGiveTheBytesOfADataSetMadeAnew) {
   const std::vector<std::string> other{"--set", "clutter.scr_db=25",           "--set", "features.max_centres=20",
                                        "--set", "map.velocity_oversampling=2", "--set", "dataset.echoes=true"};
   completed(features(place(), other));
-  make(folder_->path() / "anew", other);
-  expect_equal(folder_->path() / "anew", place());
+  make(path("anew"), other);
+  expect_equal(path("anew"), place());
 }
 
 TEST_F(StoredEchoFeatures, AreMadeWithoutEchoesOfTheirOwnOnRequest) {
   completed(features(place(), {"--set", "dataset.echoes=false"}));
-  make(folder_->path() / "without", {});
-  expect_equal(folder_->path() / "without", place());
-  expect_refused({"features", place(), "-o", folder_->path() / "none"},
-                 "has no echoes; make it with dataset.echoes: true");
-  EXPECT_FALSE(fs::exists(folder_->path() / "none"));
+  make(path("without"), {});
+  expect_equal(path("without"), place());
+  expect_refused({"features", place(), "-o", path("none")}, "has no echoes; make it with dataset.echoes: true");
+  EXPECT_FALSE(fs::exists(path("none")));
 }
 
 TEST_F(StoredEchoFeatures, RefuseWhatNeedsOtherEchoes) {
-  const auto complaint = [](const char* set) {
-    const ProgramResult result = features(place(), {"--set", set});
-    EXPECT_EQ(result.code, 2) << set;
-    EXPECT_FALSE(fs::exists(place())) << set;
-    return result.err;
-  };
-  EXPECT_THAT(complaint("sea.peak_period_s=9"), HasSubstr("only clutter, map, features, learning and report can be set"));
-  EXPECT_THAT(complaint("seed=3"), HasSubstr("`seed: 42` there, `seed: 3` here"));
-  EXPECT_THAT(complaint("dataset.maps_per_case=12"), HasSubstr("maps_per_case: 6` there, `  maps_per_case: 12` here"));
-  EXPECT_THAT(complaint("map.range_span_m=900"),
-              HasSubstr("map.range_span_m: the stored echoes are those of a range "));
-  EXPECT_THAT(complaint("map.range_span=900"), HasSubstr("map.range_span"));
+  for (const auto& [setting, message] :
+       {std::pair{"sea.peak_period_s=9", "only clutter, map, features, learning and report can be set"},
+        {"seed=3", "`seed: 42` there, `seed: 3` here"},
+        {"dataset.maps_per_case=12", "maps_per_case: 6` there, `  maps_per_case: 12` here"},
+        {"map.range_span_m=900", "map.range_span_m: the stored echoes are those of a range "},
+        {"map.range_span=900", "map.range_span"}}) {
+    const ProgramResult result = features(place(), {"--set", setting});
+    EXPECT_EQ(result.code, 2) << setting;
+    EXPECT_FALSE(fs::exists(place())) << setting;
+    EXPECT_HAS(result.err, message);
+  }
 }
 
 // Models fitted once more to all maps that are not held out (learning.refit).
 
 class Refit : public testing::Test {
  protected:
-  void SetUp() override {
-    completed({"generate", "scenarios/points.yaml", "-o", path("data"), "--set", "radar.pulses=64"});
-  }
+  void SetUp() override { completed({"generate", kPoints, "-o", path("data"), "--set", "radar.pulses=64"}); }
   std::string path(const std::string& name) const { return folder_.path() / name; }
   std::string text(const std::string& name) const { return read_file(path(name)); }
 

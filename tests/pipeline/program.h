@@ -5,29 +5,28 @@
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "sim/core/process/file.h"
+#include "tests/refusal.h"
 #include "tests/temporary_folder.h"
 
 namespace seaglint {
 
 struct ProgramResult {
   int code = -1;  // exit code; 128 + n when signal n ended it
-  std::string out;
-  std::string err;
+  std::string out, err;
 };
 
 inline constexpr const char* kProgram = SEAGLINT_BINARY_DIR "/seaglint";
@@ -64,8 +63,7 @@ inline pid_t start_words(std::vector<std::string> words, const std::string& out,
 // The same, and waits for its end.
 inline ProgramResult run_words(std::vector<std::string> words) {
   const TemporaryFolder folder;
-  const std::string out = folder.path() / "out";
-  const std::string err = folder.path() / "err";
+  const std::string out = folder.path() / "out", err = folder.path() / "err";
   const pid_t process = start_words(std::move(words), out, err);
   ProgramResult result;
   if (process < 0) return result;
@@ -86,6 +84,11 @@ inline Words with(Words words, const Words& more) {
   return words;
 }
 
+// The same with `--set` before each of the settings.
+inline Words with_settings(Words words, const Words& settings) {
+  for (const std::string& setting : settings) words.insert(words.end(), {"--set", setting});
+  return words;
+}
 // `seaglint arguments... more...`
 inline ProgramResult run_program(const Words& arguments, const Words& more = {}) {
   return run_words(with(with({kProgram}, arguments), more));
@@ -114,7 +117,7 @@ inline int complaints_in(const std::string& err) {
 // Exit code 2, and one complaint of one line, which contains `sentence`.
 inline void expect_refused(const ProgramResult& result, const std::string& sentence) {
   EXPECT_EQ(result.code, 2) << result.out;
-  EXPECT_THAT(result.err, testing::HasSubstr(sentence));
+  EXPECT_HAS(result.err, sentence);
   EXPECT_EQ(complaints_in(result.err), 1) << result.err;
 }
 
@@ -134,13 +137,30 @@ inline std::map<std::string, std::string> bytes_of(const std::filesystem::path& 
 // Names of the files that differ or are missing on one side.
 inline Words differences(const std::map<std::string, std::string>& a, const std::map<std::string, std::string>& b) {
   Words names;
-  for (const auto& [name, bytes] : a) {
+  for (const auto& [name, bytes] : a)
     if (!b.contains(name) || b.at(name) != bytes) names.push_back(name);
-  }
-  for (const auto& [name, bytes] : b) {
+  for (const auto& [name, bytes] : b)
     if (!a.contains(name)) names.push_back(name);
-  }
   return names;
 }
 
+// Names of what is in a folder.
+inline Words names_in(const std::filesystem::path& directory) {
+  Words names;
+  for (const auto& entry : std::filesystem::directory_iterator(directory)) names.push_back(entry.path().filename());
+  return names;
+}
+
+// A folder that all tests of a suite share.
+class SharedFolder : public testing::Test {
+ protected:
+  static void TearDownTestSuite() { folder_.reset(); }
+  static std::string path(const std::string& name) {
+    if (!folder_) folder_ = std::make_unique<TemporaryFolder>();
+    return folder_->path() / name;
+  }
+
+ private:
+  static inline std::unique_ptr<TemporaryFolder> folder_;
+};
 }  // namespace seaglint

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <map>
 
 #include "tests/pipeline/program.h"
+#include "tests/refusal.h"
 
 namespace seaglint {
 namespace {
@@ -32,7 +32,7 @@ void expect_failure(const fs::path& folder, const Words& words, int code, const 
   EXPECT_EQ(result.code, code) << result.err;
   EXPECT_EQ(result.out, "");
   EXPECT_THAT(result.err, StartsWith("seaglint: "));
-  EXPECT_THAT(result.err, HasSubstr(message));
+  EXPECT_HAS(result.err, message);
   EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
   EXPECT_TRUE(files_below(folder) == before);
 }
@@ -69,37 +69,36 @@ class InputErrors : public testing::Test {
                          "targets:\n  ship: {label: 1, mesh: whole.glb}\n  array: {label: 0, mesh: " + mesh + "}\n");
     return file;
   }
+  // A sweep of the mesh, which ends before its first direction.
+  Words rcs(const Words& more, const std::string& mesh = "whole.glb") const {
+    return with({"rcs", "--target", folder() / mesh, "--frequency-ghz", "10", "--azimuth-deg", "0"}, more);
+  }
+  void expect_failures(const std::vector<Words>& commands, const std::string& message) const {
+    for (const Words& words : commands) expect_failure(folder(), words, 2, message);
+  }
 
  private:
   TemporaryFolder folder_;
 };
 
 TEST_F(InputErrors, OfATypoInAKey) {
-  const std::string file = scenario("sea: {peek_period_s: 8}\n");
-  for (const Words& words : scenario_commands(file, folder()))
-    expect_failure(folder(), words, 2,
-                   "scenario.yaml:2:7: sea.peek_period_s: unknown key: did you mean 'peak_period_s'?\n");
+  expect_failures(scenario_commands(scenario("sea: {peek_period_s: 8}\n"), folder()),
+                  "scenario.yaml:2:7: sea.peek_period_s: unknown key: did you mean 'peak_period_s'?\n");
 }
 
 TEST_F(InputErrors, OfANegativeWaveHeight) {
-  const std::string file = scenario("sea: {significant_wave_height_m: -1}\n");
-  for (const Words& words : scenario_commands(file, folder()))
-    expect_failure(folder(), words, 2,
-                   "scenario.yaml:2:34: sea.significant_wave_height_m: value '-1': must be a number");
+  expect_failures(scenario_commands(scenario("sea: {significant_wave_height_m: -1}\n"), folder()),
+                  "scenario.yaml:2:34: sea.significant_wave_height_m: value '-1': must be a number");
 }
 
 // The sea contains no targets: `sea` reads no mesh.
 TEST_F(InputErrors, OfAMeshThatIsMissingOrCutShort) {
   for (const std::string mesh : {"none.glb", "truncated.glb"}) {
-    const std::string file = scenario("", mesh);
-    for (const Words& words : scenario_commands(file, folder())) {
+    for (const Words& words : scenario_commands(scenario("", mesh), folder()))
       if (words.front() != "sea") expect_failure(folder(), words, 2, mesh);
-    }
-    const std::string path = folder() / mesh;
-    expect_failure(folder(), {"mesh", "info", path, "--picture", folder() / "mesh.png"}, 2, mesh + ": ");
-    expect_failure(folder(),
-                   {"rcs", "--target", path, "--frequency-ghz", "10", "--azimuth-deg", "0", "-o", folder() / "rcs.csv"},
-                   2, mesh + ": ");
+    expect_failures({{"mesh", "info", folder() / mesh, "--picture", folder() / "mesh.png"},
+                     rcs({"-o", folder() / "rcs.csv"}, mesh)},
+                    mesh + ": ");
   }
 }
 
@@ -107,8 +106,8 @@ TEST_F(InputErrors, OfAMeshThatIsMissingOrCutShort) {
 TEST_F(InputErrors, OfAWavefrontRangeTooShort) {
   for (const Words& words :
        {Words{"check", "scenarios/quick.yaml"}, {"generate", "scenarios/quick.yaml", "-o", folder() / "data"}})
-    expect_failure(folder(), with(words, {"--set", "targets.ship.solver.wavefront_range_m=500"}), 2,
-                   "targets.ship.solver: wavefront range 500 m");
+    expect_failures({with(words, {"--set", "targets.ship.solver.wavefront_range_m=500"})},
+                    "targets.ship.solver: wavefront range 500 m");
 }
 
 // Four reflectors 40 m apart extend to 60.5 m, wherever the origin of each; the extent of a companion includes its
@@ -122,15 +121,13 @@ TEST_F(InputErrors, OfAWavefrontRangeTooShortForALayoutOrACompanion) {
       "  decoy: {label: 0, mesh: assets/icosahedral_reflector.glb, solver: {wavefront_range_m: 400}}\n"
       "  array: {label: 0, mesh: assets/icosahedral_reflector.glb, layout: {line: {count: 4, spacing_m: 40}}}\n");
   const std::string file = folder() / "near.yaml";
-  for (const Words& more : {Words{}, Words{"--set", "targets.array.solver.wavefront_range_m=600"}}) {
-    for (const Words& words : solving_commands(file, folder())) {
-      expect_failure(
-          folder(), with(words, more), 2,
-          more.empty()
-              ? "near.yaml:3:72: targets.ship.companions.0: wavefront range 400 m: must be at least ten "
-                "times the target radius of 60.5 m"
-              : "targets.array.solver: wavefront range 600 m: must be at least ten times the target radius of 60.5 m");
-    }
+  for (const Words& words : solving_commands(file, folder())) {
+    expect_failures({words},
+                    "near.yaml:3:72: targets.ship.companions.0: wavefront range 400 m: must be at least ten "
+                    "times the target radius of 60.5 m");
+    expect_failures(
+        {with(words, {"--set", "targets.array.solver.wavefront_range_m=600"})},
+        "targets.array.solver: wavefront range 600 m: must be at least ten times the target radius of 60.5 m");
   }
   completed({"check", file, "--set", "targets.ship.solver.wavefront_range_m=610", "--set",
              "targets.decoy.solver.wavefront_range_m=610", "--set", "targets.array.solver.wavefront_range_m=610"});
@@ -147,10 +144,9 @@ TEST_F(InputErrors, OfASeriesThatDoesNotCoverTheIntervals) {
              "seaglint: 1\ntargets:\n  ship: {label: 1, mesh: whole.glb, motion: {model: series, file: series.csv}}\n"
              "dataset: {maps_per_case: 4, realisations_per_case: 2}\n");
   for (const char* start : {"35", "-5", "1e6"}) {
-    for (const Words& words : solving_commands(file, folder())) {
-      expect_failure(folder(), with(words, {"--set", std::string("targets.ship.motion.series_start_s=") + start}), 2,
-                     "targets.ship.motion.series_start_s: value ");
-    }
+    for (const Words& words : solving_commands(file, folder()))
+      expect_failures({with(words, {"--set", std::string("targets.ship.motion.series_start_s=") + start})},
+                      "targets.ship.motion.series_start_s: value ");
   }
   completed({"check", file});
 }
@@ -163,11 +159,10 @@ TEST_F(InputErrors, OfATargetUnderWater) {
       "  array: {label: 0, mesh: assets/icosahedral_reflector.glb, motion: {model: float, origin_above_waterline_m: "
       "-10}}\n");
   for (const char* reflects : {"true", "false"}) {
-    for (const Words& words : solving_commands(file, folder())) {
-      expect_failure(
-          folder(), with(words, {"--set", std::string("sea_reflection.enabled=") + reflects}), 2,
+    for (const Words& words : solving_commands(file, folder()))
+      expect_failures(
+          {with(words, {"--set", std::string("sea_reflection.enabled=") + reflects})},
           "water.yaml:4:110: targets.array.motion.origin_above_waterline_m: value -10: must be greater than ");
-    }
   }
 }
 
@@ -182,42 +177,34 @@ TEST_F(InputErrors, OfATargetWithoutAnEcho) {
   const ProgramResult result = run_program({"generate", file, "-o", folder() / "data"});
   EXPECT_EQ(result.code, 2);
   // after a warning of its open edges
-  EXPECT_THAT(result.err, HasSubstr("\nseaglint: " + file + ":5:10: targets.plate: sample "));
-  EXPECT_THAT(result.err, HasSubstr("has no power"));
+  EXPECT_HAS(result.err, "\nseaglint: " + file + ":5:10: targets.plate: sample ");
+  EXPECT_HAS(result.err, "has no power");
   EXPECT_TRUE(files_below(folder()) == before);
 }
 
 TEST_F(InputErrors, OfANumberThatIsNotANumber) {
-  const std::string mesh = folder() / "whole.glb";
-  for (const char* option : {"--wavefront-range-m", "--min-patch-m", "--transmit-azimuth-deg", "--centre-cell-m"}) {
-    expect_failure(folder(),
-                   {"rcs", "--target", mesh, "--frequency-ghz", "10", "--azimuth-deg", "0", "-o", folder() / "rcs.csv",
-                    option, "nan"},
-                   2, std::string(option) + ": value nan: must be within");
-  }
+  const std::string mesh = folder() / "whole.glb", csv = folder() / "rcs.csv";
+  for (const char* option : {"--wavefront-range-m", "--min-patch-m", "--transmit-azimuth-deg", "--centre-cell-m"})
+    expect_failures({rcs({"-o", csv, option, "nan"})}, std::string(option) + ": value nan: must be within");
   for (const char* angle : {"nan", "61", "-1", "smooth"})
-    expect_failure(folder(),
-                   {"rcs", "--target", mesh, "--frequency-ghz", "10", "--azimuth-deg", "0", "-o", folder() / "rcs.csv",
-                    "--crease-deg", angle},
-                   2, std::string("value ") + angle + ": must be auto or within 0 and 60");
-  expect_failure(folder(), {"mesh", "info", mesh, "--min-wedge-angle-deg", "nan"}, 2, "value nan");
-  expect_failure(folder(), {"map", "scenarios/points.yaml", "--sample", "-1", "-o", folder() / "map.png"}, 2, "-1");
+    expect_failures({rcs({"-o", csv, "--crease-deg", angle})},
+                    std::string("value ") + angle + ": must be auto or within 0 and 60");
+  expect_failures({{"mesh", "info", mesh, "--min-wedge-angle-deg", "nan"}}, "value nan");
+  expect_failures({{"map", kPoints, "--sample", "-1", "-o", folder() / "map.png"}}, "-1");
 }
 
 // Bounds and references to help are those of the command that was called.
 TEST_F(InputErrors, OfAnOptionWithItsBoundsAndHelp) {
   for (const char* value : {"-1", "2.5", "1e3", "99999999999999999999"}) {
-    for (const Words& words :
-         {Words{"map", "scenarios/points.yaml", "-o", folder() / "map.png"},
-          Words{"echo", "scenarios/points.yaml", "-o", folder() / "e.npz"}, Words{"regenerate", folder()}}) {
-      expect_failure(folder(), with(words, {"--sample", value}), 2,
-                     std::string("--sample: value ") + value + ": must be a whole number, 0 or more (see seaglint " +
-                         words[0] + " --help)\n");
-    }
+    for (const Words& words : {Words{"map", kPoints, "-o", folder() / "map.png"},
+                               {"echo", kPoints, "-o", folder() / "e.npz"},
+                               {"regenerate", folder()}})
+      expect_failures({with(words, {"--sample", value})}, std::string("--sample: value ") + value +
+                                                              ": must be a whole number, 0 or more (see seaglint " +
+                                                              words[0] + " --help)\n");
   }
-  expect_failure(folder(), {"mesh", "make", "sphere", "--diameter-m", "1"}, 2,
-                 "(see seaglint mesh make sphere --help)\n");
-  expect_failure(folder(), {"mesh", "info"}, 2, "(see seaglint mesh info --help)\n");
+  expect_failures({{"mesh", "make", "sphere", "--diameter-m", "1"}}, "(see seaglint mesh make sphere --help)\n");
+  expect_failures({{"mesh", "info"}}, "(see seaglint mesh info --help)\n");
   expect_failure(folder(), {"verify", std::string(300, 'x')}, 1, "xxx/manifest.json: File name too long\n");
 }
 
@@ -225,7 +212,7 @@ TEST_F(InputErrors, OfAnOptionWithItsBoundsAndHelp) {
 TEST_F(InputErrors, AndFindingsSendNoByteOfAFileToTheTerminal) {
   write_file(folder() / "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\ng x\x1b[31m\nf 1 2 3\n");
   const ProgramResult info = completed({"mesh", "info", folder() / "a.obj"});
-  EXPECT_THAT(info.out, HasSubstr("x\\x1b[31m"));
+  EXPECT_HAS(info.out, "x\\x1b[31m");
   EXPECT_EQ(info.out.find('\x1b'), std::string::npos);
   write_file(folder() / "b.obj", "v \x1b[2J\xc2\x9b 0 0\n");
   expect_refused({"mesh", "info", folder() / "b.obj"}, "b.obj:1: \"\\x1b[2J\\xc2\\x9b\" is not a coordinate");
@@ -245,7 +232,7 @@ TEST_F(InputErrors, OfResumingAmongOtherFiles) {
   make_directory(folder() / "other");
   write_file(folder() / "other" / "notes.txt", "mine");
   for (const char* command : {"generate", "run"})
-    expect_failure(folder(), {command, "scenarios/points.yaml", "-o", folder() / "other", "--resume"}, 2,
+    expect_failure(folder(), {command, kPoints, "-o", folder() / "other", "--resume"}, 2,
                    "other: the directory contains");
 }
 
@@ -255,42 +242,36 @@ TEST_F(InputErrors, OfWritingOverAnInput) {
                     link = folder() / "link.glb";
   write_file(rao, "none");
   fs::create_symlink(mesh, link);
-  const Words rcs{"rcs", "--target", mesh, "--frequency-ghz", "10", "--azimuth-deg", "0"};
-  for (const Words& words :
-       {with(rcs, {"-o", mesh}), with(rcs, {"-o", link}), with(rcs, {"-o", rao, "--reference", rao}),
-        with(rcs, {"-o", folder() / "rcs.csv", "--export-scattering-centres", folder() / "." / "whole.glb"}),
-        Words{"mesh", "info", mesh, "--picture", mesh}, Words{"sea", file, "-o", file},
-        Words{"motion", file, "-o", file}, Words{"motion", file, "-o", mesh},
-        Words{"motion", file, "-o", rao, "--rao", folder() / "rao.png", "--rao-reference", rao}}) {
-    expect_failure(folder(), words, 2, "is read here, and would be written over");
-  }
+  expect_failures({rcs({"-o", mesh}),
+                   rcs({"-o", link}),
+                   rcs({"-o", rao, "--reference", rao}),
+                   rcs({"-o", folder() / "rcs.csv", "--export-scattering-centres", folder() / "." / "whole.glb"}),
+                   {"mesh", "info", mesh, "--picture", mesh},
+                   {"sea", file, "-o", file},
+                   {"motion", file, "-o", file},
+                   {"motion", file, "-o", mesh},
+                   {"motion", file, "-o", rao, "--rao", folder() / "rao.png", "--rao-reference", rao}},
+                  "is read here, and would be written over");
 }
 
 TEST_F(InputErrors, OfTwoOutputsInOneFile) {
-  const std::string mesh = folder() / "whole.glb", file = scenario(""), csv = folder() / "out.csv",
-                    png = folder() / "out.png";
-  for (const Words& words : {Words{"sea", file, "-o", csv, "--spectrum", csv, "--realisations", "2"},
-                             Words{"motion", file, "-o", csv, "--spectrum", folder() / "." / "out.csv"},
-                             Words{"motion", file, "-o", csv, "--figure", png, "--snapshots", png},
-                             Words{"rcs", "--target", mesh, "--frequency-ghz", "10", "--azimuth-deg", "0", "-o", csv,
-                                   "--export-scattering-centres", csv}}) {
-    expect_failure(folder(), words, 2, "would be written twice");
-  }
+  const std::string file = scenario(""), csv = folder() / "out.csv", png = folder() / "out.png";
+  expect_failures({{"sea", file, "-o", csv, "--spectrum", csv, "--realisations", "2"},
+                   {"motion", file, "-o", csv, "--spectrum", folder() / "." / "out.csv"},
+                   {"motion", file, "-o", csv, "--figure", png, "--snapshots", png},
+                   rcs({"-o", csv, "--export-scattering-centres", csv})},
+                  "would be written twice");
 }
 
 TEST_F(InputErrors, OfAnEndingOfAnotherFormat) {
-  const std::string mesh = folder() / "whole.glb";
-  expect_failure(folder(), {"echo", "scenarios/points.yaml", "-o", folder() / "echo.csv"}, 2,
-                 "echo.csv: NumPy's archives end in .npz");
+  expect_failures({{"echo", kPoints, "-o", folder() / "echo.csv"}}, "echo.csv: NumPy's archives end in .npz");
   for (const char* name : {"ship.jpg", "ship.svg", "ship"})
-    expect_failure(folder(), {"mesh", "info", mesh, "--picture", folder() / name}, 2,
-                   std::string(name) + ": the name of a mesh's picture ends in .png");
-  expect_failure(folder(), {"regenerate", folder(), "--sample", "0", "-o", folder() / "sample"}, 2,
-                 "sample: NumPy's archives end in .npz");
-  expect_failure(folder(),
-                 {"rcs", "--target", mesh, "--frequency-ghz", "10", "--azimuth-deg", "0", "-o", folder() / "rcs.csv",
-                  "--export-hot-spots", folder() / "spots.obj"},
-                 2, "spots.obj: colours need the ending .glb or .gltf");
+    expect_failures({{"mesh", "info", folder() / "whole.glb", "--picture", folder() / name}},
+                    std::string(name) + ": the name of a mesh's picture ends in .png");
+  expect_failures({{"regenerate", folder(), "--sample", "0", "-o", folder() / "sample"}},
+                  "sample: NumPy's archives end in .npz");
+  expect_failures({rcs({"-o", folder() / "rcs.csv", "--export-hot-spots", folder() / "spots.obj"})},
+                  "spots.obj: colours need the ending .glb or .gltf");
 }
 
 // The shell's limit is in units of 1024 bytes; by default the system kills a program that exceeds it.
@@ -306,10 +287,8 @@ TEST_F(InputErrors, OfALimitOnFileSizes) {
   const auto before = files_below(folder());
   limited({"mesh", "make", "sphere", "-o", folder() / "sphere.obj"});
   EXPECT_TRUE(files_below(folder()) == before);
-  limited({"generate", "scenarios/points.yaml", "-o", folder() / "data"});
-  Words names;
-  for (const auto& entry : fs::directory_iterator(folder() / "data")) names.push_back(entry.path().filename());
-  EXPECT_THAT(names, testing::ElementsAre("scenario.yaml"));
+  limited({"generate", kPoints, "-o", folder() / "data"});
+  EXPECT_THAT(names_in(folder() / "data"), testing::ElementsAre("scenario.yaml"));
 }
 
 // Below a file and in /proc no user can write, not even root; a folder without write permission stops all other users.
@@ -320,16 +299,14 @@ TEST_F(InputErrors, OfAPlaceThatCannotBeWritten) {
   std::vector<fs::path> places{folder() / "whole.glb", "/proc"};
   if (::geteuid() != 0) places.push_back(locked);
   for (const fs::path& place : places) {
-    for (const Words& words : scenario_commands("scenarios/points.yaml", place)) {
+    for (const Words& words : scenario_commands(kPoints, place)) {
       if (words.front() == "check" || words.front() == "motion") continue;  // no output; no points
       expect_failure(folder(), words, 1, place);
     }
-    const std::string mesh = folder() / "whole.glb";
-    expect_failure(folder(), {"mesh", "make", "plate", "-o", place / "plate.glb"}, 1, place);
-    expect_failure(folder(), {"mesh", "info", mesh, "--picture", place / "mesh.png"}, 1, place);
-    expect_failure(folder(),
-                   {"rcs", "--target", mesh, "--frequency-ghz", "10", "--azimuth-deg", "0", "-o", place / "x.csv"}, 1,
-                   place);
+    for (const Words& words : {Words{"mesh", "make", "plate", "-o", place / "plate.glb"},
+                               {"mesh", "info", folder() / "whole.glb", "--picture", place / "mesh.png"},
+                               rcs({"-o", place / "x.csv"})})
+      expect_failure(folder(), words, 1, place);
   }
 }
 
@@ -369,7 +346,7 @@ TEST_F(Options, OfNumbersAcceptNothingElse) {
   expect_refused(rcs(), {"--threads", "0x1"}, "--threads: value 0x1: must be a whole number (");
   expect_refused({"mesh", "make", "sphere", "-o", folder_.path() / "s.stl"}, {"--subdivisions", ""},
                  "--subdivisions: value '': must be a whole number (");
-  expect_refused({"map", "scenarios/points.yaml", "-o", folder_.path() / "m.png"}, {"--sample", "0x1"},
+  expect_refused({"map", kPoints, "-o", folder_.path() / "m.png"}, {"--sample", "0x1"},
                  "--sample: value 0x1: must be a whole number, 0 or more (");
   for (const std::string value : {"0x10", "abc", "", "inf", "nan"}) {
     const std::string quoted = value.empty() ? "''" : value;
@@ -390,7 +367,7 @@ TEST_F(Options, AndCommandsThatAreMisspeltAreNamed) {
                  "seaglint: unknown option '--targt': did you mean '--target'? (see seaglint rcs --help)\n");
   expect_refused({"rcs", "--targt=x", "--max-bounces", "abc"}, {},
                  "unknown option '--targt': did you mean '--target'?");
-  expect_refused({"check", "scenarios/points.yaml", "--sets", "x=1"}, {},
+  expect_refused({"check", kPoints, "--sets", "x=1"}, {},
                  "unknown option '--sets': did you mean '--set'? (see seaglint check --help)\n");
   expect_refused({"check", "--nothing-like-it"}, {},
                  "unknown option '--nothing-like-it' (see seaglint check --help)\n");
@@ -399,11 +376,11 @@ TEST_F(Options, AndCommandsThatAreMisspeltAreNamed) {
                  "unknown command 'plte': did you mean 'plate'? (see seaglint mesh make --help)\n");
   expect_refused({"mesh", "mkae"}, {}, "unknown command 'mkae': did you mean 'make'? (see seaglint mesh --help)\n");
   expect_refused({"mesh", "make"}, {}, "A subcommand is required (see seaglint mesh make --help)\n");
-  expect_refused({"check", "scenarios/points.yaml", "other.yaml"}, {}, "other.yaml");
+  expect_refused({"check", kPoints, "other.yaml"}, {}, "other.yaml");
 }
 
 TEST_F(Options, ThatNeedOthersNameThem) {
-  const Words sea{"sea", "scenarios/points.yaml", "-o", folder_.path() / "sea.csv"};
+  const Words sea{"sea", kPoints, "-o", folder_.path() / "sea.csv"};
   expect_refused(sea, {"--realisations", "2"},
                  "--realisations requires --spectrum or --figure (see seaglint sea --help)\n");
   expect_refused(rcs(), {"--transmit-elevation-deg", "2"},
@@ -426,7 +403,7 @@ TEST(HostileNames, OfPartsAreCellsOfCsv) {
   write_file(mesh, plate_of("=cmd|calc,\"x"));
   completed({"rcs", "--target", mesh, "--frequency-ghz", "1", "--azimuth-deg", "0", "--elevation-deg", "0",
              "--export-scattering-centres", centres, "-o", folder.path() / "rcs.csv"});
-  EXPECT_THAT(read_file(centres), HasSubstr(",\"'=cmd|calc,\"\"x\",1,"));
+  EXPECT_HAS(read_file(centres), ",\"'=cmd|calc,\"\"x\",1,");
 }
 
 TEST(HostileNames, NeverReachTheTerminalAsBytes) {
@@ -434,20 +411,20 @@ TEST(HostileNames, NeverReachTheTerminalAsBytes) {
   const fs::path mesh = folder.path() / "plate.obj", scenario = folder.path() / "s.yaml";
   write_file(mesh, plate_of("\x1b]0;title\x07\xff"));
   const ProgramResult info = completed({"mesh", "info", mesh});
-  EXPECT_THAT(info.out, HasSubstr("\\x1b]0;title\\x07"));
+  EXPECT_HAS(info.out, "\\x1b]0;title\\x07");
   EXPECT_FALSE(has_control_characters(info.out));
   write_file(scenario, "seaglint: 1\nname: \"a\\e[31m\"\n");
   const ProgramResult refused = run_program({"check", scenario});
   EXPECT_EQ(refused.code, 2);
-  EXPECT_THAT(refused.err, HasSubstr("\\x1b[31m"));
+  EXPECT_HAS(refused.err, "\\x1b[31m");
   EXPECT_FALSE(has_control_characters(refused.err));
 }
 
 TEST(HostileNames, AreEscapedInDataCards) {
   const TemporaryFolder folder;
   const fs::path data = folder.path() / "data";
-  completed({"generate", "scenarios/points.yaml", "--set", "dataset.maps_per_case=2", "--set",
-             "dataset.realisations_per_case=1", "--set", "name=a` <script>alert(1)</script> |", "-o", data});
+  completed({"generate", kPoints, "--set", "dataset.maps_per_case=2", "--set", "dataset.realisations_per_case=1",
+             "--set", "name=a` <script>alert(1)</script> |", "-o", data});
   EXPECT_THAT(read_file(data / "README.md"), testing::StartsWith("# Data set `` a` <script>alert(1)</script> | ``\n"));
 }
 

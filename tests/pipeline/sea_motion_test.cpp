@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <sstream>
 
@@ -10,11 +9,10 @@
 #include "sim/sea/realisation.h"
 #include "sim/sea/wave_field.h"
 #include "tests/pipeline/program.h"
+#include "tests/refusal.h"
 
 namespace seaglint {
 namespace {
-
-using testing::HasSubstr;
 
 // `sea` and `motion` write the results of their stages in the documented columns.
 
@@ -22,9 +20,8 @@ using testing::HasSubstr;
 std::vector<std::string> data_lines(const std::filesystem::path& file) {
   std::istringstream text(read_file(file));
   std::vector<std::string> lines;
-  for (std::string line; std::getline(text, line);) {
+  for (std::string line; std::getline(text, line);)
     if (line.empty() || line[0] != '#') lines.push_back(line);
-  }
   return lines;
 }
 
@@ -68,8 +65,8 @@ TEST(Sea, WritesTheSurfaceOfTheFirstSeaState) {
     EXPECT_NEAR(row[4], surface.slope_y, 1e-9);
   }
   const std::string text = read_file(file);
-  EXPECT_THAT(text, HasSubstr("4 sqrt(m0)"));
-  EXPECT_THAT(text, HasSubstr("cut-off"));
+  EXPECT_HAS(text, "4 sqrt(m0)");
+  EXPECT_HAS(text, "cut-off");
 }
 
 TEST(Sea, WritesTheKinematicsWithTheirOption) {
@@ -78,7 +75,7 @@ TEST(Sea, WritesTheKinematicsWithTheirOption) {
   completed({"sea", kPoints, "--kinematics", "--duration-s", "4", "--step-s", "0.5", "-o", file, "--set",
              "sea.spreading.kind=cos2s", "--set", "sea.depth_m=15"});
   const std::vector<std::string> lines = data_lines(file);
-  EXPECT_THAT(lines[0], HasSubstr("slope_y,velocity_x_mps,velocity_y_mps,velocity_z_mps,acceleration_x_mps2"));
+  EXPECT_HAS(lines[0], "slope_y,velocity_x_mps,velocity_y_mps,velocity_z_mps,acceleration_x_mps2");
   const Scenario scenario =
       read_scenario(SEAGLINT_SOURCE_DIR "/" + kPoints, {{"sea.spreading.kind", "cos2s"}, {"sea.depth_m", "15"}});
   const WaveField field = realise_sea(sea_states(scenario.sea).front(), scenario.seed, sea_key(0, 0));
@@ -91,7 +88,7 @@ TEST(Sea, WritesTheKinematicsWithTheirOption) {
       EXPECT_NEAR(row[static_cast<std::size_t>(8 + axis)], surface.acceleration[axis], 1e-8);
     }
   }
-  EXPECT_THAT(read_file(file), HasSubstr("# depth_m 15, Ursell number"));
+  EXPECT_HAS(read_file(file), "# depth_m 15, Ursell number");
 }
 
 // The file of the spectrum can be named as a spectrum by a scenario; statistics do not depend on threads.
@@ -103,8 +100,8 @@ TEST(Sea, WritesASpectrumThatAScenarioAccepts) {
                         "--threads", threads, "-o", folder.path() / "sea.csv"});
   };
   const ProgramResult result = completed(run(one, "1"));
-  EXPECT_THAT(result.out, HasSubstr("40 realisations: 4 sigma "));
-  EXPECT_THAT(result.out, HasSubstr("Forristall"));
+  EXPECT_HAS(result.out, "40 realisations: 4 sigma ");
+  EXPECT_HAS(result.out, "Forristall");
   EXPECT_EQ(run(two, "2").out, result.out);
   EXPECT_EQ(read_file(one), read_file(two));
 
@@ -120,7 +117,7 @@ TEST(Sea, WritesASpectrumThatAScenarioAccepts) {
   const ProgramResult again =
       completed({"sea", kPoints, "--duration-s", "1", "-o", folder.path() / "again.csv", "--set", "sea.spectrum=table",
                  "--set", "sea.table=" + one.string(), "--set", "sea.significant_wave_height_m=from_table"});
-  EXPECT_THAT(again.out, HasSubstr("4 sqrt(m0) 0.99"));  // the table ends at 1.2 times the cut-off
+  EXPECT_HAS(again.out, "4 sqrt(m0) 0.99");  // the table ends at 1.2 times the cut-off
 }
 
 TEST(Sea, DrawsItsFigureOrLeavesNoFile) {
@@ -138,11 +135,9 @@ TEST(Sea, DrawsItsFigureOrLeavesNoFile) {
 }
 
 TEST(Sea, RefusesInvalidRanges) {
-  for (const auto& wrong :
-       {std::pair{"--step-s", "0"}, std::pair{"--duration-s", "-1"}, std::pair{"--at", "1"}, std::pair{"--at", "nan,0"},
-        std::pair{"--duration-s", "nan"}, std::pair{"--step-s", "nan"}}) {
+  for (const auto& wrong : {std::pair{"--step-s", "0"}, std::pair{"--duration-s", "-1"}, std::pair{"--at", "1"},
+                            std::pair{"--at", "nan,0"}, std::pair{"--duration-s", "nan"}, std::pair{"--step-s", "nan"}})
     EXPECT_EQ(run_program({"sea", kPoints, "-o", "unused.csv", wrong.first, wrong.second}).code, 2) << wrong.first;
-  }
   expect_refused({"sea", kPoints, "-o", "unused.csv", "--duration-s", "1e6", "--step-s", "1e-4"}, "rows");
   expect_refused({"sea", kPoints, "-o", "unused.csv", "--set", "sea.cutoff_rad_s=0.1"}, "cutoff_rad_s");
 }
@@ -163,14 +158,13 @@ TEST(Commands, CheckTheirOutputFilesFirst) {
                             with(rcs, {"-o", table, "--export-scattering-centres", nowhere})}) {
     const ProgramResult result = run_program(words);
     EXPECT_EQ(result.code, 1) << words.front();
-    EXPECT_THAT(result.err, HasSubstr((words.front() == "echo" ? no_archive : nowhere) +
-                                      ": cannot write: No such file or directory"));
+    EXPECT_HAS(result.err,
+               (words.front() == "echo" ? no_archive : nowhere) + ": cannot write: No such file or directory");
   }
   for (const auto& words : {Words{"sea", "no.yaml", "-o", table, "--figure", "figure.bmp"},
                             {"motion", "no.yaml", "-o", table, "--snapshots", "figure.bmp"},
-                            {"map", "no.yaml", "-o", "figure.bmp"}}) {
+                            {"map", "no.yaml", "-o", "figure.bmp"}})
     expect_refused(words, "figure.bmp: a figure's name ends in .png or .svg");
-  }
 }
 
 // Rotations of WAMIT are per wamit_ulen_m, and waves of finite depth are shorter.
@@ -179,9 +173,8 @@ TEST(Motion, DrawsRaosInTheScenariosUnitsAndDepth) {
   const auto picture = [&](const std::string& scale, const std::vector<std::string>& settings) {
     const std::string reference = folder.path() / "ship.4", figure = folder.path() / "rao.svg";
     std::string rows;
-    for (const char* period : {"6", "8", "12"}) {
+    for (const char* period : {"6", "8", "12"})
       for (int mode = 1; mode <= 6; ++mode) rows += fmt::format("{0} 120 {1} {2} 0 {2} 0\n", period, mode, scale);
-    }
     write_file(reference, rows);
     // The numbers are those of no body.
     Words words = with({"motion", "scenarios/quick.yaml", "--duration-s", "1", "--set",
@@ -198,15 +191,14 @@ TEST(Motion, DrawsRaosInTheScenariosUnitsAndDepth) {
 
 TEST(Motion, WritesEveryBodyAtEveryTime) {
   const TemporaryFolder folder;
-  const std::string scenario = write_boxes(folder.path());
-  const std::string file = folder.path() / "motion.csv";
+  const std::string scenario = write_boxes(folder.path()), file = folder.path() / "motion.csv";
   completed({"motion", scenario, "--duration-s", "2", "--step-s", "0.1", "-o", file});
   const std::vector<std::string> lines = data_lines(file);
   ASSERT_EQ(lines.size(), 1 + 21 * 3u);
   EXPECT_EQ(lines[0], "time_s,body,roll_deg,pitch_deg,yaw_deg,surge_m,sway_m,heave_m");
-  EXPECT_THAT(lines[1], HasSubstr("0,ship,"));
-  EXPECT_THAT(lines[2], HasSubstr("0,array_1,"));
-  EXPECT_THAT(lines[3], HasSubstr("0,array_2,"));
+  EXPECT_HAS(lines[1], "0,ship,");
+  EXPECT_HAS(lines[2], "0,array_1,");
+  EXPECT_HAS(lines[3], "0,array_2,");
   for (std::size_t i = 1; i < lines.size(); ++i) EXPECT_EQ(numbers(lines[i]).size(), 8u);
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <fstream>
@@ -8,6 +7,7 @@
 
 #include "classify/dataset/format/manifest.h"
 #include "tests/pipeline/program.h"
+#include "tests/refusal.h"
 #include "tests/sanitized.h"
 
 namespace seaglint {
@@ -24,7 +24,7 @@ class DataSetVerification : public testing::Test {
  protected:
   void SetUp() override {
     directory_ = folder_.path() / "data";
-    completed({"generate", "scenarios/points.yaml", "-o", directory_, "--set", "dataset.maps_per_shard=5"});
+    completed({"generate", kPoints, "-o", directory_, "--set", "dataset.maps_per_shard=5"});
   }
 
   TemporaryFolder folder_;
@@ -33,17 +33,17 @@ class DataSetVerification : public testing::Test {
 
 TEST_F(DataSetVerification, AcceptsAValidDataSetAndItsRegeneratedSamples) {
   const ProgramResult result = completed({"verify", directory_, "--regenerate", "4"});
-  EXPECT_THAT(result.out, HasSubstr("4 regenerated samples match the stored ones"));
-  EXPECT_THAT(result.out, HasSubstr("no fault found"));
+  EXPECT_HAS(result.out, "4 regenerated samples match the stored ones");
+  EXPECT_HAS(result.out, "no fault found");
 }
 
 TEST_F(DataSetVerification, CrossChecksNoIdealPoints) {
-  EXPECT_THAT(completed({"verify", directory_, "--regenerate", "0", "--cross-check", "3"}).out,
-              HasSubstr("3 samples of ideal points left out, which have no solver"));
+  EXPECT_HAS(completed({"verify", directory_, "--regenerate", "0", "--cross-check", "3"}).out,
+             "3 samples of ideal points left out, which have no solver");
   expect_refused({"verify", directory_, "--regenerate", "0", "--cross-check", "3", "--cross-check-db", "-20"},
                  "--cross-check-db: none of 3 samples has a solver");
-  EXPECT_THAT(run_program({"verify", directory_, "--cross-check-db", "-20"}).err,
-              HasSubstr("--cross-check-db requires --cross-check"));
+  EXPECT_HAS(run_program({"verify", directory_, "--cross-check-db", "-20"}).err,
+             "--cross-check-db requires --cross-check");
 }
 
 // Two samples of a reflector; -300 dB is below any difference of two methods, 20 dB above that of any that agree.
@@ -59,21 +59,20 @@ TEST(CrossCheckedDataSet, ReportsDifferencesAndFailsOnlyAboveTheBound) {
     return run_program({"verify", data, "--regenerate", "0", "--cross-check", "9"}, more);
   };
   const ProgramResult reported = completed(verify({}));
-  EXPECT_THAT(reported.out, HasSubstr("  reflector  beams   rays "));
+  EXPECT_HAS(reported.out, "  reflector  beams   rays ");
   completed(verify({"--cross-check-db", "20"}));
   const ProgramResult failed = verify({"--cross-check-db", "-300"});
   EXPECT_EQ(failed.code, 1);
-  EXPECT_THAT(failed.err, HasSubstr("the median relative difference of the response, "));
+  EXPECT_HAS(failed.err, "the median relative difference of the response, ");
   EXPECT_EQ(failed.out, reported.out);
 }
 
 TEST_F(DataSetVerification, NeitherMergesOverItselfNorAcceptsItAsARun) {
   const std::string shard = read_file(directory_ / "shard_00000.h5"),
                     scenario = read_file(directory_ / "scenario.yaml");
-  for (const char* name : {"shard_00000.h5", "scenario.yaml", "manifest.json", "merged.txt"}) {
+  for (const char* name : {"shard_00000.h5", "scenario.yaml", "manifest.json", "merged.txt"})
     expect_refused({"merge", directory_, "-o", directory_ / name}, name);
-  }
-  expect_refused({"run", "scenarios/points.yaml", "--set", "seed=99", "-o", directory_, "--resume"},
+  expect_refused({"run", kPoints, "--set", "seed=99", "-o", directory_, "--resume"},
                  "contains something else than a run");
   EXPECT_EQ(read_file(directory_ / "shard_00000.h5"), shard);
   EXPECT_EQ(read_file(directory_ / "scenario.yaml"), scenario);
@@ -81,25 +80,19 @@ TEST_F(DataSetVerification, NeitherMergesOverItselfNorAcceptsItAsARun) {
 }
 
 TEST_F(DataSetVerification, RefusesATruncatedShard) {
-  fs::path shard;
-  for (const auto& entry : fs::directory_iterator(directory_)) {
-    if (entry.path().extension() == ".h5") shard = entry.path();
-  }
+  const fs::path shard = directory_ / "shard_00003.h5";
   fs::resize_file(shard, fs::file_size(shard) / 2);
   expect_refused({"verify", directory_}, "faults, the first: " + shard.string());
 }
 
-TEST_F(DataSetVerification, RefusesAForeignFile) {
+TEST_F(DataSetVerification, RefusesAForeignFileAndAMissingManifest) {
   write_file(directory_ / "foo", "");
   const ProgramResult result = run_program({"verify", directory_});
   EXPECT_EQ(result.code, 2);
-  EXPECT_THAT(result.out, HasSubstr("fault: foo: is no file of a data set\n"));
+  EXPECT_HAS(result.out, "fault: foo: is no file of a data set\n");
   fs::remove(directory_ / "foo");
   write_file(directory_ / ".nfs0001", "");  // temporary file of a network file server
   completed({"verify", directory_, "--regenerate", "0"});
-}
-
-TEST_F(DataSetVerification, RefusesAMissingManifest) {
   fs::remove(directory_ / "manifest.json");
   expect_refused({"verify", directory_}, "manifest.json");
 }
@@ -112,19 +105,16 @@ bool has_python() { return fs::exists(kPython) && run_words({kPython, "-c", "imp
   if (!has_python()) GTEST_SKIP() << "needs the packages python3-h5py and python3-numpy"
 
 // One data set with complex maps for all tests of this file; tests that change it use a copy.
-class DataSetUse : public testing::Test {
+class DataSetUse : public SharedFolder {
  protected:
   static void SetUpTestSuite() {
-    folder_ = new TemporaryFolder;
-    data_ = folder_->path() / "data";
-    completed({"generate", "scenarios/points.yaml", "-o", data_, "--set", "dataset.maps_per_shard=15", "--set",
-               "dataset.complex_maps=true"});
-    EXPECT_THAT(completed({"merge", data_}).out, HasSubstr("dataset.h5: 40 samples of 3 shards"));
+    data_ = path("data");
+    completed(
+        {"generate", kPoints, "-o", data_, "--set", "dataset.maps_per_shard=15", "--set", "dataset.complex_maps=true"});
+    EXPECT_HAS(completed({"merge", data_}).out, "dataset.h5: 40 samples of 3 shards");
   }
-  static void TearDownTestSuite() { delete folder_; }
-
   static fs::path copy() {
-    fs::path place = folder_->path() / testing::UnitTest::GetInstance()->current_test_info()->name();
+    fs::path place = path(testing::UnitTest::GetInstance()->current_test_info()->name());
     fs::copy(data_, place);
     return place;
   }
@@ -138,13 +128,10 @@ class DataSetUse : public testing::Test {
     EXPECT_EQ(result.out, "equal\n");
   }
 
-  static inline TemporaryFolder* folder_ = nullptr;
   static inline fs::path data_;
 };
 
-TEST_F(DataSetUse, VerifiesWithItsMergedFile) {
-  EXPECT_THAT(completed({"verify", data_}).out, HasSubstr("no fault found"));
-}
+TEST_F(DataSetUse, VerifiesWithItsMergedFile) { EXPECT_HAS(completed({"verify", data_}).out, "no fault found"); }
 
 TEST_F(DataSetUse, IsNotMergedWithAShardMissing) {
   const fs::path data = copy();
@@ -154,9 +141,9 @@ TEST_F(DataSetUse, IsNotMergedWithAShardMissing) {
 }
 
 TEST_F(DataSetUse, RegeneratesASampleBitForBit) {
-  const fs::path out = folder_->path() / "sample.npz";
-  EXPECT_THAT(completed({"regenerate", data_, "--sample", "17", "-o", out}).out,
-              HasSubstr("the regenerated sample matches the stored one, bit for bit"));
+  const fs::path out = path("sample.npz");
+  EXPECT_HAS(completed({"regenerate", data_, "--sample", "17", "-o", out}).out,
+             "the regenerated sample matches the stored one, bit for bit");
   SKIP_WITHOUT_PYTHON();
   expect_equal_in_python(
       "a, h = np.load(out), h5py.File(data + '/dataset.h5')\n"
@@ -184,15 +171,15 @@ TEST_F(DataSetUse, ReportsDifferencesOfARegeneratedSample) {
   write_file(data / "manifest.json", manifest);
   const ProgramResult result = run_program({"regenerate", data, "--sample", "3"});
   EXPECT_EQ(result.code, 2);
-  EXPECT_THAT(result.err, HasSubstr("sample 3 regenerated: its map differs by up to"));
-  EXPECT_THAT(result.err, HasSubstr("scr_per_pulse_db"));
+  EXPECT_HAS(result.err, "sample 3 regenerated: its map differs by up to");
+  EXPECT_HAS(result.err, "scr_per_pulse_db");
   expect_refused({"regenerate", data, "--sample", "40"}, "--sample 40: the data set has samples 0 to 39");
 }
 
 TEST_F(DataSetUse, IsTheSameInNumpy) {
-  const fs::path one = folder_->path() / "all.npz", many = folder_->path() / "npz";
+  const fs::path one = path("all.npz"), many = path("npz");
   completed({"export", data_, "-o", one});
-  EXPECT_THAT(completed({"export", data_, "-o", many}).out, HasSubstr("40 samples in 3 files"));
+  EXPECT_HAS(completed({"export", data_, "-o", many}).out, "40 samples in 3 files");
   SKIP_WITHOUT_PYTHON();
   const std::string compare =
       "def equal(a, h):\n"
@@ -214,7 +201,7 @@ TEST_F(DataSetUse, IsTheSameInNumpy) {
 }
 
 TEST_F(DataSetUse, IsExportedInTheSameBytesAtAnyTime) {
-  const fs::path out = folder_->path() / "twice.npz";
+  const fs::path out = path("twice.npz");
   completed({"export", data_, "-o", out});
   const std::string first = read_file(out);
   timespec pause{2, 100000000};  // longer than the two-second resolution of a zip's time stamps
@@ -226,20 +213,19 @@ TEST_F(DataSetUse, IsExportedInTheSameBytesAtAnyTime) {
 // A directory set.mat with .npz files would look like a file that MATLAB reads.
 TEST_F(DataSetUse, IsNotExportedUnderTheNameOfAnotherFormat) {
   for (const char* name : {"set.mat", "set.h5", "set.csv", "set.npy", "set.MAT", "set.tar", "set.zip"}) {
-    const fs::path out = folder_->path() / name;
+    const fs::path out = path(name);
     const ProgramResult result = run_program({"export", data_, "-o", out});
-    EXPECT_EQ(result.code, 2) << name;
-    EXPECT_THAT(result.err, AllOf(HasSubstr(std::string(name) + ": "),
-                                  HasSubstr("is no format of this command: it writes one file FILE.npz")));
+    expect_refused(result, std::string(name) + ": ");
+    EXPECT_HAS(result.err, "is no format of this command: it writes one file FILE.npz");
     EXPECT_FALSE(fs::exists(out)) << name;
   }
-  completed({"export", data_, "-o", folder_->path() / "set.v2"});
+  completed({"export", data_, "-o", path("set.v2")});
 }
 
 // Two data sets in one directory would be read as one.
 TEST_F(DataSetUse, IsNotExportedAmongFilesOfAnother) {
-  const fs::path other = folder_->path() / "other", out = folder_->path() / "shards";
-  completed({"generate", "scenarios/points.yaml", "-o", other, "--set", "dataset.maps_per_case=10"});
+  const fs::path other = path("other"), out = path("shards");
+  completed({"generate", kPoints, "-o", other, "--set", "dataset.maps_per_case=10"});
   completed({"export", other, "-o", out});
   const auto refused = [](const fs::path& data, const fs::path& place, const std::string& message) {
     expect_refused({"export", data, "-o", place}, message);
@@ -268,10 +254,8 @@ TEST_F(DataSetUse, IsNotExportedWithAShardDamagedNorOntoAFullDisk) {
   const ProgramResult limited = run_words({"/bin/bash", "-c", "trap '' XFSZ; ulimit -f 200; exec \"$@\"", "limited",
                                            kProgram, "export", data_, "-o", data / "x.npz"});
   EXPECT_EQ(limited.code, 1);
-  EXPECT_THAT(limited.err, HasSubstr("x.npz: cannot write: "));
-  for (const auto& entry : fs::directory_iterator(data)) {
-    EXPECT_THAT(entry.path().filename().string(), testing::Not(testing::StartsWith("x.npz")));
-  }
+  EXPECT_HAS(limited.err, "x.npz: cannot write: ");
+  EXPECT_THAT(names_in(data), testing::Each(Not(testing::StartsWith("x.npz"))));
 }
 
 // No user can write in /proc, not even root.
@@ -282,41 +266,41 @@ TEST_F(DataSetUse, ReportsWhereItCannotBeWritten) {
                                                {"regenerate", data_, "--sample", "3", "-o", "/proc/x.npz"}}) {
     const ProgramResult result = run_program(words);
     EXPECT_EQ(result.code, 1) << words[0];
-    EXPECT_THAT(result.err, HasSubstr("seaglint: /proc/x")) << words[0];
+    EXPECT_HAS(result.err, "seaglint: /proc/x") << words[0];
     EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
   }
 }
 
 // HDF5 would pair the labels of one data set with the maps of another, beside the file or in the working directory.
 TEST_F(DataSetUse, NamesAMergedFileOfAnotherDataSet) {
-  const fs::path other = folder_->path() / "another_set";
-  completed({"generate", "scenarios/points.yaml", "--set", "seed=7", "--set", "dataset.maps_per_case=2", "--set",
+  const fs::path other = path("another_set");
+  completed({"generate", kPoints, "--set", "seed=7", "--set", "dataset.maps_per_case=2", "--set",
              "dataset.realisations_per_case=1", "-o", other});
   fs::copy(data_ / "dataset.h5", other / "dataset.h5");
   const std::string sentence = (other / "dataset.h5").string() + ": is of another manifest";
-  for (const Words& words : {Words{"export", other, "-o", folder_->path() / "another_set.npz"},
+  for (const Words& words : {Words{"export", other, "-o", path("another_set.npz")},
                              {"regenerate", other, "--sample", "0"},
                              {"verify", other, "--regenerate", "0"}}) {
     const ProgramResult result = run_program(words);
     EXPECT_EQ(result.code, words[0] == "verify" ? 2 : 0) << words[0];
-    EXPECT_THAT(result.err, HasSubstr("is of another manifest")) << words[0];
+    EXPECT_HAS(result.err, "is of another manifest") << words[0];
   }
   SKIP_WITHOUT_PYTHON();
   const std::string example = SEAGLINT_SOURCE_DIR "/tools/python/read_dataset.py";
-  EXPECT_THAT(run_words({kPython, example, other / "dataset.h5"}).err, HasSubstr(sentence));
-  const fs::path alone = folder_->path() / "alone";
+  EXPECT_HAS(run_words({kPython, example, other / "dataset.h5"}).err, sentence);
+  const fs::path alone = path("alone");
   fs::create_directories(alone);
   fs::copy(data_ / "dataset.h5", alone / "dataset.h5");
-  EXPECT_THAT(run_words({"/usr/bin/env", "--chdir=" + other.string(), kPython, example, alone / "dataset.h5"}).err,
-              HasSubstr("manifest.json: missing"));
+  EXPECT_HAS(run_words({"/usr/bin/env", "--chdir=" + other.string(), kPython, example, alone / "dataset.h5"}).err,
+             "manifest.json: missing");
 }
 
 TEST_F(DataSetUse, IsReadByThePythonExample) {
   SKIP_WITHOUT_PYTHON();
   const std::string example = SEAGLINT_SOURCE_DIR "/tools/python/read_dataset.py";
   const ProgramResult merged = completed(run_words({kPython, example, data_ / "dataset.h5"}));
-  EXPECT_THAT(merged.out, HasSubstr("20 of 40 maps have label 1"));
-  EXPECT_THAT(merged.out, HasSubstr("\ntrain    16       4"));
+  EXPECT_HAS(merged.out, "20 of 40 maps have label 1");
+  EXPECT_HAS(merged.out, "\ntrain    16       4");
   const ProgramResult shards = run_words({kPython, example, data_});
   EXPECT_EQ(shards.out, merged.out) << shards.err;
   const fs::path data = copy();
@@ -324,7 +308,7 @@ TEST_F(DataSetUse, IsReadByThePythonExample) {
   for (const fs::path& place : {data, data / "dataset.h5"}) {
     const ProgramResult refused = run_words({kPython, example, place});
     EXPECT_NE(refused.code, 0);
-    EXPECT_THAT(refused.err, HasSubstr("shard_00001.h5: missing (1 of 3 shards)"));
+    EXPECT_HAS(refused.err, "shard_00001.h5: missing (1 of 3 shards)");
   }
 }
 
@@ -344,8 +328,8 @@ class HostileDataSet : public testing::Test {
 
 TEST_F(HostileDataSet, IsRefusedWithTheShardsName) {
   if (run_words({kPython, "-c", "import h5py, numpy"}).code != 0) GTEST_SKIP() << "no h5py";
-  completed({"generate", "scenarios/points.yaml", "--set", "dataset.maps_per_case=4", "--set",
-             "dataset.realisations_per_case=2", "--set", "dataset.maps_per_shard=4", "-o", base_});
+  completed({"generate", kPoints, "--set", "dataset.maps_per_case=4", "--set", "dataset.realisations_per_case=2",
+             "--set", "dataset.maps_per_shard=4", "-o", base_});
   for (int i = 0; i < 100000; ++i) std::ofstream(secret_, std::ios::app) << "SECRET OF ANOTHER FILE ";
   const fs::path made = folder_.path() / "made";
   const std::string hostile_shards = SEAGLINT_SOURCE_DIR "/tests/pipeline/hostile_shards.py";
@@ -359,7 +343,7 @@ TEST_F(HostileDataSet, IsRefusedWithTheShardsName) {
                                {"export", made / kind, "-o", exported}}) {
       const ProgramResult result = bounded(words);
       EXPECT_EQ(result.code, 2) << kind << ", " << words[0] << ": " << result.err;
-      EXPECT_THAT(result.err, HasSubstr("shard_00000.h5: ")) << kind << ", " << words[0];
+      EXPECT_HAS(result.err, "shard_00000.h5: ") << kind << ", " << words[0];
       EXPECT_THAT(result.err, Not(HasSubstr("SECRET"))) << kind;
     }
     EXPECT_FALSE(fs::exists(exported)) << kind;

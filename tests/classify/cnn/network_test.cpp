@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +12,7 @@
 #include "sim/core/numbers/random.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
+#include "tests/temporary_folder.h"
 
 namespace seaglint {
 
@@ -147,12 +147,11 @@ TEST(Network, ReloadsFromItsFileAndRejectsBrokenOnes) {
   LearningSpec spec = short_training();
   spec.map_floor_db = -33.3;
   const Network network = trained(set, spec);
-  const auto file =
-      std::filesystem::temp_directory_path() / ("seaglint_network_" + std::to_string(::getpid()) + ".bin");
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "network.bin";
   network.save(file);
   EXPECT_EQ(Network::load(file).embed(set.maps).logits, network.embed(set.maps).logits);
-  const std::string bytes = read_file(file);
-  const std::string nan("\0\0\xc0\x7f", 4);
+  const std::string bytes = read_file(file), nan("\0\0\xc0\x7f", 4);
   for (const std::string& broken :
        {std::string(), std::string("text that is long enough"), bytes.substr(0, bytes.size() - 1), bytes + "x",
         bytes.substr(0, 8) + nan + bytes.substr(12), "3NGS" + bytes.substr(4),
@@ -160,7 +159,6 @@ TEST(Network, ReloadsFromItsFileAndRejectsBrokenOnes) {
     write_file(file, broken);
     EXPECT_THROW(Network::load(file), InputError) << broken.size() << " bytes";
   }
-  std::filesystem::remove(file);
 }
 
 TEST(Network, StopsWhenTheFlagIsSet) {
@@ -195,7 +193,8 @@ TEST(Network, OfThreeClassesSeparatesThemAndReloads) {
   spec.threads = 3;
   EXPECT_EQ(train(spec).embed(set.maps).logits, first);
 
-  const auto file = std::filesystem::temp_directory_path() / ("seaglint_three_" + std::to_string(::getpid()) + ".bin");
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "three.bin";
   network.save(file);
   EXPECT_EQ(Network::load(file).embed(set.maps).logits, outputs.logits);
   EXPECT_EQ(Network::load(file).classes(), 3u);
@@ -204,12 +203,7 @@ TEST(Network, OfThreeClassesSeparatesThemAndReloads) {
     write_file(file, bytes.substr(0, 16) + count + bytes.substr(17));
     EXPECT_THROW(Network::load(file), InputError) << static_cast<int>(count) << " classes";
   }
-  std::filesystem::remove(file);
 }
-
-}  // namespace
-
-namespace {
 
 constexpr std::size_t kPlane = kInputRows * kInputColumns;
 

@@ -4,12 +4,15 @@
 // A small data set in a directory of its own; its rows and maps are consistent with its scenario.
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <string>
 
+#include "classify/dataset/directory/dataset_reader.h"
 #include "classify/dataset/directory/dataset_writer.h"
+#include "sim/core/process/file.h"
+#include "tests/refusal.h"
+#include "tests/temporary_folder.h"
 
 namespace seaglint {
 
@@ -20,14 +23,6 @@ inline std::string leftover_name(const std::string& file) { return file + ".0123
 
 class DataSetDirectory : public testing::Test {
  protected:
-  void SetUp() override {
-    directory_ =
-        std::filesystem::temp_directory_path() / ("seaglint_data_" + std::to_string(::getpid()) + "_" +
-                                                  testing::UnitTest::GetInstance()->current_test_info()->name());
-    std::filesystem::remove_all(directory_);
-  }
-  void TearDown() override { std::filesystem::remove_all(directory_); }
-
   Shard shard_of(std::size_t index) const {
     Shard shard;
     shard.origin = {kTestVersion, processor_kind()};
@@ -52,9 +47,24 @@ class DataSetDirectory : public testing::Test {
     ASSERT_TRUE(writer.finish().empty());
   }
 
+  // Messages with which the directory is refused.
+  std::string unreadable() const {
+    return refusal_of([&] { DatasetReader reader(directory_); });
+  }
+  std::string not_continued() const {
+    return refusal_of([&] { DatasetWriter(directory_, scenario_, true, kTestVersion); });
+  }
+  // Changes a byte of a file.
+  static void damage(const std::filesystem::path& file, std::size_t place) {
+    std::string bytes = read_file(file);
+    bytes.at(place) = static_cast<char>(bytes[place] ^ 1);
+    write_file(file, bytes);
+  }
+
   void make_manifest_again() { DatasetWriter(directory_, scenario_, true, kTestVersion).finish(); }
 
-  std::filesystem::path directory_;
+  const TemporaryFolder folder_;
+  const std::filesystem::path directory_ = folder_.path() / "data";
   Scenario scenario_ = parse_scenario(R"(
 seaglint: 1
 name: small

@@ -65,10 +65,6 @@ TEST(Features, OfFewOrCoincidentCentresAreFiniteAndFlagged) {
   EXPECT_NEAR(compute_features(cases[4], {}).mwr, 8.0 / 9, 1e-15);  // 1, 1, 3 about 5/3
 }
 
-}  // namespace
-
-namespace {
-
 TEST(VelocityLine, IsThatOfPointsOnALine) {
   std::vector<ScatteringCentre> centres;
   for (const double r : {-51.0, -20.0, 3.5, 12.0, 64.0}) centres.push_back({r, 0.3 - 0.002 * r, 1 + 0.01 * r});
@@ -103,10 +99,6 @@ TEST(VelocityLine, HasNoSlopeWithoutTwoRanges) {
   EXPECT_EQ(line.slope, 0);
   EXPECT_EQ(line.offset, 2);
 }
-
-}  // namespace
-
-namespace {
 
 TEST(MotionFeatures, OfARotatingLineAreThoseOfARigidBody) {
   std::vector<ScatteringCentre> centres;

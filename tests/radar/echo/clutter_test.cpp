@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <initializer_list>
 
 #include "radar/echo/echo.h"
 #include "radar/echo/sea_clutter.h"
@@ -226,8 +225,7 @@ TEST(ClutterDoppler, EqualsTheVelocityMomentsOfTheSea) {
     }
     // For a small lag the phase gives the mean velocity, the loss of magnitude the spread.
     const VelocityMoments sea = clutter_velocity_moments(spec, scene, wavelength);
-    const double per_mps = 4 * kPi * kLag * train.pri_s / wavelength;
-    const double mean = -std::arg(sum) / per_mps;
+    const double per_mps = 4 * kPi * kLag * train.pri_s / wavelength, mean = -std::arg(sum) / per_mps;
     const double spread = std::sqrt(-2 * std::log(std::abs(sum) / power)) / per_mps;
     std::printf("mean %.3f (law %.3f), spread %.3f (law %.3f) m/s\n", mean, sea.mean_mps, spread,
                 std::hypot(sea.spread_mps, 0.1));
@@ -344,8 +342,7 @@ TEST(ReceiverNoise, FollowsTheRadarEquation) {
   const PulseTrain train = make_pulse_train({}, 239.8, 1, 2);
   const double lambda_db = 20 * std::log10(299792458.0 / train.band_centre_hz());
   const double energy_db = 40 - 44.43697 + 80 + lambda_db - 21.98420 - 172.04120 - 6;
-  const double density_db = -228.59917 + 24.62398 + 4;
-  const double noise_db = 10 * std::log10(thermal_noise_m2(train, {}));
+  const double density_db = -228.59917 + 24.62398 + 4, noise_db = 10 * std::log10(thermal_noise_m2(train, {}));
   EXPECT_NEAR(noise_db, density_db - energy_db + 10 * std::log10(40.0), 1e-4);
 }
 

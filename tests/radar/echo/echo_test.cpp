@@ -44,9 +44,8 @@ TEST(Echo, IsTheTransmitSpectrumTimesTheResponse) {
   EXPECT_TRUE(echo.clutter.empty());
   EXPECT_EQ(echo.pulses, 256);
   EXPECT_EQ(echo.frequencies, 40);
-  for (std::size_t i = 0; i < echo.target.size(); ++i) {
+  for (std::size_t i = 0; i < echo.target.size(); ++i)
     EXPECT_EQ(echo.target[i], train.chirp_spectrum[i % 40] * response.values[i]);
-  }
   EXPECT_EQ(echo.total(), echo.target);
 }
 
@@ -140,8 +139,7 @@ TEST(Clutter, IsKDistributedInRangeCells) {
     }
     double mean = 0, square = 0;
     for (const double r : ratios) mean += r / 20, square += r * r / 20;
-    const double error = std::sqrt((square - mean * mean) / 19);
-    const double expected = 2 * (1 + 1 / shape);
+    const double error = std::sqrt((square - mean * mean) / 19), expected = 2 * (1 + 1 / shape);
     std::printf("shape %.1f: <I^2>/<I>^2 = %.3f +- %.3f, law %.3f\n", shape, mean, error, expected);
     // Texture varies a little inside a cell (3 % of its variance), and a batch's mean power is uncertain (bias of the
     // ratio).
@@ -162,9 +160,8 @@ TEST(Clutter, IsTheSameSeaAtEveryCarrier) {
   spec.doppler_spread_mps = 0;
   const std::vector<Complex> response = clutter_response(train, spec, {}, 3, 4);
   const std::size_t hop = train.bins_per_hop, bins = train.frequencies();
-  for (std::size_t b = hop; b < bins; ++b) {
+  for (std::size_t b = hop; b < bins; ++b)
     EXPECT_NEAR(std::abs(response[b] - response[bins + b - hop]), 0, 1e-5);  // 1e-6 of drift in a coherent interval
-  }
 }
 
 TEST(Clutter, DecorrelatesWithinTheChirpByItsRangeWindow) {
@@ -209,8 +206,7 @@ TEST(Clutter, HasTheSpecifiedDopplerMeanAndSpread) {
         }
       }
     }
-    const double tau = lag * train.pri_s;
-    const double spread = 4 * kPi * spec.doppler_spread_mps * tau / wavelength;
+    const double tau = lag * train.pri_s, spread = 4 * kPi * spec.doppler_spread_mps * tau / wavelength;
     const Complex expected =
         std::polar(std::exp(-spread * spread / 2), -4 * kPi * spec.doppler_mean_mps * tau / wavelength);
     std::printf("lag %d: %.4f %+.4fj, law %.4f %+.4fj\n", lag, (sum / power).real(), (sum / power).imag(),

@@ -10,6 +10,7 @@
 #include "sim/canonical/point_response.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/random.h"
+#include "tests/map_levels.h"
 #include "tests/measured.h"
 
 namespace seaglint {
@@ -36,22 +37,6 @@ std::vector<Complex> echo_of(const PulseTrain& train, const std::vector<MovingPo
   clutter.enabled = false;
   return synthesise_echo(train, point_response(specs, Vec3(1, 0, 0), interval_sampling(train, 0)), clutter, 1, 1)
       .target;
-}
-
-struct Peak {
-  double range_m = 0, velocity_mps = 0, level = 0;
-  Complex value;
-};
-Peak peak_of(const RvMap& map) {
-  Peak peak;
-  for (std::size_t v = 0; v < map.velocity_mps.size(); ++v) {
-    for (std::size_t r = 0; r < map.columns(); ++r) {
-      if (std::abs(map.at(v, r)) > peak.level) {
-        peak = {map.range_m[r], map.velocity_mps[v], std::abs(map.at(v, r)), map.at(v, r)};
-      }
-    }
-  }
-  return peak;
 }
 
 // One cell of the map directly from the definition (radar/rvmap/README.md): compress, compensate, mean over each
@@ -324,9 +309,8 @@ TEST(RvMap, IsLinear) {
   for (std::size_t i = 0; i < a.size(); ++i) sum[i] = Complex(2, -1) * a[i] + b[i];
   const RvMap of_a = form_rv_map(a, train, {}, false), of_b = form_rv_map(b, train, {}, false),
               of_sum = form_rv_map(sum, train, {}, false);
-  for (std::size_t i = 0; i < of_sum.values.size(); ++i) {
+  for (std::size_t i = 0; i < of_sum.values.size(); ++i)
     EXPECT_NEAR(std::abs(of_sum.values[i] - (Complex(2, -1) * of_a.values[i] + of_b.values[i])), 0, 1e-12);
-  }
 }
 
 TEST(RvMap, KeepsTheEnergyOfTheSynthesisedBandByParseval) {

@@ -16,6 +16,8 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
 #include "tests/measured.h"
+#include "tests/refusal.h"
+#include "tests/relative_difference.h"
 
 namespace seaglint {
 namespace {
@@ -66,12 +68,6 @@ SampledEcho echo_by_delay(const PulseTrain& train, const RadarSpec& radar, const
   return sampled;
 }
 
-double relative_difference(const std::vector<Complex>& a, const std::vector<Complex>& b) {
-  double difference = 0, power = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) difference += std::norm(a[i] - b[i]), power += std::norm(a[i]);
-  return std::sqrt(difference / power);
-}
-
 double largest_difference(const RvMap& a, const RvMap& b) {
   double difference = 0, peak = 0;
   for (std::size_t i = 0; i < a.values.size(); ++i) {
@@ -100,12 +96,7 @@ TEST(SampledEcho, WithARateThatDoesNotFitIsRefusedWithTheNearestRatesThatDo) {
       radar.hop_step_mhz = hop_step_mhz;
       radar.sampling_mhz = wrong_mhz;
       const PulseTrain train = make_pulse_train(radar, 239.8, 1, 2);
-      std::string message = "accepted";
-      try {
-        train_for_samples(train, radar);
-      } catch (const InputError& error) {
-        message = error.what();
-      }
+      const std::string message = refusal_of([&] { train_for_samples(train, radar); });
       const std::string mark = "; the nearest: ";
       const std::size_t at = message.find(mark);
       ASSERT_NE(at, std::string::npos) << message << wrong_mhz << " " << hop_step_mhz;
@@ -178,7 +169,7 @@ TEST(SampledEcho, DiffersFromAChirpDelayedInTimeByItsAliasingOnly) {
     const std::vector<Complex> in_frequency = echo_in_frequency(train);
     const SampledEcho delayed = echo_by_delay(train, radar, sample_echo(echo_in_frequency(fine), fine, 50e6));
     const std::vector<Complex> in_time = spectrum_of(delayed, train);
-    const double difference = relative_difference(in_frequency, in_time);
+    const double difference = relative_difference(in_time, in_frequency);
     const double in_map = largest_difference(form_rv_map(in_frequency, train, {}, intra_pulse_motion),
                                              form_rv_map(in_time, train, {}, intra_pulse_motion));
     std::printf("intra-pulse motion %d: in band %.2f %% rms, in the map %.1e of the peak\n", intra_pulse_motion,
@@ -189,7 +180,7 @@ TEST(SampledEcho, DiffersFromAChirpDelayedInTimeByItsAliasingOnly) {
     // map.
     const RadarSpec other = radar_with(!intra_pulse_motion);
     const std::vector<Complex> wrong = echo_in_frequency(make_pulse_train(other, 239.8, 1, 2));
-    EXPECT_GT(relative_difference(wrong, in_time), 1.5 * difference);
+    EXPECT_GT(relative_difference(in_time, wrong), 1.5 * difference);
     worst = std::max(worst, difference);
   }
   record_figure(100 * worst, 2, "sampled_echo_delay_percent");

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
@@ -33,9 +32,8 @@ TEST(HopCodeFile, IsUsedBlockByBlock) {
 
 TEST(HopCodeFile, RefusesInvalidCodes) {
   for (const char* text :
-       {"", "# nothing\n", "0 1 2", "0 1 2 3", "0 1 x 2", "0 1 -1 2", "0 1 1.5 2", "0 1 2 99999999999"}) {
+       {"", "# nothing\n", "0 1 2", "0 1 2 3", "0 1 x 2", "0 1 -1 2", "0 1 1.5 2", "0 1 2 99999999999"})
     EXPECT_THROW(read_hop_code({"codes.txt", text}, 4, 3), InputError) << text;
-  }
   try {
     read_hop_code({"codes.txt", "0 1\n2 3\n"}, 4, 3);
     FAIL();
@@ -79,9 +77,8 @@ TEST(PulseTrain, ThePaperRadarHasItsResolutionsAndFortyBinsPerPulse) {
 TEST(PulseTrain, BandsOfAdjacentCarriersCoverTheBandUniformly) {
   const PulseTrain train = make_pulse_train(paper_radar(), kShipWindow, 1, 2);
   std::vector<double> all;
-  for (int i = 0; i < train.carriers; ++i) {
+  for (int i = 0; i < train.carriers; ++i)
     for (const double f : train.baseband_hz) all.push_back(train.first_carrier_hz + i * train.hop_step_hz + f);
-  }
   for (std::size_t k = 1; k < all.size(); ++k)
     EXPECT_NEAR(all[k] - all[k - 1], train.baseband_step_hz, 1e-5);  // 16e9 eps = 4e-6
 }
@@ -108,9 +105,8 @@ TEST(PulseTrain, FrequenciesOfEveryPulseAreOnOneGrid) {
 }
 
 TEST(PulseTrain, TheWindowIsAtLeastTheRequestedOne) {
-  for (const double window : {0.5, 5.9, 6.1, 100.0, 239.8, 240.0, 1000.0}) {
+  for (const double window : {0.5, 5.9, 6.1, 100.0, 239.8, 240.0, 1000.0})
     EXPECT_GE(make_pulse_train(paper_radar(), window, 1, 1).unambiguous_range_m(), window * (1 - 1e-9));
-  }
 }
 
 TEST(HopCode, BalancedUsesEveryCarrierEquallyOftenAndSteppedInOrder) {

@@ -4,7 +4,6 @@
 // A folder of mesh files for one test.
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>

@@ -52,15 +52,29 @@ inline double largest(const std::array<Complex, 4>& s) {
   return size;
 }
 
+// The L2 norm of differences from references over that of the references.
+struct RelativeError {
+  double error = 0, power = 0;
+  void add(const Complex& found, const Complex& reference) {
+    error += std::norm(found - reference);
+    power += std::norm(reference);
+  }
+  void add_co_polar(const Matrices& found, const Matrices& reference) {
+    for (std::size_t q = 0; q < reference.size(); ++q)
+      for (const std::size_t element : {0u, 3u}) add(found[q][element], reference[q][element]);
+  }
+  double value() const { return std::sqrt(error / power); }
+  double db() const { return 10 * std::log10(error / power); }
+};
+
 // make_plate() cut into `cells` squares along either side, two triangles each.
 inline TriangleMesh cut_plate(double length, double width, std::uint32_t cells) {
   TriangleMesh cut = make_plate(length, width);
   cut.vertices.clear();
   cut.triangles.clear();
-  for (std::uint32_t j = 0; j <= cells; ++j) {
+  for (std::uint32_t j = 0; j <= cells; ++j)
     for (std::uint32_t i = 0; i <= cells; ++i)
       cut.vertices.push_back({0, length * i / cells - length / 2, width * j / cells - width / 2});
-  }
   for (std::uint32_t j = 0; j < cells; ++j) {
     for (std::uint32_t i = 0; i < cells; ++i) {
       const std::uint32_t a = j * (cells + 1) + i, b = a + 1, c = a + cells + 1, d = c + 1;
@@ -163,9 +177,8 @@ inline const std::map<std::string, std::vector<Vec2>>& sections() {
 inline TriangleMesh prism(const std::vector<Vec2>& corners, double height) {
   TriangleMesh mesh;
   const auto n = static_cast<std::uint32_t>(corners.size());
-  for (const double z : {-height / 2, height / 2}) {
+  for (const double z : {-height / 2, height / 2})
     for (const Vec2& corner : corners) mesh.vertices.push_back({corner.x(), corner.y(), z});
-  }
   for (std::uint32_t i = 0; i < n; ++i) {
     const std::uint32_t next = (i + 1) % n;
     mesh.triangles.push_back({i, next, n + next});

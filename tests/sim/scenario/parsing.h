@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "sim/core/process/error.h"
 #include "sim/scenario/scenario.h"
+#include "tests/refusal.h"
 
 namespace seaglint::testing_scenarios {
 
@@ -36,12 +36,7 @@ inline Scenario parse(const std::string& yaml, const std::vector<Override>& over
 }
 
 inline std::string complaint_about(const std::string& yaml, const std::vector<Override>& overrides = {}) {
-  try {
-    parse(yaml, overrides);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "none";
+  return refusal_of([&] { parse(yaml, overrides); });
 }
 
 }  // namespace seaglint::testing_scenarios

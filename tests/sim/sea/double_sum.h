@@ -18,8 +18,7 @@ namespace seaglint {
 struct ReferenceSurface {
   double linear = 0, second = 0;  // elevation
   Vec2 second_slope = Vec2::Zero();
-  Vec3 velocity = Vec3::Zero();
-  Vec3 acceleration = Vec3::Zero();
+  Vec3 velocity = Vec3::Zero(), acceleration = Vec3::Zero();
 };
 
 namespace double_sum {
@@ -65,8 +64,7 @@ inline ReferenceSurface second_order_surface(const std::vector<WaveComponent>& c
   double eta1 = 0, u1[3] = {}, u1_z[3] = {}, u1_t[3] = {}, u1_tz[3] = {}, u1_x[3] = {}, u1_y[3] = {};
   for (const Wave& a : waves) {
     eta1 += real(a.eta, a.at);
-    const Complex u[3] = {a.u(0), a.u(1), a.z};
-    const Complex uz[3] = {a.uz(0), a.uz(1), a.zz};
+    const Complex u[3] = {a.u(0), a.u(1), a.z}, uz[3] = {a.uz(0), a.uz(1), a.zz};
     for (int i = 0; i < 3; ++i) {
       u1[i] += real(u[i], a.at);
       u1_z[i] += real(uz[i], a.at);
@@ -100,8 +98,7 @@ inline ReferenceSurface second_order_surface(const std::vector<WaveComponent>& c
         const Vec2 K = a.k + b.k;
         const double Kz = std::isinf(depth) ? K.norm() : K.norm() * std::tanh(K.norm() * depth);
         const Complex phi = (j * W * dynamic + kGravity * kinematic) / (kGravity * Kz - W * W);
-        const Complex eta = (dynamic - j * W * phi) / kGravity;
-        const Complex at = a.at * b.at;
+        const Complex eta = (dynamic - j * W * phi) / kGravity, at = a.at * b.at;
         surface.second += real(eta, at);
         const Complex u[3] = {-j * K.x() * phi, -j * K.y() * phi, Kz * phi};
         for (int i = 0; i < 2; ++i) surface.second_slope[i] += real(-j * K[i] * eta, at);

@@ -32,8 +32,7 @@ TEST(RealiseSea, HasTheEnergyOfTheDensityInEachStratum) {
   const SeaState state = state_of(2, 8);
   const JonswapSpectrum spectrum(2, 8, 3.3);
   const WaveField field = realise_sea(state, 42, 0);
-  const double lowest = 0.4 * 2 * kPi / 8;
-  const double width = (8 - lowest) / 512;
+  const double lowest = 0.4 * 2 * kPi / 8, width = (8 - lowest) / 512;
   const double scale = spectrum.energy_above(0) / spectrum.energy(lowest, 8);
   ASSERT_EQ(field.components().size(), 512u);
   for (std::size_t i = 0; i < 512; ++i) {
@@ -65,9 +64,8 @@ TEST(RealiseSea, DoesNotRepeatAsEquidistantFrequenciesWould) {
   const WaveField field = realise_sea(state, 42, 0);
   const double period = 2 * kPi * 512 / (8 - 0.4 * 2 * kPi / 8);  // of equidistant components
   double difference = 0;
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < 200; ++i)
     difference += std::pow(field.surface(0, 0, i).elevation - field.surface(0, 0, i + period).elevation, 2) / 200;
-  }
   EXPECT_GT(difference, 0.5 * 2 * 0.0625);  // twice the variance when the two are independent
 }
 
@@ -75,8 +73,7 @@ TEST(RealiseSea, DoesNotRepeatAsEquidistantFrequenciesWould) {
 TEST(RealiseSea, HasTheVarianceAndSkewnessOfItsSpectrum) {
   const SeaState state = state_of(1, 6);
   constexpr int kSeeds = 400, kTimes = 60;
-  double variance = 0, variance2 = 0, third = 0, third2 = 0;
-  double skewness = 0;
+  double variance = 0, variance2 = 0, third = 0, third2 = 0, skewness = 0;
   for (int seed = 0; seed < kSeeds; ++seed) {
     const WaveField field = realise_sea(state, 11, static_cast<std::uint64_t>(seed));
     skewness += summarise(state, field).skewness / kSeeds;
@@ -215,9 +212,8 @@ TEST(RealiseSea, HasTheWavenumbersOfItsDepth) {
   state.depth_m = 10;
   const WaveField field = realise_sea(state, 42, 0);
   EXPECT_EQ(field.depth(), 10);
-  for (const WaveComponent& c : field.components()) {
+  for (const WaveComponent& c : field.components())
     EXPECT_NEAR(kGravity * c.wavenumber * std::tanh(10 * c.wavenumber), c.omega * c.omega, 4e-15 * c.omega * c.omega);
-  }
 }
 
 TEST(RealiseSea, IsFlatWithoutWaves) {

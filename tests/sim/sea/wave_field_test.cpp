@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 
@@ -41,9 +40,8 @@ class WafoSeries : public testing::TestWithParam<std::string> {};
 
 TEST_P(WafoSeries, IsReproducedToSecondOrder) {
   std::vector<WaveComponent> components;
-  for (const std::vector<double>& row : read_reference("wafo_nl_" + GetParam() + "_deep_components.csv")) {
+  for (const std::vector<double>& row : read_reference("wafo_nl_" + GetParam() + "_deep_components.csv"))
     components.push_back({row[0], row[1], row[2], row[3]});
-  }
   const WaveField field(components, 2, kNoCutoff);
   // The files hold 12 significant digits of amplitudes and phases.
   for (const std::vector<double>& row : read_reference("wafo_nl_" + GetParam() + "_deep_series.csv")) {
@@ -72,8 +70,7 @@ double sharma_dean_elevation(const std::vector<WaveComponent>& components, doubl
       const double ra = a.wavenumber, rb = b.wavenumber;  // R = k tanh(k h) = k
       const double kk = ra * rb;                          // k_i . k_j, one direction
       const double theta_a = a.omega * t - a.wavenumber * xi + a.phase;
-      const double theta_b = b.omega * t - b.wavenumber * xi + b.phase;
-      const double root = std::sqrt(ra * rb);
+      const double theta_b = b.omega * t - b.wavenumber * xi + b.phase, root = std::sqrt(ra * rb);
       // In deep water with one direction D+ and D- vanish: every factor k^2 - R^2 and k_i.k_j -+ R_i R_j of D+ is zero,
       // and D- is 4 (sqrt R_i - sqrt R_j)^2 R_i R_j / {(sqrt R_i - sqrt R_j)^2 - |k_i - k_j|}.
       const double difference = std::sqrt(ra) - std::sqrt(rb);
@@ -116,16 +113,14 @@ TEST(WaveField, SlopesAreTheDerivativesOfItsElevation) {
 }
 
 TEST(WaveField, WavesTravelTowardsTheirDirection) {
-  const double k = 0.1;
-  const double celerity = std::sqrt(kGravity / k);
+  const double k = 0.1, celerity = std::sqrt(kGravity / k);
   const WaveField wave = regular_wave(1, k, {0, 1}, 2);
   EXPECT_NEAR(wave.surface(0, 0, 0).elevation, wave.surface(0, 3 * celerity, 3).elevation, 1e-12);
   EXPECT_NEAR(wave.surface(-55, 0, 1).elevation, wave.surface(20, 0, 1).elevation, 1e-12);
 }
 
 TEST(WaveField, OrbitalVelocityIsThatOfLinearTheory) {
-  const double amplitude = 0.5, k = 0.2;
-  const double omega = std::sqrt(kGravity * k);
+  const double amplitude = 0.5, k = 0.2, omega = std::sqrt(kGravity * k);
   const WaveField wave = regular_wave(amplitude, k, {0.6, 0.8}, 1);
   // Under a crest water moves with the wave, a quarter of a period earlier it rises.
   const Vec3 crest = wave.surface(0, 0, 0).velocity;
@@ -201,8 +196,7 @@ TEST(SurfaceSeries, EqualsTheSurfaceAtItsPoint) {
 TEST(WaveField, IsAccurateFarFromTheOrigin) {
   const WaveComponent wave{100, 0.01, 0.3, 100 * 100 / kGravity, Vec2(1, 0)};
   const WaveField field({wave}, 1, 0);
-  const double x = -5e6, t = 7;
-  const double angle = std::fmod(wave.omega * t - wave.wavenumber * x + wave.phase, 2 * kPi);
+  const double x = -5e6, t = 7, angle = std::fmod(wave.omega * t - wave.wavenumber * x + wave.phase, 2 * kPi);
   // The rounding of 5e9 rad and of 8e8 times 2 pi.
   const double tolerance = 0.01 * 2e-6;
   EXPECT_NEAR(field.surface(x, 0, t, SurfaceQuantities::kElevationAndSlope).elevation, 0.01 * std::cos(angle),
@@ -323,8 +317,7 @@ TEST(SurfaceVelocity, MovesAParticleWithStokesDrift) {
       const double half = x + 0.5 * step * wave.surface(x, 0, t).velocity.x();
       x += step * wave.surface(half, 0, t + 0.5 * step).velocity.x();
     }
-    const double drift = x / t;
-    const double stokes = amplitude * amplitude * omega * k;
+    const double drift = x / t, stokes = amplitude * amplitude * omega * k;
     // The next order is (k a)^2 smaller; the last step's overshoot is a 40000th of the time, at the speed of a crest.
     const double overshoot = amplitude * omega * step / t;
     EXPECT_NEAR(drift, stokes, 3 * k * k * amplitude * amplitude * stokes + overshoot) << amplitude << " m";
@@ -352,9 +345,8 @@ TEST(SurfaceAcceleration, IsTheRateOfTheVelocityOfTheMovingWater) {
     }
     return std::sqrt(sum / 20);
   };
-  for (const auto& [depth, spread] : {std::pair{kDeepWater, 0.0}, std::pair{kDeepWater, 1.0}, std::pair{12.0, 1.0}}) {
+  for (const auto& [depth, spread] : {std::pair{kDeepWater, 0.0}, std::pair{kDeepWater, 1.0}, std::pair{12.0, 1.0}})
     EXPECT_NEAR(residual(1, depth, spread) / residual(0.5, depth, spread), 8, 0.4) << depth << " m, " << spread;
-  }
 }
 
 TEST(Wavenumber, IsThatOfMhkit) {

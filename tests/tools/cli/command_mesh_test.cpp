@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -11,6 +9,8 @@
 #include "sim/core/process/file.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/shapes/generators.h"
+#include "tests/refusal.h"
+#include "tests/temporary_folder.h"
 #include "tools/cli/command_line.h"
 #include "tools/figure/mesh_picture.h"
 
@@ -21,11 +21,6 @@ namespace fs = std::filesystem;
 
 class MeshCommand : public testing::Test {
  protected:
-  MeshCommand() : folder(fs::path(testing::TempDir()) / ("seaglint_mesh_command_" + std::to_string(::getpid()))) {
-    fs::create_directories(folder);
-  }
-  ~MeshCommand() override { fs::remove_all(folder); }
-
   // What the command prints.
   static std::string run(const std::vector<std::string>& words) {
     ProgramOptions program("test", "");
@@ -45,7 +40,8 @@ class MeshCommand : public testing::Test {
     return testing::internal::GetCapturedStdout();
   }
 
-  fs::path folder;
+  const TemporaryFolder temporary;
+  const fs::path folder = temporary.path();
 };
 
 TEST_F(MeshCommand, CreatesEveryKindOfMesh) {
@@ -63,7 +59,7 @@ TEST_F(MeshCommand, CreatesEveryKindOfMesh) {
     std::vector<std::string> words{"mesh", "make"};
     words.insert(words.end(), kind.begin(), kind.end());
     words.insert(words.end(), {"-o", file});
-    EXPECT_THAT(run(words), testing::HasSubstr("triangles")) << kind[0];
+    EXPECT_HAS(run(words), "triangles") << kind[0];
     // float32 positions: 6e-8 of each coordinate, a dozen coordinates.
     EXPECT_NEAR(surface_area(read_mesh(file)), area, 1e-5) << kind[0];
   }
@@ -75,10 +71,10 @@ TEST_F(MeshCommand, ReportsTheContentsOfAFileInItsUnit) {
   const std::string file = (folder / "plate.stl").string(), picture = (folder / "plate.png").string();
   write_mesh(file, make_plate(1000, 500));
   const std::string text = run({"mesh", "info", file, "--unit", "mm", "--picture", picture, "--width", "64"});
-  EXPECT_THAT(text, testing::HasSubstr("size       0 x 1 x 0.5 m"));
-  EXPECT_THAT(text, testing::HasSubstr("triangles  2, vertices 4, area 0.5 m^2"));
-  EXPECT_THAT(text, testing::HasSubstr("4 boundary"));
-  EXPECT_THAT(text, testing::HasSubstr("4 free edges"));
+  EXPECT_HAS(text, "size       0 x 1 x 0.5 m");
+  EXPECT_HAS(text, "triangles  2, vertices 4, area 0.5 m^2");
+  EXPECT_HAS(text, "4 boundary");
+  EXPECT_HAS(text, "4 free edges");
   EXPECT_THAT(read_file(picture), testing::StartsWith("\x89PNG"));
 }
 

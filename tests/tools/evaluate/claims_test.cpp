@@ -4,7 +4,6 @@
 #include "tools/evaluate/claims.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,15 +11,13 @@
 #include <nlohmann/json.hpp>
 
 #include "sim/core/numbers/random.h"
-#include "sim/core/process/error.h"
+#include "tests/refusal.h"
 #include "tests/tools/study_with_scores.h"
 #include "tools/run/benchmark.h"
 #include "tools/run/run.h"
 
 namespace seaglint {
 namespace {
-
-using testing::HasSubstr;
 
 TEST(HolmIntervals, OfOneEstimateAreThoseOfTheNormalDistribution) {
   const Estimate one{0.55, 0.02};
@@ -161,7 +158,7 @@ TEST(BenchmarkClaims, OfFewSeasHaveTheIntervalsOfStudentsDistribution) {
   };
   EXPECT_EQ(above(0.027, 400).verdict, kYes);
   EXPECT_EQ(above(0.027, 4).verdict, kOpen);
-  EXPECT_THAT(above(0.027, 4).why, HasSubstr("90.0 (85-95) %"));
+  EXPECT_HAS(above(0.027, 4).why, "90.0 (85-95) %");
   EXPECT_EQ(above(0.021, 4).verdict, kYes);
 }
 
@@ -169,8 +166,8 @@ TEST(BenchmarkClaims, OfFewSeasHaveTheIntervalsOfStudentsDistribution) {
 TEST(BenchmarkClaims, OfMotionAloneAreHeldWhereAllQuantitiesAreNearChance) {
   Study study = study_of({0.9}, {0.9}, {0.9}, {0.9}, 0.51);
   EXPECT_EQ(claims_of(study).back().verdict, kYes);
-  EXPECT_THAT(claims_of(study).back().why,
-              HasSubstr("chance (50.0 %) is rejected for no quantity; sample order may be 48.6 to 53.4 %"));
+  EXPECT_HAS(claims_of(study).back().why,
+             "chance (50.0 %) is rejected for no quantity; sample order may be 48.6 to 53.4 %");
   study.probes[0].evaluations[1] = evaluation_of({0.51}, 0.12);
   EXPECT_EQ(claims_of(study).back().verdict, kOpen);
   study.probes[0].evaluations[1].scores.accuracy_95 = {std::nan(""), std::nan("")};
@@ -193,7 +190,7 @@ TEST(BenchmarkFloor, ComparesThreeClassesWithAThird) {
   const std::vector<FloorEntry> floor = floor_of(study);
   EXPECT_FALSE(floor[0].leaks);
   EXPECT_TRUE(floor[1].leaks);
-  EXPECT_THAT(benchmark_text(study), HasSubstr("differs from chance, 33.3 %"));
+  EXPECT_HAS(benchmark_text(study), "differs from chance, 33.3 %");
   EXPECT_EQ(json_of(study)["classes"].size(), 3u);
 }
 
@@ -206,23 +203,18 @@ TEST(BenchmarkJson, HasBaselinesFloorAndClaims) {
   EXPECT_FALSE(json["floor"]["sample order"]["leaks"].get<bool>());
   ASSERT_EQ(json["claims"].size(), 5u);
   EXPECT_EQ(json["claims"][2]["verdict"], "held");
-  EXPECT_THAT(json["claims"][2]["why"].get<std::string>(), HasSubstr("80.0 / 99.0 / 98.0 % at Hs 0.1 / 1 / 2 m"));
-  EXPECT_THAT(benchmark_text(study), HasSubstr("handmade_logistic"));
-  EXPECT_THAT(benchmark_row(kRecord, study), HasSubstr("| `a` | 720, 60 | 80.0 / 99.0 / 98.0 |"));
+  EXPECT_HAS(json["claims"][2]["why"].get<std::string>(), "80.0 / 99.0 / 98.0 % at Hs 0.1 / 1 / 2 m");
+  EXPECT_HAS(benchmark_text(study), "handmade_logistic");
+  EXPECT_HAS(benchmark_row(kRecord, study), "| `a` | 720, 60 | 80.0 / 99.0 / 98.0 |");
 }
 
 std::string refusal(const std::string& name) {
-  try {
-    read_benchmark(name, true, {});
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return refusal_of([&] { read_benchmark(name, true, {}); });
 }
 
 TEST(Benchmark, OfAnUnknownNameIsRefusedWithTheNearest) {
-  EXPECT_THAT(refusal("rigid_twn"), HasSubstr("did you mean 'rigid_twin'?"));
-  EXPECT_THAT(refusal("papr.yaml"), HasSubstr("papr.yaml: no such file"));
+  EXPECT_HAS(refusal("rigid_twn"), "did you mean 'rigid_twin'?");
+  EXPECT_HAS(refusal("papr.yaml"), "papr.yaml: no such file");
 }
 
 // The paper's set, small: 5 of its 17 azimuths with both ends, one interval each, the waves as they are.

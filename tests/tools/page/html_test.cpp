@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Templates, and figures as JSON for the script of a page.
 #include "tools/page/html.h"
+#include "tests/refusal.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
@@ -48,7 +48,7 @@ TEST(PlotJson, HasTheNumbersOfTheFigureAndNullWhereItHasNone) {
 TEST(PlotJson, ThePageHasScriptsOnlyWhereItHasSomethingToDraw) {
   EXPECT_THAT(html_page("t", "<p>text</p>"), Not(HasSubstr("<script")));
   const std::string page = html_page("t", "<figure><script type=\"application/json\">{}</script></figure>");
-  EXPECT_THAT(page, HasSubstr("id=\"plotly\""));
+  EXPECT_HAS(page, "id=\"plotly\"");
   EXPECT_THAT(page, Not(HasSubstr("https://cdn")));
 }
 

@@ -1,19 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A swept or drawn key that changes nothing is named, and no other.
-#include "tools/pipeline/scenario_check.h"
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/shapes/generators.h"
+#include "sim/scenario/layout/layout.h"
 #include "sim/scenario/scenario.h"
+#include "tests/refusal.h"
 #include "tests/temporary_folder.h"
+#include "tests/tools/pipeline/target_responses.h"
+#include "tools/pipeline/pipeline.h"
+#include "tools/pipeline/scenario_check.h"
+#include "tools/pipeline/warnings.h"
 
 namespace seaglint {
 namespace {
@@ -22,6 +26,8 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
+
+// A swept or drawn key that changes nothing is named, and no other.
 
 // Two reflectors, a and b, with these keys of their own and further sections.
 Scenario reflectors(const std::string& keys_a, const std::string& keys_b, const std::string& sections) {
@@ -100,7 +106,7 @@ TEST(ConstantKeys, OfASwellWithoutHeightChangeNothing) {
   const std::vector<std::string> lines =
       warnings(reflectors(kFloat, kFloat, "sea: {swell: {peak_period_s: uniform(10 14)}}"));
   ASSERT_EQ(lines.size(), 1u);
-  EXPECT_THAT(lines[0], HasSubstr("sea.swell.peak_period_s (uniform(10, 14), once per sea) changes nothing"));
+  EXPECT_HAS(lines[0], "sea.swell.peak_period_s (uniform(10, 14), once per sea) changes nothing");
   EXPECT_THAT(warnings(reflectors(kFloat, kFloat,
                                   "sea: {swell: {significant_wave_height_m: uniform(0.5 1), peak_period_s: "
                                   "uniform(10 14), components: integers(10 60)}}")),
@@ -128,7 +134,7 @@ targets:
 )",
                                                                  "twins.yaml"));
   ASSERT_EQ(lines.size(), 1u);
-  EXPECT_THAT(lines[0], HasSubstr("targets.b.layout.seed (same(targets.a.layout.seed), once per sea) changes nothing"));
+  EXPECT_HAS(lines[0], "targets.b.layout.seed (same(targets.a.layout.seed), once per sea) changes nothing");
 }
 
 // Edges and many bounces are not in the cheap maps, but in those that decide.
@@ -218,6 +224,199 @@ TEST(ConstantKeys, AreInNoScenarioOfTheProject) {
     if (entry.path().extension() != ".yaml") continue;
     EXPECT_THAT(warnings(read_scenario(entry.path())), IsEmpty()) << entry.path();
   }
+}
+
+// Targets enlarged by factors: similarity of echoes and of motion, sums of single bodies, windows of drawn sizes.
+
+constexpr const char* kReflectorMesh = SEAGLINT_SOURCE_DIR "/assets/icosahedral_reflector.glb";
+
+class TargetSizes : public testing::Test {
+ protected:
+  TargetSizes() {
+    write_mesh(folder_.path() / "plate.stl", make_plate(1, 0.6));
+    write_mesh(folder_.path() / "sphere.stl", make_sphere(0.5, 3));
+  }
+  Scenario parse(const std::string& text) const {
+    return parse_scenario(text, (folder_.path() / "sizes.yaml").string());
+  }
+
+  // One mesh at rest. All frequencies are divided by `slower`, all times and lengths of the radar multiplied by it.
+  Scenario at_rest(const std::string& mesh, double scale, double slower) const {
+    return parse(fmt::format(R"(
+seaglint: 1
+radar: {{carrier_ghz: {}, hop_count: 4, hop_step_mhz: {}, bandwidth_mhz: {}, sampling_mhz: {}, pulse_width_us: {}, pri_us: 250, pulses: 8}}
+view: {{azimuth_deg: 12, elevation_deg: 3}}
+targets:
+  t: {{label: 1, mesh: {}, scale: {}}}
+map: {{range_span_m: {}}}
+dataset: {{maps_per_case: 1, realisations_per_case: 1}}
+)",
+                             12 / slower, 24 / slower, 24 / slower, 48 / slower, 20 * slower, mesh, scale,
+                             30 * slower));
+  }
+
+  // The targets in Hs 1 m.
+  Scenario in_waves(const std::string& targets, const std::string& more = "") const {
+    return parse(fmt::format(R"(
+seaglint: 1
+radar: {{pulses: 32}}
+view: {{azimuth_deg: 30}}
+sea: {{significant_wave_height_m: 1, components: 64}}
+targets:
+{}
+dataset: {{maps_per_case: 4, realisations_per_case: 4}}
+{}
+)",
+                             targets, more));
+  }
+
+  TemporaryFolder folder_;
+};
+
+// Of perfect conductors S(s L, f) = s S(L, s f). A power of two leaves all roundings as they are; others turn the
+// principal axes of a sphere, whose curvatures are equal (-46 dB at 3).
+TEST_F(TargetSizes, EchoAsTheTargetAtAFrequencyAsManyTimesHigher) {
+  const auto error_db = [&](const std::string& mesh, double s) {
+    const std::vector<Complex> large = response_of(Pipeline(at_rest(mesh, s, s)), 0);
+    std::vector<Complex> expected = response_of(Pipeline(at_rest(mesh, 1, 1)), 0);
+    EXPECT_EQ(large.size(), expected.size());
+    for (Complex& value : expected) value *= s;
+    const double error = relative_difference_db(large, expected);
+    fmt::print("{} {} times as large: {:.0f} dB\n", std::filesystem::path(mesh).filename().string(), s, error);
+    return error;
+  };
+  for (const double s : {0.25, 8.0}) EXPECT_LT(error_db("sphere.stl", s), -150) << s;
+  for (const double s : {0.25, 3.0, 8.0}) {
+    EXPECT_LT(error_db("plate.stl", s), -100) << s;
+    EXPECT_LT(error_db(kReflectorMesh, s), -100) << s;
+  }
+}
+
+// Froude: a float s times as large in a sea s times as large has the same angles, sqrt(s) times as late.
+TEST_F(TargetSizes, MoveAlikeInASeaEnlargedAlike) {
+  const auto moving = [&](double s, double slower) {
+    const Scenario scenario =
+        parse(fmt::format(R"(
+seaglint: 1
+sea: {{significant_wave_height_m: {}, peak_period_s: {}, cutoff_rad_s: {}, second_order_cutoff_rad_s: {}, components: 64, order: 2}}
+targets:
+  t:
+    label: 1
+    mesh: sphere.stl
+    scale: {}
+    layout: {{line: {{count: 2, spacing_m: {}}}}}
+    motion: {{model: float, translations: false, step_s: {}, spin_up_s: {}}}
+)",
+                          0.3 * s, 3 * slower, 8 / slower, 8 / slower, s, 5 * s, 0.02 * slower, 20 * slower));
+    return moving_bodies(scenario, {}, 10 * slower);
+  };
+  const MovingBodies small = moving(1, 1), large = moving(4, 2);
+  double largest = 0;
+  for (std::size_t b = 0; b < 2; ++b) {
+    for (double t = 0; t < 10; t += 0.37) {
+      const Vec3 angles = motion_at(small.bodies[b], t).angles;
+      EXPECT_LT((motion_at(large.bodies[b], 2 * t).angles - angles).norm(), 1e-9);
+      largest = std::max(largest, angles.norm());
+    }
+    EXPECT_NEAR(bounds(large.bodies[b].mesh).upper.x(), 4 * bounds(small.bodies[b].mesh).upper.x(), 1e-12);
+  }
+  EXPECT_GT(largest, 0.05);
+}
+
+TEST_F(TargetSizes, OfFactorsOfOneLeaveTheBytes) {
+  const auto floats = [&](const std::string& keys) {
+    return in_waves(fmt::format("  t: {{label: 1, mesh: {}, {} bodies: independent}}, motion: {{model: float}}}}",
+                                kReflectorMesh, keys));
+  };
+  const Pipeline plain(floats("layout: {line: {count: 2},"));
+  for (const char* keys : {"layout: {line: {count: 2}, scales: {lowest: 1, highest: 1},",
+                           "scale: 0.5, layout: {line: {count: 2}, scales: {lowest: 2, highest: 2},"}) {
+    const Pipeline one(floats(keys));
+    EXPECT_EQ(one.window_m(), plain.window_m());
+    for (std::size_t sample = 0; sample < 2; ++sample)
+      EXPECT_EQ(one.generate_sample(sample).stored.magnitude, plain.generate_sample(sample).stored.magnitude);
+  }
+}
+
+TEST_F(TargetSizes, OfALayoutEchoAsTheSumOfSingleBodies) {
+  for (const char* motion : {"fixed", "float"}) {
+    const std::string common = fmt::format("mesh: {}, motion: {{model: {}}}", kReflectorMesh, motion);
+    const std::string both = fmt::format(
+        "  both: {{label: 1, {}, scale: 1.5, layout: {{line: {{count: 2, spacing_m: 40}}, scales: {{lowest: "
+        "0.5, highest: 2}}, seed: 3}}}}\n",
+        common);
+    const std::vector<double> factors = body_scales(in_waves(both).targets[0].layout, 1.5);
+    EXPECT_GT(std::abs(factors[0] - factors[1]), 0.1);
+    const Pipeline pipeline(
+        in_waves(both + fmt::format("  first: {{label: 0, {}, scale: {}, layout: {{line: {{centre_x_m: -20}}}}}}\n"
+                                    "  second: {{label: 0, {}, scale: {}, layout: {{line: {{centre_x_m: 20}}}}}}\n",
+                                    common, factors[0], common, factors[1])));
+    std::vector<Complex> sum = response_of(pipeline, 1);
+    const std::vector<Complex> second = response_of(pipeline, 2);
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += second[i];
+    EXPECT_EQ(response_of(pipeline, 0), sum) << motion;
+  }
+}
+
+// A raft has the dimensions of its keys: it moves alike with reflectors of any size.
+TEST_F(TargetSizes, OfReflectorsLeaveTheMotionOfTheirRaft) {
+  const auto raft = [&](const char* scales) {
+    return Pipeline(
+        in_waves(fmt::format("  t: {{label: 1, mesh: {}, layout: {{line: {{count: 3}}, bodies: rigid{}}}, "
+                             "motion: {{model: ship, length_m: 134.6, beam_m: 17.5}}}}",
+                             kReflectorMesh, scales)));
+  };
+  const Pipeline plain = raft(""), sizes = raft(", scales: {lowest: 0.5, highest: 2}");
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(sizes.scene(0, 1)->bodies[0][i].pose(0.01).p, plain.scene(0, 1)->bodies[0][i].pose(0.01).p);
+    EXPECT_NE(sizes.targets()[0].models[i]->scale, 1);
+  }
+  EXPECT_NE(response_of(sizes, 0), response_of(plain, 0));
+}
+
+// The window is 2.2 times the reach of the largest draw: the plate's half diagonal, 0.583 m times the factor.
+TEST_F(TargetSizes, DrawnInEverySeaAreWithinTheWindowAndColumns) {
+  const Scenario scenario = in_waves(
+      "  t: {label: 1, mesh: plate.stl, scale: uniform(10 90)}\n"
+      "  u: {label: 0, mesh: plate.stl, scale: same(targets.t.scale)}",
+      "map: {range_span_m: 20}");
+  const Pipeline pipeline(scenario);
+  double largest = 0;
+  for (int realisation = 0; realisation < 4; ++realisation) {
+    SampleAddress at;
+    at.realisation = realisation;
+    const double drawn = pipeline.scenario_of(at).targets[0].scale;
+    EXPECT_EQ((*pipeline.scene(0, realisation)->targets)[1].models.front()->scale, drawn);
+    const SampleRecord record = pipeline.generate_sample(pipeline.plan().sample(at)).stored.record;
+    ASSERT_EQ(record.drawn_numbers.size(), 2u);
+    EXPECT_EQ(record.drawn_numbers[0].key, "targets.t.scale");
+    EXPECT_EQ(record.drawn_numbers[0].value, drawn);
+    largest = std::max(largest, drawn);
+  }
+  EXPECT_GT(largest, 50);  // the middle of the distribution
+  EXPECT_NEAR(pipeline.window_m(), 2.2 * largest * std::hypot(0.5, 0.3), 1e-5 * largest);
+  // A drawn size is that size.
+  const SampleAddress last{.realisation = 3};
+  const Pipeline fixed(pipeline.scenario_of(last), pipeline.plan());
+  const PulseTrain train = pipeline.pulse_train(pipeline.plan().sample(last));
+  EXPECT_EQ(pipeline.response(last, train).response.values, fixed.response(last, train).response.values);
+}
+
+// Of 1.17 m times the factor, below three wavelengths of 1.9 cm.
+TEST_F(TargetSizes, ThatAreTooSmallAreWarnedOfOnceForTheSmallestAndTheLargest) {
+  const std::string layout = "layout: {line: {count: 9}, scales: {lowest: 0.01, highest: 0.04}}";
+  const Scenario scenario = in_waves(
+      fmt::format("  t: {{label: 1, mesh: plate.stl, {}}}\n  u: {{label: 0, mesh: plate.stl, scale: 0.05}}", layout));
+  const std::vector<double> factors = body_scales(scenario.targets[0].layout, 1);
+  const auto [smallest, largest] = std::ranges::minmax(factors);
+  const double across_m = std::hypot(1, 0.6);
+  EXPECT_THAT(mesh_warnings(Pipeline(scenario)),
+              testing::IsSupersetOf(
+                  {HasSubstr(fmt::format("targets.t.mesh: the target is {:.3g} m across", smallest * across_m)),
+                   HasSubstr(fmt::format("targets.t.mesh, {:.6g} times as large: the target is {:.3g} m across",
+                                         largest, largest * across_m))}));
+  EXPECT_THAT(mesh_warnings(Pipeline(scenario)),
+              testing::Not(testing::Contains(HasSubstr("targets.u.mesh: the target"))));
 }
 
 }  // namespace

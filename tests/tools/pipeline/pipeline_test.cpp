@@ -1,20 +1,36 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One sample: the truth in its columns, the products of its interval (with the whole synthetic bandwidth in every pulse
-// there is no pedestal, and the target's own motion), and its interruption.
-#include "tools/pipeline/pipeline.h"
-
-#include <gtest/gtest.h>
+#include <fmt/format.h>
+#include <gmock/gmock.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
+#include "sim/core/process/file.h"
+#include "tests/map_levels.h"
+#include "tests/refusal.h"
 #include "tests/relative_difference.h"
+#include "tests/temporary_folder.h"
+#include "tools/pipeline/generate.h"
+#include "tools/pipeline/pipeline.h"
+#include "tools/pipeline/scenario_check.h"
+#include "tools/pipeline/warnings.h"
 
 namespace seaglint {
 namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+// One sample: the truth in its columns, the products of its interval (with the whole synthetic bandwidth in every pulse
+// there is no pedestal, and the target's own motion), and its interruption.
 
 // One point of 2 m, 30 m nearer than the reference point, approaching at 1.5 m/s, viewed from ahead.
 const char* const kOnePoint = R"(
@@ -26,21 +42,6 @@ map: {range_oversampling: 4, velocity_oversampling: 4}
 dataset: {maps_per_case: 1, realisations_per_case: 1}
 )";
 
-struct Peak {
-  double range_m = 0, velocity_mps = 0, magnitude_m = 0;
-};
-
-Peak peak_of(const RvMap& map) {
-  Peak peak;
-  for (std::size_t v = 0; v < map.velocity_mps.size(); ++v) {
-    for (std::size_t r = 0; r < map.columns(); ++r) {
-      if (std::abs(map.at(v, r)) > peak.magnitude_m)
-        peak = {map.range_m[r], map.velocity_mps[v], std::abs(map.at(v, r))};
-    }
-  }
-  return peak;
-}
-
 TEST(FullBand, ImageHasThePointAndNoPedestal) {
   const Pipeline pipeline(parse_scenario(kOnePoint, "point.yaml"));
   const FullBandInterval band = full_band_interval(pipeline, 0);
@@ -51,15 +52,14 @@ TEST(FullBand, ImageHasThePointAndNoPedestal) {
   const double cell_m = band.train.range_resolution_m() / 4, cell_mps = band.train.velocity_resolution_mps() / 4;
   EXPECT_NEAR(peak.range_m, -30, cell_m / 2 + 1e-9);
   EXPECT_NEAR(peak.velocity_mps, -1.5, cell_mps / 2 + 1e-9);
-  EXPECT_NEAR(peak.magnitude_m, 2, 0.1);  // an eighth of a lobe off its peak, in range and velocity
+  EXPECT_NEAR(peak.level, 2, 0.1);  // an eighth of a lobe off its peak, in range and velocity
   // More than two lobes of the Hann taper from the point only the velocity sidelobes remain, at its range and -13 dB or
   // less.
   for (std::size_t v = 0; v < band.image.velocity_mps.size(); ++v) {
-    for (std::size_t r = 0; r < band.image.columns(); ++r) {
+    for (std::size_t r = 0; r < band.image.columns(); ++r)
       if (std::abs(band.image.range_m[r] + 30) > 6) {
-        EXPECT_LT(std::abs(band.image.at(v, r)), 2e-2 * peak.magnitude_m);
+        EXPECT_LT(std::abs(band.image.at(v, r)), 2e-2 * peak.level);
       }
-    }
   }
 }
 
@@ -169,6 +169,205 @@ dataset: {maps_per_case: 1, realisations_per_case: 1}
   const StopFlag stop = true;
   EXPECT_THROW(stopped.generate_sample(0, &stop), Interrupted);
   EXPECT_EQ(stopped.generate_sample(0).received.map.values, undisturbed.generate_sample(0).received.map.values);
+}
+
+// Samples of scenarios with drawn values: each is that of the scenario with its values written out.
+
+const char* const kPoints = R"yaml(
+seaglint: 1
+radar: {pulses: 32, hop_code: "choice(random, balanced)"}
+view: {azimuth_deg: uniform(0 90), elevation_deg: 1}
+sea: {significant_wave_height_m: uniform(0.5 1.5)}
+clutter: {scr_db: uniform(10 25)}
+targets:
+  near: {label: 1, points: [{position_m: [15, 0, 0], amplitude_m: 2}]}
+  far: {label: 0, points: [{position_m: [-10, 0, 0], amplitude_m: "uniform(1, 3)"}]}
+dataset: {maps_per_case: 4, realisations_per_case: 2}
+)yaml";
+
+SampleRecord record_of(const Scenario& scenario, std::size_t sample) {
+  return Pipeline(scenario, SamplePlan(scenario)).generate_sample(sample).stored.record;
+}
+
+double number(const SampleRecord& record, const std::string& key) {
+  for (const auto& drawn : record.drawn_numbers)
+    if (drawn.key == key) return drawn.value;
+  return std::nan("");
+}
+
+TEST(DrawnSamples, HaveTheirValuesAsColumns) {
+  const Scenario scenario = parse_scenario(kPoints, "points.yaml");
+  const Pipeline pipeline(scenario, SamplePlan(scenario));
+  std::set<double> ratios, amplitudes;
+  for (std::size_t i = 0; i < pipeline.plan().size(); ++i) {
+    const GeneratedSample made = pipeline.generate_sample(i);
+    const SampleRecord& record = made.stored.record;
+    ASSERT_EQ(record.drawn_numbers.size(), 4u);
+    ASSERT_EQ(record.drawn_words.size(), 1u);
+    EXPECT_EQ(record.azimuth_deg, number(record, "view.azimuth_deg"));
+    EXPECT_EQ(record.significant_wave_height_m, number(record, "sea.significant_wave_height_m"));
+    EXPECT_NEAR(record.scr_per_pulse_db, number(record, "clutter.scr_db"), 1e-6);
+    // The peak of a point is its amplitude but for 15 % up to half a cell beside the peak of a Hann lobe in range, 1 %
+    // of clutter 10 dB below one pulse and some 40 dB below the peak, and carriers that no pulse uses.
+    const double amplitude = record.label == 1 ? 2 : number(record, "targets.far.points.0.amplitude_m");
+    EXPECT_NEAR(record.peak_m, amplitude, 0.25 * amplitude);
+    if (record.label == 0) amplitudes.insert(amplitude);
+    ratios.insert(record.scr_per_pulse_db);
+  }
+  EXPECT_EQ(amplitudes.size(), 2u);  // one per sea
+}
+
+// Writing the values into the file gives the same maps, except for those keyed by the number of the view's values.
+TEST(DrawnSamples, AreThoseOfTheWrittenOutScenario) {
+  const Scenario scenario = parse_scenario(kPoints, "points.yaml");
+  const SamplePlan plan(scenario);
+  for (const std::size_t i : {0u, 3u, 7u}) {
+    const SampleRecord drawn = record_of(scenario, i), fixed = record_of(plan.drawn(scenario, plan.address(i)), i);
+    EXPECT_EQ(drawn.peak_m, fixed.peak_m);
+    EXPECT_EQ(drawn.energy_m2, fixed.energy_m2);
+    EXPECT_EQ(drawn.scr_per_pulse_db, fixed.scr_per_pulse_db);
+    EXPECT_EQ(drawn.azimuth_deg, fixed.azimuth_deg);
+  }
+}
+
+// The response is that of the interval's first map, clutter and noise are the map's own; in any order.
+TEST(DrawnSamples, OfOneIntervalShareTheTargetsResponse) {
+  const Scenario scenario = parse_scenario(kPoints, "points.yaml", {{"dataset.maps_per_interval", "2"}});
+  const Pipeline pipeline(scenario, SamplePlan(scenario)), other(scenario, SamplePlan(scenario));
+  ASSERT_EQ(pipeline.plan().size(), 8u);
+  for (std::size_t first = 0; first < 8; first += 2) {
+    const GeneratedSample a = pipeline.generate_sample(first), b = pipeline.generate_sample(first + 1);
+    EXPECT_EQ(a.train.code, b.train.code);
+    EXPECT_EQ(a.stored.record.azimuth_deg, b.stored.record.azimuth_deg);
+    EXPECT_EQ(a.stored.record.label, b.stored.record.label);
+    EXPECT_NE(a.stored.record.scr_per_pulse_db, b.stored.record.scr_per_pulse_db);
+    EXPECT_NE(a.stored.magnitude, b.stored.magnitude);
+    // Alone, without the first.
+    EXPECT_EQ(other.generate_sample(first + 1).stored.magnitude, b.stored.magnitude);
+  }
+}
+
+TEST(DrawnSamples, WithValuesThatContradictEachOtherAreRefusedBeforeTheFirst) {
+  std::string text = kPoints;
+  text.replace(text.find("uniform(0.5 1.5)}"), 17, "uniform(0.1 7), peak_period_s: uniform(5 15)}");
+  text.replace(text.find("maps_per_case: 4, realisations_per_case: 2"), 42,
+               "maps_per_case: 100, realisations_per_case: 100");
+  const Scenario scenario = parse_scenario(text, "points.yaml");
+  EXPECT_HAS(refusal_of([&] { const Pipeline pipeline(scenario, SamplePlan(scenario)); }), "of the drawn values");
+}
+
+// Warnings of one target whose recorded motion drifts at 2 m/s along x for 40 s, seen from ahead.
+std::vector<std::string> warnings_of_drift(const std::string& motion, double spacing_s) {
+  const TemporaryFolder folder;
+  std::string series = "time_s,roll_deg,pitch_deg,surge_m,sway_m,heave_m\n";
+  for (int n = 0; n <= 400; ++n) series += fmt::format("{:.1f},0,0,{:.1f},0,0\n", 0.1 * n, 412300 + 0.2 * n);
+  write_file(folder.path() / "drift.csv", series);
+  const Pipeline pipeline(parse_scenario(
+      fmt::format("seaglint: 1\nview: {{azimuth_deg: 0, elevation_deg: 2}}\nmap: {{range_span_m: 60}}\ntargets:\n"
+                  "  a: {{label: 0, mesh: assets/icosahedral_reflector.glb,\n"
+                  "      motion: {{model: series, file: drift.csv{}}}}}\n"
+                  "  b: {{label: 1, points: [{{position_m: [0, 0, 0]}}]}}\n"
+                  "dataset: {{maps_per_case: 2, realisations_per_case: 1, interval_spacing_s: {}}}\n",
+                  motion, spacing_s),
+      (folder.path() / "drift.yaml").string()));
+  return map_coverage_warnings(pipeline);
+}
+
+// The mean position is removed: the body is within 40 m of the origin, at first 40 m astern, where the map ends at 30
+// m.
+TEST(MapCoverage, NamesRecordedMotionThatLeavesTheMap) {
+  EXPECT_THAT(warnings_of_drift("", 1), IsEmpty());  // without translations
+  EXPECT_THAT(warnings_of_drift(", translations: true", 1),
+              ElementsAre(HasSubstr("targets.a at azimuth 0 deg reaches from")));
+  EXPECT_THAT(warnings_of_drift(", translations: true, series_start_s: 15", 1), IsEmpty());
+  EXPECT_THAT(warnings_of_drift(", translations: true, series_start_s: 5", 30),
+              ElementsAre(HasSubstr("raise map.range_span_m")));
+  EXPECT_THAT(warnings_of_drift(", translations: true, position: keep, series_start_s: 15", 1),
+              ElementsAre(HasSubstr("-412")));
+}
+
+// What `check` says of a scenario: how much of it there is, what moves and what does not.
+
+double bytes_of(const std::filesystem::path& directory) {
+  double bytes = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(directory))
+    if (entry.is_regular_file()) bytes += static_cast<double>(entry.file_size());
+  return bytes;
+}
+
+TEST(WorkEstimate, HasTheSizeOfTheDataSetWithinAFactorOfTwo) {
+  const std::vector<std::vector<Override>> cases{
+      {},
+      {{"dataset.echoes", "true"}},
+      {{"dataset.complex_maps", "true"}, {"dataset.maps_per_shard", "3"}},
+      {{"radar.pulses", "16"}, {"map.range_span_m", "20"}, {"features.max_centres", "3"}},
+      {{"sea.peak_period_s", "uniform(7, 9)"}, {"radar.hop_code", "choice(random, stepped)"}}};
+  for (const std::vector<Override>& overrides : cases) {
+    const TemporaryFolder folder;
+    const Pipeline pipeline(read_scenario(SEAGLINT_SOURCE_DIR "/scenarios/points.yaml", overrides));
+    generate_dataset(pipeline, folder.path() / "data", {1, 1, false, 1});
+    const double bytes = bytes_of(folder.path() / "data"), estimate = stored_bytes(pipeline);
+    EXPECT_LT(estimate, 2 * bytes) << overrides.size();
+    EXPECT_GT(estimate, bytes / 2) << overrides.size();
+  }
+}
+
+TEST(WorkEstimate, OfMoreMapsIsInProportion) {
+  const auto estimate = [](const char* maps) {
+    return estimate_work(
+        Pipeline(read_scenario(SEAGLINT_SOURCE_DIR "/scenarios/points.yaml",
+                               {{"dataset.maps_per_case", maps}, {"dataset.realisations_per_case", "5"}})));
+  };
+  const WorkEstimate few = estimate("10"), many = estimate("1000");
+  EXPECT_GT(few.processor_s, 0);
+  EXPECT_GT(many.processor_s, 10 * few.processor_s);  // 100 times the maps of as many seas
+  EXPECT_FALSE(many.is_bound);
+}
+
+TEST(WorkEstimate, IsABoundWhereOneMapTakesLongerThanTheLimit) {
+  const Pipeline pipeline(read_scenario(SEAGLINT_SOURCE_DIR "/scenarios/points.yaml"));
+  const WorkEstimate work = estimate_work(pipeline, {.processor_s = 0});
+  EXPECT_TRUE(work.is_bound);
+  EXPECT_GT(work.processor_s, 0);
+  EXPECT_GT(work.bytes, 0);
+}
+
+// A plate across the line of sight returns no cross polarisation.
+TEST(WorkEstimate, HasTheReasonWhereNoMapCanBeMade) {
+  const TemporaryFolder folder;
+  write_file(folder.path() / "plate.obj", "v 0 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n");
+  write_file(folder.path() / "plate.yaml",
+             "seaglint: 1\nradar: {polarisation: hv}\nview: {azimuth_deg: 0, elevation_deg: 0}\ntargets:\n  plate: "
+             "{label: 1, mesh: plate.obj, solver: {edges: false}}\n");
+  const WorkEstimate work = estimate_work(Pipeline(read_scenario(folder.path() / "plate.yaml")));
+  EXPECT_HAS(work.failure, "plate.yaml:5:10: targets.plate: sample ");
+  EXPECT_HAS(work.failure, "has no power");
+}
+
+TEST(ScenarioSummary, CountsSeasAndMapsAndListsWhatVariesAndMoves) {
+  const Pipeline pipeline(parse_scenario(R"(
+seaglint: 1
+radar: {pulses: 32}
+view: {azimuth_deg: 0:350:10, elevation_deg: uniform(1 5)}
+sea: {significant_wave_height_m: [0.1, 3], peak_period_s: loguniform(7 9), components: 64}
+targets:
+  still: {label: 0, mesh: assets/icosahedral_reflector.glb}
+  pair: {label: 1, points: [{position_m: [9, 0, 0]}, {position_m: [-9, 0, 0]}]}
+dataset: {maps_per_case: 24, realisations_per_case: 4, maps_per_interval: 2, interval_spacing_s: 5}
+)",
+                                         "summary.yaml"));
+  const std::string text = scenario_summary(pipeline, {7200, false, 3.2e6, {}}, 4);
+  EXPECT_EQ(
+      text,
+      "seas                8: 4 realisations of each sea state, 3 intervals of each 5 s apart and view, 2 maps of "
+      "each interval\n"
+      "swept               view.azimuth_deg 0 to 350 in 36 values\n"
+      "                    sea.significant_wave_height_m 0.1, 3\n"
+      "drawn               sea.peak_period_s loguniform(7, 9), once per sea\n"
+      "                    view.elevation_deg uniform(1, 5), once per observation\n"
+      "moves               still: does not move: targets.still.motion.model is fixed\n"
+      "                    pair: 2 points with velocities of their own in any sea\n"
+      "work                about 2 h of processor, 30 min on 4 threads, 3.2 MB of maps\n");
 }
 
 }  // namespace

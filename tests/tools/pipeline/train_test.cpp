@@ -3,15 +3,13 @@
 #include "tools/pipeline/train.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <functional>
 #include <limits>
 #include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -20,6 +18,8 @@
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/scenario/scenario.h"
+#include "tests/refusal.h"
+#include "tests/temporary_folder.h"
 #include "tools/pipeline/generate.h"
 
 namespace seaglint {
@@ -30,15 +30,15 @@ namespace fs = std::filesystem;
 class Training : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    folder_ = fs::path(testing::TempDir()) / ("seaglint_train_" + std::to_string(::getpid()));
-    fs::remove_all(folder_);
+    temporary_ = std::make_unique<TemporaryFolder>();
+    folder_ = temporary_->path();
     const Scenario scenario = read_scenario(
         SEAGLINT_SOURCE_DIR "/scenarios/points.yaml",
         {{"dataset.maps_per_case", "24"}, {"dataset.realisations_per_case", "4"}, {"radar.pulses", "64"}});
     generate_dataset(Pipeline(scenario), folder_ / "data", {1, 1, false, 1});
     train({});
   }
-  static void TearDownTestSuite() { fs::remove_all(folder_); }
+  static void TearDownTestSuite() { temporary_.reset(); }
 
   static void train(std::vector<Override> overrides, const StopFlag* stop = nullptr) {
     overrides.push_back({"learning.epochs", "1"});
@@ -51,12 +51,12 @@ class Training : public testing::Test {
 
   static std::map<std::string, std::string> files() {
     std::map<std::string, std::string> bytes;
-    for (const auto& entry : fs::directory_iterator(folder_ / "model")) {
+    for (const auto& entry : fs::directory_iterator(folder_ / "model"))
       if (entry.is_regular_file()) bytes[entry.path().filename()] = read_file(entry.path());
-    }
     return bytes;
   }
 
+  static inline std::unique_ptr<TemporaryFolder> temporary_;
   static inline fs::path folder_;
 };
 
@@ -70,21 +70,18 @@ TEST_F(Training, LearnsNothingFromAMapThatIsNotFinite) {
     Manifest manifest = read_manifest(data / kManifestFile);
     manifest.shards[0].sha256 = write_shard(file, shard, read_scenario(data / kScenarioFile).features.max_centres);
     write_file(data / kManifestFile, to_json(manifest));
-    try {
+    const std::string message = refusal_of([&] {
       train_model({{data}, folder_ / "no_model", {{"learning.epochs", "1"}}});
-    } catch (const InputError& error) {
-      EXPECT_FALSE(fs::exists(folder_ / "no_model"));
-      return std::string(error.what());
-    }
-    return std::string("learnt");
+    });
+    EXPECT_FALSE(fs::exists(folder_ / "no_model"));
+    return message;
   };
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   const auto nan = [](Sample& sample) { std::fill(sample.magnitude.begin(), sample.magnitude.end(), std::nanf("")); };
-  EXPECT_THAT(with_sample_3(nan), testing::HasSubstr("shard_00000.h5: sample 3: nan in the map is no magnitude"));
-  EXPECT_THAT(with_sample_3([](Sample& sample) { sample.magnitude[5] = kInfinity; }),
-              testing::HasSubstr("sample 3: inf in the map is no magnitude"));
-  EXPECT_THAT(with_sample_3([](Sample& sample) { sample.magnitude[5] = 3e38F; }),
-              testing::HasSubstr("sample 3: peak_m"));
+  EXPECT_HAS(with_sample_3(nan), "shard_00000.h5: sample 3: nan in the map is no magnitude");
+  EXPECT_HAS(with_sample_3([](Sample& sample) { sample.magnitude[5] = kInfinity; }),
+             "sample 3: inf in the map is no magnitude");
+  EXPECT_HAS(with_sample_3([](Sample& sample) { sample.magnitude[5] = 3e38F; }), "sample 3: peak_m");
 }
 
 TEST_F(Training, ThatIsStoppedEndsSoonAndKeepsTheEarlierModel) {

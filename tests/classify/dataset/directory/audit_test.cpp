@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // An audit reports exactly the faults that were introduced into a valid data set.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -17,9 +15,9 @@
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "tests/classify/dataset/data_directory.h"
+#include "tests/refusal.h"
 
 namespace seaglint {
-
 namespace {
 
 namespace fs = std::filesystem;
@@ -28,15 +26,15 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-class DataSetAudit : public DataSetDirectory {
+class CompleteDataSet : public DataSetDirectory {
  protected:
-  void SetUp() override {
-    DataSetDirectory::SetUp();
-    make_complete();
-  }
+  void SetUp() override { make_complete(); }
+};
 
-  // Changes a shard and its checksum, as a faulty program would.
-  void falsify(std::size_t index, const std::function<void(Shard&)>& change) {
+class DataSetAudit : public CompleteDataSet {
+ protected:
+  // The faults after a change of a shard and its checksum, as a faulty program would make it.
+  std::vector<std::string> falsify(std::size_t index, const std::function<void(Shard&)>& change) {
     Shard shard = shard_of(index);
     change(shard);
     const fs::path file = directory_ / shard_name(index);
@@ -45,6 +43,7 @@ class DataSetAudit : public DataSetDirectory {
     Manifest manifest = read_manifest(directory_ / kManifestFile);
     manifest.shards[index].sha256 = sha256_file(file);
     write_file(directory_ / kManifestFile, to_json(manifest));
+    return faults();
   }
 
   std::vector<std::string> faults() const { return audit(directory_).faults; }
@@ -60,33 +59,29 @@ TEST_F(DataSetAudit, CountsAValidDataSet) {
 }
 
 TEST_F(DataSetAudit, ReportsAWrongLabel) {
-  falsify(1, [](Shard& shard) { shard.samples[0].record.label = 1 - shard.samples[0].record.label; });
-  EXPECT_THAT(faults(), ElementsAre(HasSubstr("sample 3: label")));
+  EXPECT_THAT(falsify(1, [](Shard& shard) { shard.samples[0].record.label = 1 - shard.samples[0].record.label; }),
+              ElementsAre(HasSubstr("sample 3: label")));
 }
 
-TEST_F(DataSetAudit, ReportsDuplicateAndMissingSamples) {
-  falsify(0, [](Shard& shard) { shard.samples[1] = shard.samples[0]; });
-  EXPECT_THAT(faults(), ElementsAre(HasSubstr("shard_00000.h5: row 1 contains sample 0, by the manifest 1"),
-                                    HasSubstr("3 of 8 samples are missing")));
-}
-
-TEST_F(DataSetAudit, ReportsSamplesOutOfOrder) {
-  falsify(0, [](Shard& shard) { std::swap(shard.samples[1], shard.samples[2]); });
-  EXPECT_THAT(faults(), ElementsAre(HasSubstr("shard_00000.h5: row 1 contains sample 2, by the manifest 1"),
-                                    HasSubstr("3 of 8 samples are missing")));
+TEST_F(DataSetAudit, ReportsDuplicateAndMissingSamplesAndThoseOutOfOrder) {
+  EXPECT_THAT(falsify(0, [](Shard& shard) { shard.samples[1] = shard.samples[0]; }),
+              ElementsAre(HasSubstr("shard_00000.h5: row 1 contains sample 0, by the manifest 1"),
+                          HasSubstr("3 of 8 samples are missing")));
+  EXPECT_THAT(falsify(0, [](Shard& shard) { std::swap(shard.samples[1], shard.samples[2]); }),
+              ElementsAre(HasSubstr("shard_00000.h5: row 1 contains sample 2, by the manifest 1"),
+                          HasSubstr("3 of 8 samples are missing")));
 }
 
 // A map near the smallest float loses digits when it is stored; its peak and energy are computed before that.
 TEST_F(DataSetAudit, AllowsForTheRoundingOfTheSmallestNumbers) {
   const auto with_factor = [&](double stored, double recorded) {
-    falsify(0, [&](Shard& shard) {
+    return falsify(0, [&](Shard& shard) {
       for (Sample& sample : shard.samples) {
         for (float& value : sample.magnitude) value = static_cast<float>(value * stored);
         sample.record.peak_m *= recorded;
         sample.record.energy_m2 *= recorded * recorded;
       }
     });
-    return faults();
   };
   EXPECT_THAT(with_factor(1.2e-41, 1.2e-41), IsEmpty());
   EXPECT_THAT(with_factor(1e-30, 1.001e-30), Contains(HasSubstr("peak_m")));
@@ -103,22 +98,21 @@ TEST_F(DataSetAudit, ReportsEqualMapsOfTwoSamples) {
 }
 
 TEST_F(DataSetAudit, ReportsMapsThatDifferFromTheirRows) {
-  falsify(2, [](Shard& shard) { shard.samples[0].magnitude[1] = 2.5F; });
-  EXPECT_THAT(faults(), ElementsAre(HasSubstr("energy_m2")));
-  falsify(2, [](Shard& shard) { shard.samples[0].magnitude[1] = std::numeric_limits<float>::quiet_NaN(); });
-  EXPECT_THAT(faults(), ElementsAre(HasSubstr("no magnitude")));
+  EXPECT_THAT(falsify(2, [](Shard& shard) { shard.samples[0].magnitude[1] = 2.5F; }),
+              ElementsAre(HasSubstr("energy_m2")));
+  EXPECT_THAT(falsify(2, [](Shard& shard) { shard.samples[0].magnitude[1] = std::numeric_limits<float>::quiet_NaN(); }),
+              ElementsAre(HasSubstr("no magnitude")));
 }
 
 TEST_F(DataSetAudit, ReportsNumbersThatAreNotFinite) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  falsify(1, [](Shard& shard) { shard.samples[0].magnitude[2] = kInfinity; });
-  EXPECT_THAT(faults(), ElementsAre(HasSubstr("sample 3: inf in the map is no magnitude")));
-  falsify(1, [](Shard& shard) { shard.samples[0].record.mwr = std::numeric_limits<double>::quiet_NaN(); });
-  EXPECT_THAT(faults(), ElementsAre(HasSubstr("sample 3: mwr nan is not finite")));
-  falsify(1, [](Shard& shard) { shard.samples[0].record.scr_per_pulse_db = kInfinity; });
-  EXPECT_THAT(faults(), ElementsAre(HasSubstr("sample 3: scr_per_pulse_db inf is not finite")));
-  falsify(1, [](Shard& shard) { shard.samples[0].record.scr_per_pulse_db = std::nan(""); });  // no clutter
-  EXPECT_THAT(faults(), IsEmpty());
+  EXPECT_THAT(falsify(1, [](Shard& shard) { shard.samples[0].magnitude[2] = kInfinity; }),
+              ElementsAre(HasSubstr("sample 3: inf in the map is no magnitude")));
+  EXPECT_THAT(falsify(1, [](Shard& shard) { shard.samples[0].record.mwr = std::numeric_limits<double>::quiet_NaN(); }),
+              ElementsAre(HasSubstr("sample 3: mwr nan is not finite")));
+  EXPECT_THAT(falsify(1, [](Shard& shard) { shard.samples[0].record.scr_per_pulse_db = kInfinity; }),
+              ElementsAre(HasSubstr("sample 3: scr_per_pulse_db inf is not finite")));
+  EXPECT_THAT(falsify(1, [](Shard& shard) { shard.samples[0].record.scr_per_pulse_db = std::nan(""); }), IsEmpty());
   falsify(1, [](Shard& shard) {
     shard.samples[0].record.centres = 1;
     shard.samples[0].centre_list = {{1, kInfinity, 2}};
@@ -179,9 +173,7 @@ TEST_F(DataSetAudit, ReportsDamagedTruncatedAndForeignFiles) {
   const TemporaryFile being_written(directory_ / "dataset.h5");
   write_file(directory_ / "notes.tmp", "no file of a data set");
   write_file(directory_ / "other.h5", "foreign");
-  std::string bytes = read_file(directory_ / shard_name(1));
-  bytes[bytes.size() / 2] ^= 1;
-  write_file(directory_ / shard_name(1), bytes);
+  damage(directory_ / shard_name(1), fs::file_size(directory_ / shard_name(1)) / 2);
   const std::vector<std::string> found = faults();
   EXPECT_EQ(found.size(), 5u);  // and three samples are missing
   EXPECT_THAT(found, Contains(HasSubstr("half-written")));
@@ -197,37 +189,19 @@ TEST_F(DataSetAudit, ReportsAnotherScenario) {
   yaml.insert(yaml.find(seed) + seed.size(), "9");
   write_file(directory_ / kScenarioFile, yaml);
   const std::vector<std::string> found = faults();
-  EXPECT_THAT(found.front(), HasSubstr("is not the one that the manifest was written for"));
+  EXPECT_HAS(found.front(), "is not the one that the manifest was written for");
   EXPECT_THAT(found, Contains(HasSubstr("sample 0: seed")));
 }
-
-}  // namespace
 
 // One virtual file over all shards: it returns the shards' data and is not written over shards that are missing,
 // damaged or foreign.
 
-namespace {
-
-namespace fs = std::filesystem;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
-
-class MergedDataSet : public DataSetDirectory {
+class MergedDataSet : public CompleteDataSet {
  protected:
-  void SetUp() override {
-    DataSetDirectory::SetUp();
-    make_complete();
-  }
-
   std::string refusal() const {
-    try {
-      merge_dataset(directory_, file(), kTestVersion);
-    } catch (const InputError& error) {
-      EXPECT_FALSE(fs::exists(file()));
-      return error.what();
-    }
-    return "not refused";
+    const std::string message = refusal_of([&] { merge(); });
+    EXPECT_FALSE(fs::exists(file()));
+    return message;
   }
 
   void merge() const { merge_dataset(directory_, file(), kTestVersion); }
@@ -265,33 +239,31 @@ TEST_F(MergedDataSet, WritesAManifestMissingAfterConcurrentParts) {
 
 TEST_F(MergedDataSet, IsRefusedWhereAShardIsMissing) {
   fs::remove(directory_ / shard_name(1));
-  EXPECT_THAT(refusal(), HasSubstr("shard_00001.h5: missing"));
+  EXPECT_HAS(refusal(), "shard_00001.h5: missing");
   fs::remove(directory_ / kManifestFile);
-  EXPECT_THAT(refusal(), HasSubstr("shard_00001.h5: missing (1 of 3 shards)"));
+  EXPECT_HAS(refusal(), "shard_00001.h5: missing (1 of 3 shards)");
 }
 
 TEST_F(MergedDataSet, IsRefusedWhereAShardIsDamaged) {
   const fs::path shard = directory_ / shard_name(1);
-  std::string bytes = read_file(shard);
-  bytes.back() = static_cast<char>(bytes.back() ^ 1);
-  write_file(shard, bytes);
-  EXPECT_THAT(refusal(), HasSubstr("shard_00001.h5: truncated or changed"));
+  damage(shard, fs::file_size(shard) - 1);
+  EXPECT_HAS(refusal(), "shard_00001.h5: truncated or changed");
   fs::resize_file(shard, fs::file_size(shard) - 1);
   fs::remove(directory_ / kManifestFile);
-  EXPECT_THAT(refusal(), HasSubstr("shard_00001.h5: damaged or of another scenario"));
+  EXPECT_HAS(refusal(), "shard_00001.h5: damaged or of another scenario");
 }
 
 TEST_F(MergedDataSet, IsRefusedWhereAShardIsForeign) {
   const fs::path more = directory_ / "shard_00003.h5";
   fs::copy_file(directory_ / shard_name(0), more);
-  EXPECT_THAT(refusal(), HasSubstr("shard_00003.h5: foreign"));
+  EXPECT_HAS(refusal(), "shard_00003.h5: foreign");
   fs::remove(more);
   Shard other = shard_of(1);
   for (Sample& sample : other.samples) sample.record.seed = 43;
   write_shard(directory_ / shard_name(1), other, scenario_.features.max_centres);
-  EXPECT_THAT(refusal(), HasSubstr("shard_00001.h5: truncated or changed"));
+  EXPECT_HAS(refusal(), "shard_00001.h5: truncated or changed");
   fs::remove(directory_ / kManifestFile);
-  EXPECT_THAT(refusal(), HasSubstr("shard_00001.h5: damaged or of another scenario"));
+  EXPECT_HAS(refusal(), "shard_00001.h5: damaged or of another scenario");
 }
 
 TEST_F(MergedDataSet, IsRefusedWhereAShardIsOfAnotherVersion) {
@@ -299,7 +271,7 @@ TEST_F(MergedDataSet, IsRefusedWhereAShardIsOfAnotherVersion) {
   other.origin.program_version = "0.0.1";
   write_shard(directory_ / shard_name(1), other, scenario_.features.max_centres);
   fs::remove(directory_ / kManifestFile);
-  EXPECT_THAT(refusal(), HasSubstr("shard_00001.h5: made by seaglint 0.0.1, this is seaglint 0.0.0"));
+  EXPECT_HAS(refusal(), "shard_00001.h5: made by seaglint 0.0.1, this is seaglint 0.0.0");
 }
 
 // What HDF5 returns for a shard that was removed later must not look like a map.
@@ -373,5 +345,4 @@ TEST_F(MergedDataSet, FailsTheAuditWhenAnyByteOfARowIsChanged) {
 }
 
 }  // namespace
-
 }  // namespace seaglint

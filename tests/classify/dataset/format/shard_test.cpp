@@ -1,38 +1,122 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <ctime>
 #include <fstream>
+#include <span>
 
 #include "classify/dataset/format/manifest.h"
+#include "classify/dataset/format/npz.h"
 #include "classify/dataset/format/shard.h"
 #include "sim/core/numbers/random.h"
-#include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
+#include "tests/refusal.h"
 #include "tests/temporary_folder.h"
 
 namespace seaglint {
-
 namespace {
 
+// Arrays of NumPy's archives: values come back as written, in the headers that NumPy writes, and damaged files are
+// refused with the name of the array.
+
+template <class T>
+std::string bytes_of(const std::vector<T>& values) {
+  return bytes_of_values(std::span<const T>(values));
+}
+
+TEST(Npz, ReadsWhatItWrites) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "a.npz";
+  const std::vector<std::complex<float>> waves{{1, 2}, {3, 4}, {-5, 0.5F}, {0, 7}, {8, 9}, {10, 11}};
+  write_npz(file,
+            {npz_array("waves", "<c8", {2, 3}, bytes_of(waves)),
+             npz_array("code", "<i8", {3}, bytes_of(std::vector<std::int64_t>{7, -1, 1LL << 40})),
+             npz_array("one", "<f8", {}, bytes_of(std::vector<double>{0.1})), npz_array("none", "<u2", {0, 4}, "")},
+            {{"a.txt", "text"}});
+  EXPECT_THAT(npz_members(file), testing::ElementsAre("waves.npy", "code.npy", "one.npy", "none.npy", "a.txt"));
+  const NpzValues read = read_npz_array(file, "waves");
+  EXPECT_EQ(read.shape_text(), "(2, 3)");
+  const auto values = read.complex_numbers();
+  ASSERT_EQ(values.size(), waves.size());
+  for (std::size_t i = 0; i < waves.size(); ++i) EXPECT_EQ(values[i], std::complex<double>(waves[i]));
+  EXPECT_THAT(read_npz_array(file, "code").numbers(), testing::ElementsAre(7, -1, 1099511627776.0));
+  EXPECT_THAT(read_npz_array(file, "one").numbers(), testing::ElementsAre(0.1));
+  EXPECT_THAT(read_npz_array(file, "none").numbers(), testing::IsEmpty());
+  EXPECT_EQ(read_npz_text(file, "a.txt"), "text");
+}
+
+// As numpy.lib.format writes them: versions 1 to 3, keys in any order, a type of a single number.
+TEST(Npz, ReadsTheHeadersOfNumpy) {
+  const auto header = [](char version, const std::string& text) {
+    std::string bytes = std::string("\x93NUMPY") + version + '\0' + static_cast<char>(text.size());
+    bytes += std::string(version == 1 ? 1 : 3, '\0');
+    return bytes + text;
+  };
+  const std::string usual = "{'descr': '<f4', 'fortran_order': False, 'shape': (3, 40), }     \n";
+  for (const char version : {'\x01', '\x02', '\x03'}) {
+    const NpyHeader read = read_npy_header(header(version, usual) + "data");
+    EXPECT_EQ(read.type, "<f4");
+    EXPECT_THAT(read.shape, testing::ElementsAre(3, 40));
+    EXPECT_EQ(read.bytes, (version == 1 ? 10 : 12) + usual.size());
+  }
+  EXPECT_THAT(read_npy_header(header(1, "{\"shape\": (5,), \"fortran_order\": False, \"descr\": \"<i8\"}")).shape,
+              testing::ElementsAre(5));
+  const auto refused = [&](const std::string& bytes) { return refusal_of([&] { read_npy_header(bytes); }); };
+  EXPECT_HAS(refused(header(1, "{'descr': '<f4', 'fortran_order': True, 'shape': (3, 4), }")), "Fortran order");
+  for (const char* text :
+       {"{'descr': '<f4', 'shape': (3, 4), }", "{'descr': '<f4', 'fortran_order': False, 'shape': (3,",
+        "{'descr': [('x', '<f4')], 'fortran_order': False, 'shape': (3,), }", "", "{",
+        "{'descr': '<f4', 'descr': '<f4', 'fortran_order': False, 'shape': (-3,), }"})
+    EXPECT_HAS(refused(header(1, text)), "no header of NumPy's .npy format") << text;
+  for (const char* bytes : {"", "\x93NUMPY", "\x93NUMPY\x01", "NUMPY", "\x93NUMPY\x09\x01xx"})
+    EXPECT_HAS(refused(bytes), "no header of NumPy's .npy format");
+}
+
+TEST(Npz, RefusesWhatIsNoArrayOfItsShape) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "a.npz";
+  const std::string values = bytes_of(std::vector<double>{1, 2, 3, 4, 5, 6});
+  // As a text, so that the bytes need not be those of the shape.
+  const auto write = [&](const std::string& type, const std::vector<std::uint64_t>& shape) {
+    write_npz(file, {}, {{"x.npy", npy_header(type, shape) + values}});
+    return refusal_of([&] { read_npz_array(file, "x"); });
+  };
+  EXPECT_EQ(write("<f8", {6}), "accepted");
+  EXPECT_EQ(write("<f8", {2, 3}), "accepted");
+  EXPECT_EQ(write("<f8", {5}), file.string() + ": array x: 48 bytes of values for (5,) of <f8");
+  EXPECT_HAS(write("<f8", {7}), "48 bytes of values");
+  EXPECT_HAS(write("<f8", {0}), "48 bytes of values");
+  EXPECT_HAS(write("<f8", {1ULL << 63, 2, 6}), "48 bytes of values");
+  EXPECT_HAS(write("|O", {6}), "no array of numbers");
+  EXPECT_EQ(write(">f8", {6}), "accepted");
+  EXPECT_HAS(refusal_of([&] { read_npz_array(file, "x").numbers(); }), "type >f8: must be <f4");
+  EXPECT_HAS(refusal_of([&] { read_npz_array(file, "x").complex_numbers(); }), "must be <c8 or <c16");
+  EXPECT_HAS(refusal_of([&] { read_npz_array(file, "y"); }), "array y: is missing");
+}
+
+TEST(Npz, RefusesADamagedArchive) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "a.npz";
+  write_npz(file, {npz_array("x", "<f8", {100}, std::string(800, 'a'))});
+  const std::string bytes = read_file(file);
+  for (std::size_t length = 0; length < bytes.size(); length += 7) {
+    write_file(file, bytes.substr(0, length));
+    EXPECT_HAS(refusal_of([&] { read_npz_array(file, "x"); }), "no .npz archive of NumPy, or truncated");
+    EXPECT_HAS(refusal_of([&] { npz_members(file); }), "truncated");
+  }
+  std::string changed = bytes;
+  changed[changed.find("aaaa") + 400] = 'b';
+  write_file(file, changed);
+  EXPECT_HAS(refusal_of([&] { read_npz_array(file, "x"); }), "array x: is damaged");
+}
+
 namespace fs = std::filesystem;
-using testing::HasSubstr;
 
 // A directory of its own for every test, removed afterwards.
 class ShardFile : public testing::Test {
  protected:
-  void SetUp() override {
-    directory_ = fs::temp_directory_path() / ("seaglint_shard_" + std::to_string(::getpid()) + "_" +
-                                              testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::remove_all(directory_);
-    fs::create_directories(directory_);
-    file_ = directory_ / "shard_00000.h5";
-  }
-  void TearDown() override { fs::remove_all(directory_); }
-
-  fs::path directory_, file_;
+  const TemporaryFolder folder_;
+  const fs::path directory_ = folder_.path(), file_ = directory_ / "shard_00000.h5";
 };
 
 Shard some_shard(bool complex_values = false, bool echoes = false) {
@@ -49,9 +133,8 @@ Shard some_shard(bool complex_values = false, bool echoes = false) {
     sample.record.centres = i;
     for (std::size_t k = 0; k < shard.axes.cells(); ++k)
       sample.magnitude.push_back(static_cast<float>(random.uniform()));
-    for (std::size_t k = 0; complex_values && k < 2 * shard.axes.cells(); ++k) {
+    for (std::size_t k = 0; complex_values && k < 2 * shard.axes.cells(); ++k)
       sample.complex_values.push_back(static_cast<float>(random.normal()));
-    }
     for (int k = 0; echoes && k < 16 * 3 * 2; ++k) sample.echo.push_back(random.normal());
     for (int k = 0; k < 16; ++k) sample.hop_code.push_back(static_cast<std::uint16_t>(random.below(8)));
     for (int k = 0; k < i; ++k) sample.centre_list.push_back({1.0f * static_cast<float>(k), 0.5f, 2.0f});
@@ -78,12 +161,7 @@ void expect_equal(const Shard& a, const Shard& b) {
 }
 
 std::string message_of(const fs::path& file) {
-  try {
-    read_shard(file);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
+  return refusal_of([&] { read_shard(file); });
 }
 
 TEST_F(ShardFile, IsReadAsItWasWritten) {
@@ -124,7 +202,7 @@ TEST_F(ShardFile, IsRefusedWithItsNameWhenTruncated) {
   const std::uintmax_t size = fs::file_size(file_);
   for (const std::uintmax_t kept : {std::uintmax_t{0}, std::uintmax_t{7}, size / 4, size / 2, size - 1}) {
     fs::resize_file(file_, kept);
-    EXPECT_THAT(message_of(file_), HasSubstr("shard_00000.h5: ")) << kept << " of " << size << " bytes";
+    EXPECT_HAS(message_of(file_), "shard_00000.h5: ") << kept << " of " << size << " bytes";
   }
 }
 
@@ -139,7 +217,7 @@ TEST_F(ShardFile, IsRefusedWhenAnyByteOfAMapIsChanged) {
   ASSERT_NE(place, std::string::npos);
   bytes[place + 13] = static_cast<char>(bytes[place + 13] ^ 1);
   write_file(file_, bytes);
-  EXPECT_THAT(message_of(file_), HasSubstr("/maps is damaged"));
+  EXPECT_HAS(message_of(file_), "/maps is damaged");
 }
 
 TEST_F(ShardFile, NeverCrashesTheReaderWhateverByteIsChanged) {
@@ -153,16 +231,16 @@ TEST_F(ShardFile, NeverCrashesTheReaderWhateverByteIsChanged) {
     const std::size_t place = random.bits() % bytes.size();
     changed[place] = static_cast<char>(changed[place] ^ (1 << random.below(8)));
     std::ofstream(file_, std::ios::binary) << changed;
-    if (message_of(file_) != "no error") ++refused;
+    if (message_of(file_) != "accepted") ++refused;
   }
   // Padding between the objects of the file has no checksum of its own; the manifest's SHA-256 includes it.
   EXPECT_GT(refused, kTrials / 10);
 }
 
 TEST_F(ShardFile, NamesMissingContents) {
-  EXPECT_THAT(message_of(directory_ / "none.h5"), HasSubstr("none.h5: no such shard"));
+  EXPECT_HAS(message_of(directory_ / "none.h5"), "none.h5: no such shard");
   write_file(file_, "this is text");
-  EXPECT_THAT(message_of(file_), HasSubstr("not a whole HDF5 file"));
+  EXPECT_HAS(message_of(file_), "not a whole HDF5 file");
 }
 
 TEST_F(ShardFile, LeavesNoFileWhenWritingFails) {
@@ -175,11 +253,7 @@ TEST(Checksum, EqualsThePublishedDigest) {
   EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
 }
 
-}  // namespace
-
 // Columns of drawn values: units by the key, and what is written is read.
-
-namespace {
 
 TEST(DrawnColumns, HaveTheUnitOfTheirKey) {
   const std::pair<const char*, const char*> units[] = {
@@ -253,5 +327,4 @@ TEST(DrawnColumns, WithAPathForAKeyAreRefused) {
 }
 
 }  // namespace
-
 }  // namespace seaglint

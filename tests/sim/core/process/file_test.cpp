@@ -1,26 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/core/process/file.h"
-
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
 #include <set>
+#include <stdexcept>
 #include <string>
 
 #include "sim/core/process/error.h"
+#include "sim/core/process/file.h"
+#include "sim/core/process/parallel.h"
+#include "sim/core/process/shared_results.h"
+#include "tests/refusal.h"
 #include "tests/temporary_folder.h"
 
 namespace seaglint {
 namespace {
 
 namespace fs = std::filesystem;
-using ::testing::HasSubstr;
 
 // An empty folder of its own for each test.
 class Files : public ::testing::Test {
@@ -63,9 +65,9 @@ TEST_F(Files, ReadingErrorsNameTheCause) {
   EXPECT_EQ(reading(folder_), folder_.string() + ": cannot read: is a directory");
   EXPECT_EQ(reading("/dev/zero"), "/dev/zero: cannot read: is not a regular file");
   ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
-  EXPECT_THAT(reading(folder_ / "pipe"), HasSubstr("is not a regular file"));
+  EXPECT_HAS(reading(folder_ / "pipe"), "is not a regular file");
   write_file(folder_ / "large", std::string(101, ' '));
-  EXPECT_THAT(reading(folder_ / "large"), HasSubstr("has 101 bytes, more than the limit of 100"));
+  EXPECT_HAS(reading(folder_ / "large"), "has 101 bytes, more than the limit of 100");
   EXPECT_EQ(read_file(folder_ / "large", 101).size(), 101u);
 }
 
@@ -83,22 +85,22 @@ TEST_F(Files, AFailedWriteLeavesTheOldFileAndNothingElse) {
 
 TEST_F(Files, WritingErrorsNameTheFileAndTheCause) {
   const auto writing = [](const fs::path& path) { return message_of<WorkError>([&] { write_file(path, "content"); }); };
-  EXPECT_THAT(writing(folder_ / "none" / "x"), HasSubstr("none/x: cannot write: No such file or directory"));
-  EXPECT_THAT(writing(folder_), HasSubstr("cannot write: Is a directory"));
+  EXPECT_HAS(writing(folder_ / "none" / "x"), "none/x: cannot write: No such file or directory");
+  EXPECT_HAS(writing(folder_), "cannot write: Is a directory");
   EXPECT_EQ(writing("/dev/full"), "/dev/full: cannot write: No space left on device");
   EXPECT_EQ(entries(), 0u);
 }
 
 TEST_F(Files, AWriterWithoutAFileIsAnError) {
-  EXPECT_THAT(message_of<WorkError>([&] { write_file_with(folder_ / "x", [](const fs::path&) {}); }),
-              HasSubstr("x: cannot write: No such file or directory"));
+  EXPECT_HAS(message_of<WorkError>([&] { write_file_with(folder_ / "x", [](const fs::path&) {}); }),
+             "x: cannot write: No such file or directory");
 }
 
 TEST_F(Files, ADeviceIsWrittenNotReplaced) {
   write_file("/dev/null", "content");
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
-  EXPECT_THAT(message_of<WorkError>([] { write_file_with("/dev/null", [](const fs::path&) {}); }),
-              HasSubstr("is not a regular file"));
+  EXPECT_HAS(message_of<WorkError>([] { write_file_with("/dev/null", [](const fs::path&) {}); }),
+             "is not a regular file");
 }
 
 TEST_F(Files, ASymbolicLinkIsKept) {
@@ -114,7 +116,7 @@ TEST_F(Files, MakesADirectoryWithItsParents) {
   EXPECT_TRUE(fs::is_directory(folder_ / "a" / "b"));
   make_directory(folder_ / "a");
   write_file(folder_ / "x", "");
-  EXPECT_THAT(message_of<WorkError>([&] { make_directory(folder_ / "x"); }), HasSubstr("x: cannot make the directory"));
+  EXPECT_HAS(message_of<WorkError>([&] { make_directory(folder_ / "x"); }), "x: cannot make the directory");
   // Root can write anywhere: the check runs in a child process that is not root.
   fs::permissions(folder_, fs::perms::group_exec | fs::perms::others_exec, fs::perm_options::add);
   const fs::path locked = folder_ / "locked";
@@ -128,7 +130,7 @@ TEST_F(Files, MakesADirectoryWithItsParents) {
         std::_Exit(0);
       },
       testing::ExitedWithCode(0), "locked: the directory is not writable: Permission denied");
-  EXPECT_THAT(message_of<WorkError>([&] { make_directory(folder_ / "x" / "y"); }), HasSubstr("Not a directory"));
+  EXPECT_HAS(message_of<WorkError>([&] { make_directory(folder_ / "x" / "y"); }), "Not a directory");
   EXPECT_THROW(make_directory(""), WorkError);
 }
 
@@ -152,9 +154,8 @@ class TemporaryFiles : public ::testing::Test {
       ::_exit(0);
     }
     ::waitpid(process, nullptr, 0);
-    for (const std::string& name : names()) {
+    for (const std::string& name : names())
       if (!before.contains(name)) return folder_ / name;
-    }
     return {};
   }
 
@@ -240,6 +241,42 @@ TEST_F(TemporaryFiles, ThatWereReplacedAreNotPublished) {
   EXPECT_FALSE(fs::exists(target_));
   EXPECT_EQ(read_file(folder_ / "secret"), "of the user");
   EXPECT_FALSE(is_leftover(file.path())) << "a link is followed";
+}
+
+// Results that several threads need are computed once, and again when they are no longer kept.
+
+TEST(SharedResults, AreComputedOnceByManyThreads) {
+  SharedResults<int, int> squares(4);
+  std::atomic<int> made = 0;
+  parallel_for(400, 4, [&](std::size_t i) {
+    const int key = static_cast<int>(i % 4);
+    EXPECT_EQ(*squares.get(key,
+                           [&] {
+                             ++made;
+                             return key * key;
+                           }),
+              key * key);
+  });
+  EXPECT_EQ(made, 4);
+}
+
+TEST(SharedResults, OfTheOldestKeyAreForgottenAndComputedAgain) {
+  SharedResults<int, int> kept(2);
+  int made = 0;
+  const auto make = [&] { return ++made; };
+  const auto first = kept.get(1, make);
+  kept.get(2, make);
+  kept.get(3, make);
+  EXPECT_EQ(*kept.get(3, make), 3);
+  EXPECT_EQ(*kept.get(2, make), 2);
+  EXPECT_EQ(*kept.get(1, make), 4);
+  EXPECT_EQ(*first, 1);
+}
+
+TEST(SharedResults, ThatFailedAreTriedAgain) {
+  SharedResults<int, int> kept(2);
+  EXPECT_THROW(kept.get(1, []() -> int { throw std::runtime_error("interrupted"); }), std::runtime_error);
+  EXPECT_EQ(*kept.get(1, [] { return 7; }), 7);
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 // Meshes as other programs write them, and damaged ones (tests/cases/README.md).
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <string>
@@ -162,10 +161,9 @@ TEST_F(FieldMesh, OfTextIsReadWithEveryLineEndAByteOrderMarkAndKeywordsInTwoWord
     std::replace(lines.begin(), lines.end(), '\n', '\r');
     return lines;
   };
-  for (const auto& [name, written] : {std::pair{"a.obj", obj}, {"a.ply", ply}}) {
+  for (const auto& [name, written] : {std::pair{"a.obj", obj}, {"a.ply", ply}})
     for (const std::string& other : {written, mark + written, old_mac(written), mark + old_mac(written)})
       EXPECT_EQ(read_mesh(put(name, other)).triangles.size(), 1u) << name << ' ' << other;
-  }
   expect_error(put("a.obj", old_mac("v 0 0 0\nv x 0 0\n")), "a.obj:2: \"x\" is not a coordinate");
 
   // A binary PLY has lines in its header only, and \r and \n among its numbers.
@@ -181,8 +179,7 @@ TEST_F(FieldMesh, OfBinaryStlIsReadWithAFindingOfTheBytesBehindIt) {
   const TriangleMesh mesh = read_mesh(kMeshes + "newline_behind.stl");
   EXPECT_EQ(quoted_size(mesh), kFloat);
   EXPECT_THAT(mesh.findings, testing::ElementsAre("1 byte is left over behind the last of 12 triangles: not read"));
-  const std::string bytes = read_file(kMeshes + "newline_behind.stl");
-  const std::string file = bytes.substr(0, bytes.size() - 1);
+  const std::string bytes = read_file(kMeshes + "newline_behind.stl"), file = bytes.substr(0, bytes.size() - 1);
   EXPECT_THAT(read_mesh(put("a.stl", file + std::string(512, '\0'))).findings,
               testing::ElementsAre("512 bytes are left over behind the last of 12 triangles: not read"));
   // The comment may begin with solid.

@@ -3,9 +3,7 @@
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -19,6 +17,7 @@
 #include "sim/core/process/file.h"
 #include "sim/geometry/mesh/topology.h"
 #include "sim/geometry/shapes/generators.h"
+#include "tests/refusal.h"
 #include "tests/sim/geometry/mesh_file.h"
 
 namespace seaglint {
@@ -114,9 +113,8 @@ TEST_F(MeshFile, UnitsScaleLengths) {
   write_mesh(folder / "a.stl", make_plate(1, 1));
   const std::pair<const char*, double> units[] = {{"m", 1},     {"cm", 0.01},   {"mm", 0.001},
                                                   {"km", 1000}, {"in", 0.0254}, {"ft", 0.3048}};
-  for (const auto& [unit, metres] : units) {
+  for (const auto& [unit, metres] : units)
     EXPECT_NEAR(surface_area(read_mesh(folder / "a.stl", unit)), metres * metres, 1e-12 * metres * metres) << unit;
-  }
   EXPECT_THROW(read_mesh(folder / "a.stl", "yard"), InputError);
 }
 
@@ -168,9 +166,8 @@ TEST_F(MeshFile, ObjCommentsEndWithTheirLine) {
   const std::string corners = "v 0 0 0\nv 2 0 0\nv 0 1 0\nv 0 3 0\n";
   for (const std::string& text :
        {"# made from C:\\models\\\n" + corners + "f 1 2 3\n", "  #\\\r\n" + corners + "f 1 2 3\n",
-        corners + "f 1 2 2 # C:\\\n# C:\\\nf 1 2 3\n", "v 0 0 0 # C:\\\n" + corners.substr(8) + "f 1 2 3\n"}) {
+        corners + "f 1 2 2 # C:\\\n# C:\\\nf 1 2 3\n", "v 0 0 0 # C:\\\n" + corners.substr(8) + "f 1 2 3\n"})
     EXPECT_NEAR(surface_area(read_mesh(put("a.obj", text))), 1.0, 1e-15) << text;
-  }
   expect_error(put("a.obj", "v 0 0 0 \\\n" + corners.substr(8) + "f 1 2 3\n"),
                "4 lines begin with v, 3 of them are vertices");
 }
@@ -179,9 +176,8 @@ TEST_F(MeshFile, ObjCommentsEndWithTheirLine) {
 TEST_F(MeshFile, SixtyThousandPartsAreReadAndWritten) {
   constexpr int kParts = 60000;
   std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
-  for (const char* face : {"f 1 2 3\n", "f 1 2 4\n"}) {
+  for (const char* face : {"f 1 2 3\n", "f 1 2 4\n"})
     for (int i = 0; i < kParts; ++i) obj += fmt::format("g part_number_{}\n{}", i, face);
-  }
   const TriangleMesh mesh = read_mesh(put("a.obj", obj));
   write_mesh(folder / "a.glb", mesh);
   EXPECT_EQ(mesh.part_names.size(), std::size_t{kParts});
@@ -328,8 +324,6 @@ TEST_F(MeshFile, WrongNamesAndPlacesAreRefused) {
 
 // Mesh files with a valid encoding and invalid contents.
 
-using testing::HasSubstr;
-
 class MeshErrors : public MeshFile {
  protected:
   std::string refusal(const std::string& name, const std::string& content) const {
@@ -351,46 +345,42 @@ std::string gltf_of(int count, const std::string& mode, const std::string& node,
 TEST_F(MeshErrors, OfVerticesThatFormNoWholeTriangles) {
   EXPECT_EQ(refusal("a.gltf", gltf_of(3, "4", "")), "accepted");
   EXPECT_EQ(refusal("a.gltf", gltf_of(4, "5", "")), "accepted");
-  EXPECT_THAT(
-      refusal("a.gltf", gltf_of(4, "4", "")),
-      HasSubstr("a.gltf: meshes[0].primitives[0]: 4 vertices without indices are no whole number of triangles"));
-  EXPECT_THAT(refusal("a.gltf", gltf_of(2, "6", "")), HasSubstr("2 vertices without indices make no triangle"));
+  EXPECT_HAS(refusal("a.gltf", gltf_of(4, "4", "")),
+             "a.gltf: meshes[0].primitives[0]: 4 vertices without indices are no whole number of triangles");
+  EXPECT_HAS(refusal("a.gltf", gltf_of(2, "6", "")), "2 vertices without indices make no triangle");
   write_mesh(folder / "plate.gltf", make_plate(1, 1));
   std::string indexed = bytes_of(folder / "plate.gltf");
   const std::size_t six = indexed.find("\"count\":6");
   ASSERT_NE(six, std::string::npos) << indexed;
-  EXPECT_THAT(refusal("a.gltf", indexed.replace(six, 9, "\"count\":5")),
-              HasSubstr("5 indices are no whole number of triangles"));
+  EXPECT_HAS(refusal("a.gltf", indexed.replace(six, 9, "\"count\":5")), "5 indices are no whole number of triangles");
 }
 
 TEST_F(MeshErrors, OfSingularTransforms) {
   const auto with = [&](const std::string& node) { return refusal("a.gltf", gltf_of(3, "4", node)); };
   EXPECT_EQ(with(R"(,"matrix":[1,0,0,0, 0,1,0,0, 0,0,1,0, 5,0,0,1])"), "accepted");
-  EXPECT_THAT(with(R"(,"matrix":[1,0,0,0.5, 0,1,0,0, 0,0,1,0, 0,0,0,1])"),
-              HasSubstr("nodes[0].matrix has 0.5 in its last row, which must be 0 0 0 1"));
-  EXPECT_THAT(with(R"(,"matrix":[1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,2])"),
-              HasSubstr("nodes[0].matrix has 2 in its last row"));
-  EXPECT_THAT(with(R"(,"matrix":[1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1],"scale":[2,2,2])"),
-              HasSubstr("nodes[0] has a matrix and a scale"));
-  EXPECT_THAT(with(R"(,"rotation":[0,0,0,0])"), HasSubstr("nodes[0].rotation is zero"));
+  EXPECT_HAS(with(R"(,"matrix":[1,0,0,0.5, 0,1,0,0, 0,0,1,0, 0,0,0,1])"),
+             "nodes[0].matrix has 0.5 in its last row, which must be 0 0 0 1");
+  EXPECT_HAS(with(R"(,"matrix":[1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,2])"), "nodes[0].matrix has 2 in its last row");
+  EXPECT_HAS(with(R"(,"matrix":[1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1],"scale":[2,2,2])"),
+             "nodes[0] has a matrix and a scale");
+  EXPECT_HAS(with(R"(,"rotation":[0,0,0,0])"), "nodes[0].rotation is zero");
   EXPECT_EQ(with(R"(,"rotation":[0,0,0,1],"scale":[2,2,2])"), "accepted");
 }
 
 TEST_F(MeshErrors, OfAFileForALaterGltf) {
   EXPECT_EQ(refusal("a.gltf", gltf_of(3, "4", "", R"(,"minVersion":"2.0")")), "accepted");
-  EXPECT_THAT(refusal("a.gltf", gltf_of(3, "4", "", R"(,"minVersion":"3.0")")),
-              HasSubstr("a.gltf: needs more than glTF 2 (asset.minVersion)"));
+  EXPECT_HAS(refusal("a.gltf", gltf_of(3, "4", "", R"(,"minVersion":"3.0")")),
+             "a.gltf: needs more than glTF 2 (asset.minVersion)");
 }
 
 // Two solids in one file, or a count that is smaller than the contents.
 TEST_F(MeshErrors, OfBinaryStlWithMoreTrianglesThanDeclared) {
   write_mesh(folder / "plate.stl", make_plate(1, 1));
   std::string bytes = bytes_of(folder / "plate.stl");
-  EXPECT_THAT(refusal("a.stl", bytes + bytes),
-              HasSubstr("a.stl: promises 2 triangles, which end at byte 184; 184 bytes are left over"));
+  EXPECT_HAS(refusal("a.stl", bytes + bytes),
+             "a.stl: promises 2 triangles, which end at byte 184; 184 bytes are left over");
   bytes[80] = 1;
-  EXPECT_THAT(refusal("a.stl", bytes),
-              HasSubstr("promises 1 triangles, which end at byte 134; 50 bytes are left over"));
+  EXPECT_HAS(refusal("a.stl", bytes), "promises 1 triangles, which end at byte 134; 50 bytes are left over");
 }
 
 TEST_F(MeshErrors, OfSizesThatNoFormatPreserves) {
@@ -430,9 +420,8 @@ class MeshFuzzing : public MeshFile, public testing::WithParamInterface<const ch
     const fs::path path = put("damaged" + std::string(GetParam()), content);
     const std::string message = refusal_of([&] {
       const TriangleMesh mesh = read_mesh(path);
-      for (const auto& triangle : mesh.triangles) {
+      for (const auto& triangle : mesh.triangles)
         for (std::uint32_t v : triangle) EXPECT_TRUE(v < mesh.vertices.size() && mesh.vertices[v].allFinite());
-      }
     });
     EXPECT_THAT(message, testing::AnyOf("accepted", testing::StartsWith(path.string())));
     return message != "accepted";

@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Shells as Gmsh and meshio write them (tests/cases/README.md), whole and damaged.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/random.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/mesh/mesh_diagnostics.h"
+#include "tests/refusal.h"
 #include "tests/sim/geometry/mesh_file.h"
 
 namespace seaglint {
@@ -41,10 +39,11 @@ TEST_P(ExchangeFile, HasTheBoxThatGmshMeshed) {
   EXPECT_NEAR(enclosed_volume(mesh), 0.42, rounding);
   const MeshDiagnostics found = diagnose(mesh);
   EXPECT_EQ(found.open_edges + found.inconsistent_edges + found.non_manifold_edges, 0u);
-  if (name.find("second_order") != std::string::npos)
+  if (name.find("second_order") != std::string::npos) {
     EXPECT_THAT(mesh.findings, ElementsAre("42 elements of higher order: read by the corners, sides are straight"));
-  else
+  } else {
     EXPECT_THAT(mesh.findings, IsEmpty());
+  }
 }
 
 TEST_P(ExchangeFile, HasItsParts) {
@@ -93,9 +92,8 @@ TEST_P(ExchangeFile, WithChangedBytesIsNeverACrash) {
     const std::filesystem::path path = put(name, changed);
     const std::string message = refusal_of([&] {
       const TriangleMesh mesh = read_mesh(path);
-      for (const auto& triangle : mesh.triangles) {
+      for (const auto& triangle : mesh.triangles)
         for (const std::uint32_t v : triangle) EXPECT_LT(v, mesh.vertices.size());
-      }
     });
     EXPECT_THAT(message, testing::AnyOf("accepted", testing::StartsWith(path.string())));
   }
@@ -354,8 +352,8 @@ TEST_F(Unv, HasItsUnitFromItsDataset) {
   EXPECT_DOUBLE_EQ(length(asked), 0.002);
   EXPECT_THAT(asked.findings, testing::Contains("its dataset 164 states metres: read in mm as asked for"));
   EXPECT_DOUBLE_EQ(length(read(kUnvNodes + kUnvElements, "cm")), 0.02);
-  EXPECT_THAT(refusal_of([&] { read(millimetres + kUnvNodes + kUnvElements, "in"); }),
-              HasSubstr("unit \"in\": must be that of the file, 0.001 m by its dataset 164"));
+  EXPECT_HAS(refusal_of([&] { read(millimetres + kUnvNodes + kUnvElements, "in"); }),
+             "unit \"in\": must be that of the file, 0.001 m by its dataset 164");
 }
 
 TEST_F(Unv, ThatIsDamagedOrUnreadableIsRefusedWithItsPlace) {

@@ -35,9 +35,8 @@ TEST(DihedralMesh, IsOpenForwardWithItsAngleAtAVerticalSeam) {
     if (wedge.triangles[1] == kNoIndex) continue;
     ++seams;
     EXPECT_NEAR(wedge.exterior_angle, radians(90), kRounding);
-    for (std::uint32_t v : topology.edges[wedge.edge].vertices) {
+    for (std::uint32_t v : topology.edges[wedge.edge].vertices)
       EXPECT_NEAR(dihedral.vertices[v].xy().norm(), 0, kRounding);
-    }
   }
   EXPECT_EQ(seams, 1);
   for (std::size_t t = 0; t < dihedral.triangles.size(); ++t) EXPECT_GT(area_vector(dihedral, t).x(), 0);

@@ -2,7 +2,6 @@
 #include "sim/geometry/ship/make_ship.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +16,7 @@
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/mesh/topology.h"
 #include "sim/geometry/shapes/generators.h"
+#include "tests/temporary_folder.h"
 
 namespace seaglint {
 namespace {
@@ -40,9 +40,8 @@ TEST_F(ShipMesh, HasItsLengthAndDraught) {
 
 TEST_F(ShipMesh, HasItsBeamAtTheWaterline) {
   double widest = 0;
-  for (const Vec3& p : mesh.vertices) {
+  for (const Vec3& p : mesh.vertices)
     if (p.z() == 0) widest = std::max(widest, p.y());
-  }
   EXPECT_NEAR(2 * widest, 17.5, 0.01);
 }
 
@@ -86,8 +85,7 @@ TEST_F(ShipMesh, EverySolidWithinAPartFacesOutwards) {
 
 TEST_F(ShipMesh, HullHasTheVolumeOfItsSections) {
   // Freeboard times mean breadth: 144 m x 17.5 m x about 6.3 m, of which a fine hull fills 0.7 to 0.85.
-  const double box = 144 * 17.5 * 6.3;
-  const double volume = enclosed_volume(part_of(mesh, 0));
+  const double box = 144 * 17.5 * 6.3, volume = enclosed_volume(part_of(mesh, 0));
   EXPECT_EQ(mesh.part_names[0], "hull");
   EXPECT_GT(volume, 0.70 * box);
   EXPECT_LT(volume, 0.85 * box);
@@ -175,13 +173,12 @@ TEST(ShipForm, OutOfRangeIsRefused) {
 const std::filesystem::path kAssets = std::filesystem::path(SEAGLINT_SOURCE_DIR) / "assets";
 
 void expect_same_bytes(const TriangleMesh& mesh, const char* name) {
-  const std::filesystem::path again =
-      std::filesystem::path(testing::TempDir()) / ("seaglint_again_" + std::to_string(::getpid()) + name);
+  const TemporaryFolder folder;
+  const std::filesystem::path again = folder.path() / name;
   write_mesh(again, mesh);
   // EXPECT_EQ would print half a megabyte.
   EXPECT_TRUE(read_file(again) == read_file(kAssets / name))
       << "assets/" << name << " differs from the output of its command in assets/README.md";
-  std::filesystem::remove(again);
 }
 
 TEST(Assets, ShipEqualsItsGeneratorsOutput) { expect_same_bytes(make_ship(), "combatant_144m.glb"); }
@@ -201,8 +198,7 @@ TEST(Assets, HaveTheirChecksums) {
 }
 
 TEST(Assets, AreUnchangedByARoundTripThroughTheirFiles) {
-  const TriangleMesh ship = make_ship();
-  const TriangleMesh again = read_mesh(kAssets / "combatant_144m.glb");
+  const TriangleMesh ship = make_ship(), again = read_mesh(kAssets / "combatant_144m.glb");
   ASSERT_EQ(again.triangles.size(), ship.triangles.size());
   EXPECT_EQ(again.part_names, ship.part_names);
   for (std::size_t t = 0; t < ship.triangles.size(); ++t) {

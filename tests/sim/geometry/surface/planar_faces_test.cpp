@@ -6,7 +6,6 @@
 #include <array>
 #include <set>
 #include <tuple>
-#include <vector>
 
 #include "sim/core/numbers/rotation.h"
 #include "sim/geometry/mesh/topology.h"

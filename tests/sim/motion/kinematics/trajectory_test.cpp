@@ -152,9 +152,8 @@ TEST(Oscillator, IsIntegratedToFourthOrder) {
   const auto end = [&](int steps) {
     OscillatorState state{0.2, 0.1};
     const double step = 10.0 / steps;
-    for (int n = 0; n < steps; ++n) {
+    for (int n = 0; n < steps; ++n)
       state = advance(swing, state, std::sin(n * step), std::sin((n + 0.5) * step), std::sin((n + 1) * step), step);
-    }
     return state.x;
   };
   const double fine = end(12800);

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
-#include <string>
 #include <vector>
 
 #include "sim/core/numbers/constants.h"
@@ -237,16 +236,14 @@ TEST(SimulateShip, IsInSteadyStateAtTimeZero) {
   const std::vector<MotionSample> twice = simulate_ship(ship, spec, sea, 0, 0, 20);
   // The residual of the nonlinear transient: e^{-0.075 0.576 120} = 0.6 % of the error of the initial state, which is
   // small itself.
-  for (std::size_t n = 0; n < once.size(); n += 50) {
+  for (std::size_t n = 0; n < once.size(); n += 50)
     EXPECT_NEAR((once[n].angles - twice[n].angles).norm(), 0, 2e-4 * 0.1) << n;
-  }
 }
 
 double rms_deg(const ShipParticulars& ship, const WaveField& sea, double mu_deg, Complex MotionRao::*degree) {
   double sum = 0;
-  for (const WaveComponent& c : sea.components()) {
+  for (const WaveComponent& c : sea.components())
     sum += 0.5 * std::norm(c.amplitude * (ship_rao(ship, wave_of(c.omega, mu_deg)).*degree));
-  }
   return degrees(std::sqrt(sum));
 }
 
@@ -273,9 +270,8 @@ TEST(SimulateShip, HardlyMovesInSmallWaves) {
   const MotionSpec spec = combatant();
   const ShipParticulars ship = ship_of(spec);
   const WaveField sea = realise_sea(state_of(0.1, 3.96 * std::sqrt(0.1), 120), 1, 0);
-  for (const MotionSample& sample : simulate_ship(ship, spec, sea, 0, 0, 30)) {
+  for (const MotionSample& sample : simulate_ship(ship, spec, sea, 0, 0, 30))
     ASSERT_LT(degrees(sample.angles.norm()), 0.01);
-  }
 }
 
 TEST(SimulateShip, RotatesAShipAboutItsCentreOfGravity) {
@@ -298,9 +294,8 @@ TEST(SimulateShip, ShortPeriodsStayStableAtLongSteps) {
   spec.roll_quadratic_damping = 0.5;
   spec.step_s = 0.1;
   const WaveField sea = realise_sea(state_of(0.5, 4, 120), 1, 0);
-  for (const MotionSample& sample : simulate_ship(ship_of(spec), spec, sea, 0, 0, 100)) {
+  for (const MotionSample& sample : simulate_ship(ship_of(spec), spec, sea, 0, 0, 100))
     ASSERT_LT(sample.angles.norm(), 1.0);
-  }
 }
 
 // S175 with its main particulars (tests/reference/ship_motion/SOURCE.md); its centre of flotation follows from the

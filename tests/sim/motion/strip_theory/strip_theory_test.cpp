@@ -27,8 +27,7 @@ Complex by_quadrature(Complex z) {
 TEST(ScaledExponentialIntegral, IsItsIntegral) {
   for (const double size : {0.01, 0.5, 3.0, 5.0, 7.0, 12.0, 20.0, 23.9, 24.1, 60.0}) {
     for (const double angle_deg : {0.0, 45.0, 90.0, 120.0, 150.0, 170.0}) {
-      const Complex z = std::polar(size, radians(angle_deg));
-      const Complex expected = by_quadrature(z);
+      const Complex z = std::polar(size, radians(angle_deg)), expected = by_quadrature(z);
       EXPECT_NEAR(std::abs(scaled_exponential_integral(z) / expected - 1.0), 0, 1e-6) << size << " at " << angle_deg;
     }
   }
@@ -174,8 +173,7 @@ TEST(SectionRadiation, SatisfiesHaskindsRelation) {
       for (std::size_t p = 0; p < kContourPoints; ++p) {
         const Contour& c = s.contour;
         const double cosine = std::exp(k * c.z[p]) * std::cos(k * c.y[p]);
-        const double sine = std::exp(k * c.z[p]) * std::sin(k * c.y[p]);
-        const double n_y = 2 * c.dz[p], n_z = -2 * c.dy[p];
+        const double sine = std::exp(k * c.z[p]) * std::sin(k * c.y[p]), n_y = 2 * c.dz[p], n_z = -2 * c.dy[p];
         // Froude-Krylov and diffraction force of a beam sea, as in StripTheory::excitation.
         heave += -kGravity * cosine * n_z + w * w * s.flow.potential[kHeave][p] * (n_z * cosine - n_y * sine);
         sway += Complex(0, kGravity) * sine * n_y -

@@ -204,8 +204,7 @@ TEST(Material, LosslessSheetsConserveEnergyAndAreReciprocal) {
 
 TEST(Material, DenseMediumTendsToItsLeontovichImpedance) {
   // Z = 1 / sqrt(eps); the angle inside changes it by sin^2 / (2 eps), which is below 5e-4 for eps = 1000.
-  const Complex eps(1000, -2000);
-  const Complex z = 1.0 / std::sqrt(eps);
+  const Complex eps(1000, -2000), z = 1.0 / std::sqrt(eps);
   MaterialSpec impedance;
   impedance.kind = SurfaceKind::kImpedance;
   impedance.resistance = z.real();
@@ -267,9 +266,8 @@ TEST(SeaWater, TwoPublishedModelsAgreeWithinTheirMeasurements) {
     const Complex ours = sea_water_permittivity(1e9 * ghz, celsius, 35), theirs = klein_swift(1e9 * ghz, celsius, 35);
     max_error = std::max(max_error, std::abs(ours - theirs) / std::abs(theirs));
   };
-  for (const double celsius : {0.0, 10.0, 20.0, 29.0}) {
+  for (const double celsius : {0.0, 10.0, 20.0, 29.0})
     for (const double ghz : {1.0, 1.4, 3.0}) compare(ghz, celsius);
-  }
   for (const double ghz : {10.0, 16.0}) compare(ghz, 20);
   record_figure(100 * max_error, 2, "sea_water_percent");
   EXPECT_LT(max_error, 0.015);

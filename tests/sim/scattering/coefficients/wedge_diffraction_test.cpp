@@ -52,9 +52,8 @@ TEST(FringeCurrent, IsKellersCoefficientLessThatOfPhysicalOptics) {
     // Keller's coefficients are infinite at the incident and the reflection shadow boundary; near them rounding errors
     // grow.
     if (std::abs(std::abs(phi - phi_in) - kPi) < 0.05 || std::abs(phi + phi_in - kPi) < 0.05 ||
-        std::abs(2 * N * kPi - phi - phi_in - kPi) < 0.05) {
+        std::abs(2 * N * kPi - phi - phi_in - kPi) < 0.05)
       continue;
-    }
     const Vec3 k_hat(-std::cos(phi_in), -std::sin(phi_in), 0), s(std::cos(phi), std::sin(phi), 0);
     const auto [soft, hard] = keller(N, phi, phi_in);
     const auto [soft_1, hard_1] = optics(phi, phi_in);
@@ -367,9 +366,8 @@ TEST(MaterialEdge, OfPerfectConductorsIsTheirEquivalentEdgeCurrent) {
     const double phi0 = N * kPi * random.uniform(), phi = N * kPi * random.uniform();
     if (std::abs(std::abs(phi - phi0) - kPi) < 0.02 || std::abs(phi + phi0 - kPi) < 0.02 ||
         std::abs(2 * N * kPi - phi - phi0 - kPi) < 0.02 || std::min(phi, phi0) < 0.02 ||
-        std::max(phi, phi0) > N * kPi - 0.02) {
+        std::max(phi, phi0) > N * kPi - 0.02)
       continue;
-    }
     const Vec3 k_hat = -towards(phi0, kPi - b), s = towards(phi, b);  // on Keller's cone
     const Vec3 h = k_hat.cross(Vec3::UnitZ()).normalized(), v = k_hat.cross(h);
     const std::array fields{h, v};

@@ -198,8 +198,7 @@ TEST(PhaseIntegral, EqualsQuadratureFromFlatPhaseToManyCycles) {
       }
       return sum;
     };
-    const Complex coarse = quadrature(400), fine = quadrature(800);
-    const Complex richardson = fine + (fine - coarse) / 3.0;
+    const Complex coarse = quadrature(400), fine = quadrature(800), richardson = fine + (fine - coarse) / 3.0;
     EXPECT_LT(std::abs(flat_phase_integral(footprint, footprint.polygon, k) - richardson), 2e-6) << slope;
   }
 }

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 
 #include "sim/core/numbers/constants.h"
@@ -14,11 +13,13 @@
 #include "tests/measured.h"
 #include "tests/sim/scattering/moving_radar.h"
 #include "tests/sim/scattering/solve_calls.h"
+#include "tests/sim/scattering/solver_fixtures.h"
 
 namespace seaglint {
 namespace {
 
 using namespace testing_moving_radar;
+using testing_echoes::RelativeError;
 
 // The response of a body under a moving radar, whose direction and image in the sea change over the interval.
 
@@ -39,20 +40,17 @@ TEST(MovingRadar, IntervalResultMatchesPerPulseDirections) {
   const Vec3 r_hat = direction_to_radar(radians(70), radians(2));
   const FrequencyResponse passing =
       interval_response(scatterer, at_rest, r_hat, Polarisation::kVv, sampling, {}).response;
-  double difference = 0, power = 0;
+  RelativeError error;
   for (const int n : {0, 7, 15}) {
     const IntervalSampling one = only_pulse(sampling, n);
     const double t = sampling.pulse_time_s[n] - sampling.pulse_time_s.front();
     const Vec3 direction = (r_hat + t * sampling.line_of_sight_rate).normalized();
     const FrequencyResponse traced =
         interval_response(scatterer, at_rest, direction, Polarisation::kVv, one, {}).response;
-    for (int b = 0; b < sampling.frequencies_per_pulse; ++b) {
-      difference += std::norm(passing.at(n, b) - traced.at(0, b));
-      power += std::norm(traced.at(0, b));
-    }
+    for (int b = 0; b < sampling.frequencies_per_pulse; ++b) error.add(passing.at(n, b), traced.at(0, b));
   }
   // -40 dB of the interval, as for a rotating body; without the change of direction the echo is a different one.
-  EXPECT_LT(std::sqrt(difference / power), 0.01);
+  EXPECT_LT(error.value(), 0.01);
 }
 
 TEST(MovingRadar, IntervalResultOverTheSeaMatchesPerPulseDirections) {
@@ -71,22 +69,19 @@ TEST(MovingRadar, IntervalResultOverTheSeaMatchesPerPulseDirections) {
     const IntervalSampling sampling = over_the_sea(velocity);
     const FrequencyResponse passing =
         interval_response(scatterer, body, r_hat, Polarisation::kHh, sampling, {}, 2, &sea).response;
-    double difference = 0, power = 0;
+    RelativeError error;
     for (const int n : {0, 7, 15}) {
       const IntervalSampling one = only_pulse(sampling, n);
       const Vec3 direction = direction_at(sampling, r_hat, static_cast<std::size_t>(n));
       const FrequencyResponse traced =
           interval_response(scatterer, body, direction, Polarisation::kHh, one, {}, 2, &sea).response;
-      for (int b = 0; b < sampling.frequencies_per_pulse; ++b) {
-        difference += std::norm(passing.at(n, b) - traced.at(0, b));
-        power += std::norm(traced.at(0, b));
-      }
+      for (int b = 0; b < sampling.frequencies_per_pulse; ++b) error.add(passing.at(n, b), traced.at(0, b));
     }
     fmt::print("radar at {}, {}, {} m/s over the sea: {:.1f} dB\n", velocity.x(), velocity.y(), velocity.z(),
-               10 * std::log10(difference / power));
-    EXPECT_LT(std::sqrt(difference / power), 0.01) << velocity.x() << ' ' << velocity.y() << ' ' << velocity.z();
-    best_db = std::min(best_db, 10 * std::log10(difference / power));
-    worst_db = std::max(worst_db, 10 * std::log10(difference / power));
+               error.db());
+    EXPECT_LT(error.value(), 0.01) << velocity.x() << ' ' << velocity.y() << ' ' << velocity.z();
+    best_db = std::min(best_db, error.db());
+    worst_db = std::max(worst_db, error.db());
   }
   record_figure(worst_db, 1, "moving_radar_worst_db");
   record_figure(best_db, 1, "moving_radar_best_db");

@@ -110,10 +110,9 @@ Sample random_footprint(Random& random, bool one_antenna) {
     const double z = footprint.plane.at(p);
     footprint.polygon.push_back({p, Vec2(-z, 0), Vec2(0, -z)});
   }
-  for (const MovingVertex& a : footprint.polygon) {
+  for (const MovingVertex& a : footprint.polygon)
     for (const MovingVertex& b : footprint.polygon)
       footprint.panel_size = std::max(footprint.panel_size, footprint.surface_length(a.p - b.p));
-  }
   set_phase(footprint, n, sample.antennas);
   sample.contribution.element = footprint;
   return sample;
@@ -257,9 +256,8 @@ TEST(Decomposition, RefersThePhaseToTheOriginOfTheObservation) {
 TEST(Decomposition, ExchangesAntennasWeighsAndTakesTheMeanOfBothSenses) {
   int slid = 0;
   for_each_sample(40, 54, [&](Sample sample, Random& random) {
-    if (auto* footprint = std::get_if<Footprint>(&sample.contribution.element)) {
+    if (auto* footprint = std::get_if<Footprint>(&sample.contribution.element))
       for (MovingVertex& vertex : footprint->polygon) vertex.d1 += Vec2(random.normal(), random.normal());
-    }
     const ScatteringMatrix traced = scattered(sample.contribution, one_way(sample), 40);
     Observation other = one_way(sample);
     other.weight = 0.7;

@@ -109,9 +109,8 @@ TEST(CoatedTarget, DihedralMultipliesTheCoefficientsOfItsTwoFaces) {
   ASSERT_EQ(mesh.triangles.size(), 4u);
   const Scatterer metal(mesh);
   mesh.materials = {{"one"}, {"two"}};
-  for (std::size_t t = 0; t < 4; ++t) {
+  for (std::size_t t = 0; t < 4; ++t)
     mesh.triangle_material[t] = area_vector(mesh, t).normalized().dot(area_vector(mesh, 0).normalized()) > 0.9 ? 0 : 1;
-  }
   const Scatterer target(mesh, {one, two});
   const auto s = echo(target, radar_basis(Vec3::UnitX()), k16), pec = echo(metal, radar_basis(Vec3::UnitX()), k16);
   const InterfaceCoefficients first = MaterialSurface(one, k16).at(std::sqrt(0.5)),
@@ -165,14 +164,12 @@ double band_error_db(const Scatterer& target, const Vec3& r) {
   sampling.pulse_time_s = {0};
   const IntervalResult body =
       interval_response(target, Trajectory::at_rest(Vec3::Zero()), r, Polarisation::kVv, sampling, SolverSpec{});
-  double error = 0, power = 0;
+  RelativeError error;
   for (int b = 0; b < sampling.count; ++b) {
-    const Complex independent =
-        echo(target, radar_basis(r), wavenumber(sampling.first_hz + sampling.step_hz * b), 0, 8, true)[kVvChannel];
-    error += std::norm(body.response.at(0, b) - independent);
-    power += std::norm(independent);
+    const double k = wavenumber(sampling.first_hz + sampling.step_hz * b);
+    error.add(body.response.at(0, b), echo(target, radar_basis(r), k, 0, 8, true)[kVvChannel]);
   }
-  return 10 * std::log10(error / power);
+  return error.db();
 }
 
 // The second order of three coefficients, each of which changes by at most 5 % over +-100 MHz, 3 (0.05)^2 / 2, and
@@ -217,12 +214,6 @@ TEST(CoatedTarget, IsInvariantToCommonRotation) {
   const auto before = echo(coated(make_plate(0.3, 0.2), material), basis, k16);
   const auto after = echo(coated(transformed(make_plate(0.3, 0.2), rotation, Vec3::Zero()), material), rotated, k16);
   for (int i = 0; i < 4; ++i) EXPECT_LT(std::abs(before[i] - after[i]), 1e-9 * largest(before));
-}
-
-TEST(CoatedTarget, FirstBounceIsReciprocal) {
-  const Scatterer target = coated(stepped_corner(), impedance(0.7, -0.4));
-  const auto s = echo(target, radar_basis(direction(12, 24)), k16, 7e-4, 1);
-  EXPECT_LT(std::abs(s[kHvChannel] - s[kVhChannel]), kRounding * largest(s));
 }
 
 TEST(CoatedTarget, RoughPlateLosesItsCoherentEcho) {

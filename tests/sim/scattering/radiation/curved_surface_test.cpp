@@ -460,8 +460,7 @@ class TopHatEcho : public testing::TestWithParam<TopHat> {};
 TEST_P(TopHatEcho, HasTheClosedFormInEveryView) {
   const auto& [radius, height, elevation_deg] = GetParam();
   const Scatterer scatterer(top_hat(radius, height, elevation_deg));
-  const double k = wavenumber(8e9);
-  const double expected = dbsm(closed_form(k, radius, height, elevation_deg));
+  const double k = wavenumber(8e9), expected = dbsm(closed_form(k, radius, height, elevation_deg));
   TracingSettings settings{0, 2};
   settings.filter.included.push_back({ContributionSelector::Kind::kBounces, 2});
   double min = 1e9, max = -1e9;

@@ -6,7 +6,6 @@
 #include <xmmintrin.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -30,9 +29,8 @@ using namespace testing_echoes;
 
 double area_of(std::span<const Vec3> outline, const Vec3& normal) {
   double twice = 0;
-  for (std::size_t i = 1; i + 1 < outline.size(); ++i) {
+  for (std::size_t i = 1; i + 1 < outline.size(); ++i)
     twice += (outline[i] - outline[0]).cross(outline[i + 1] - outline[0]).dot(normal);
-  }
   return twice / 2;
 }
 
@@ -289,9 +287,8 @@ TEST(PanelBvh, ExcludesAPrismNextToASkewedBox) {
     return !walked(triangle, {centre + h * across.h + v * across.v - 5 * along, along}, 0.02).empty();
   };
   // Vertices at 0.816 from its middle, sides at 0.707, two of them normal to h.
-  for (const double h : {-0.6, 0.6}) {
+  for (const double h : {-0.6, 0.6})
     for (const double v : {-0.7, 0.7}) EXPECT_FALSE(walked_at(h, v)) << h << ' ' << v;
-  }
   for (const auto& [h, v] : {std::pair{0.0, 0.8}, {0.0, -0.8}, {0.68, 0.4}, {-0.68, -0.4}, {0.68, 0.0}})
     EXPECT_TRUE(walked_at(h, v)) << h << ' ' << v;
 }

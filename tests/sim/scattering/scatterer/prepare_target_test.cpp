@@ -2,8 +2,6 @@
 #include "sim/scattering/scatterer/prepare_target.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,6 +18,7 @@
 #include "sim/scattering/scatterer/scatterer.h"
 #include "sim/scattering/tracing/tracing_settings.h"
 #include "tests/sim/scattering/solver_fixtures.h"
+#include "tests/temporary_folder.h"
 
 namespace seaglint {
 namespace {
@@ -28,13 +27,11 @@ using namespace testing_echoes;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
-namespace fs = std::filesystem;
 
 class PreparedCylinder : public testing::Test {
  protected:
-  PreparedCylinder() : folder_(fs::path(testing::TempDir()) / ("prepare_target_" + std::to_string(::getpid()))) {
-    fs::create_directories(folder_);
-    source_.mesh = folder_ / "cylinder.stl";
+  PreparedCylinder() {
+    source_.mesh = folder_.path() / "cylinder.stl";
     source_.lowest_hz = source_.highest_hz = 10e9;
     TriangleMesh mesh = make_cylinder(0.5, 2, 16);
     mesh.triangles.push_back(mesh.triangles.front());
@@ -42,9 +39,8 @@ class PreparedCylinder : public testing::Test {
     mesh.triangle_material.push_back(mesh.triangle_material.front());
     write_mesh(source_.mesh, mesh);
   }
-  ~PreparedCylinder() override { fs::remove_all(folder_); }
 
-  fs::path folder_;
+  const TemporaryFolder folder_;
   TargetSource source_;
 };
 

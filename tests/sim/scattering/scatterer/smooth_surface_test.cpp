@@ -120,9 +120,8 @@ TEST(SmoothSides, FollowTheNormalsOfTheFile) {
   EXPECT_EQ(Scatterer(sphere).surface().curved_count(), 80u);
   EXPECT_EQ(Scatterer(make_sphere(1, 1)).surface().curved_count(), 0u);
   const Scatterer smooth(sphere);
-  for (const auto& sides : smooth.edges().edges_of_facet) {
+  for (const auto& sides : smooth.edges().edges_of_facet)
     for (const int edge : sides) EXPECT_EQ(edge, kNoEdge) << "sides inside a smooth surface do not diffract";
-  }
   EXPECT_EQ(Scatterer(sphere, {}, 0.0).surface().curved_count(), 0u) << "a crease angle overrides normals";
 }
 
@@ -163,9 +162,8 @@ TriangleMesh cap(int subdivisions) {
 
 std::size_t count_of_sides(const MergedFacets& surface, bool smooth) {
   std::size_t count = 0;
-  for (const auto& sides : surface.smooth) {
+  for (const auto& sides : surface.smooth)
     for (const std::int32_t g : sides) count += (g >= 0) == smooth;
-  }
   return count;
 }
 
@@ -184,14 +182,9 @@ double change_db(const TriangleMesh& mesh, const Vec3& r_hat, int bounces) {
   const BistaticGeometry geometry = monostatic(radar_basis(r_hat));
   const auto fine = scattering_matrices(Scatterer(mesh), geometry, k, settings);
   const auto coarse = scattering_matrices(Scatterer(mesh, {}, std::nullopt, 0, kTolerance), geometry, k, settings);
-  double error = 0, power = 0;
-  for (std::size_t q = 0; q < k.size(); ++q) {
-    for (const int channel : {kHhChannel, kVvChannel}) {
-      error += std::norm(coarse[q][channel] - fine[q][channel]);
-      power += std::norm(fine[q][channel]);
-    }
-  }
-  return 10 * std::log10(error / power);
+  RelativeError error;
+  error.add_co_polar(coarse, fine);
+  return error.db();
 }
 
 TEST(MergedFacets, OfARoundBodyAreAsManyForAFineMeshAsForAFinerOne) {
@@ -329,9 +322,8 @@ TEST(MergedFacets, HaveTheEchoOfTheFineMesh) {
   over_plate.append(transformed(make_plate(2, 2), axis_rotation(-kPi / 2, Vec3::UnitY()), Vec3(0.9, 0, -0.8)));
   // A cylinder of 1 m with round ends.
   TriangleMesh capsule = make_sphere(0.5, 6);
-  for (Vec3& x : capsule.vertices) {
+  for (Vec3& x : capsule.vertices)
     if (std::abs(x.x()) > 1e-9) x.x() += std::copysign(0.5, x.x());
-  }
   const double broadside_db = change_db(capsule, direction(88, 3), 1);
   const double alone_db = change_db(body, direction(20, 25), 1),
                over_plate_db = change_db(over_plate, direction(20, 25), 2);

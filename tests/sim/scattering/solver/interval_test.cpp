@@ -83,8 +83,7 @@ TEST(Contributions, SumToTheClosedFormAtTheTracedAspect) {
     traced.trace(1, [&](std::size_t, std::size_t, std::span<const Contribution> contributions) {
       for (const Contribution& contribution : contributions) {
         decompose(contribution, {monostatic(basis)}, {FrequencyBand(kc), 0, aspect_change}, points);
-        const auto s = scattered(contribution, {monostatic(basis)}, kc);
-        for (int i = 0; i < 4; ++i) exact[i] += s[i];
+        add_to(exact, scattered(contribution, {monostatic(basis)}, kc));
       }
     });
     const auto sum = direct_sum(points, kc);
@@ -108,7 +107,7 @@ double error_of_grid(double max_cross_track) {
   ResponseGrid grid(wavenumbers, {40, 2e-3, 40, max_cross_track});
   grid.spread(points);
   grid.transform();
-  double error = 0, power = 0;
+  RelativeError error;
   std::vector<Complex> out(40);
   for (const double s : {-2e-3, -0.7e-3, 0.0, 1.1e-3, 2e-3}) {
     const double q = max_cross_track * std::cos(1e3 * s);
@@ -119,12 +118,11 @@ double error_of_grid(double max_cross_track) {
         for (const GridPoint& point : points)
           direct +=
               point.amplitude * std::polar(1.0, wavenumbers.at(first + i) * (point.psi + point.u * s + point.v * q));
-        error += std::norm(out[i] - direct);
-        power += std::norm(direct);
+        error.add(out[i], direct);
       }
     }
   }
-  return std::sqrt(error / power);
+  return error.value();
 }
 
 // Kernel of width 6 at oversampling 2: 1e-5 per axis.
@@ -369,9 +367,8 @@ TEST(TracePlan, HasMoreTracesForACurvedPath) {
     const TracePlan plan({trajectory, paper_interval(0.2), Vec3::UnitX(), 0}, kDirect, {1, cross_track_limit});
     EXPECT_GE(plan.traces().size(), before) << cross_track_limit;
     before = plan.traces().size();
-    for (const PlannedTrace& trace : plan.traces()) {
+    for (const PlannedTrace& trace : plan.traces())
       for (const PlannedPath& path : trace.paths) EXPECT_LE(path.look_path.q_limit, cross_track_limit);
-    }
     expect_weights_sum_to_one(plan, 256);
   }
   EXPECT_GT(before, 4u);

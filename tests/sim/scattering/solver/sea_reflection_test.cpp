@@ -172,8 +172,7 @@ TEST(SeaReflection, PlateOnAMeshedFloorHasTheSameEcho) {
   const auto s = over_sea(Scatterer(plate), direction(0, elevation), 0, conductor(), k16);
   // As large as the beams need: height / tan(el).
   const double depth = height / std::tan(radians(elevation));
-  TriangleMesh corner = plate;
-  TriangleMesh floor;
+  TriangleMesh corner = plate, floor;
   floor.vertices = {{0, -width / 2, 0}, {depth, -width / 2, 0}, {depth, width / 2, 0}, {0, width / 2, 0}};
   floor.triangles = {{0, 1, 2}, {0, 2, 3}};
   floor.triangle_part = {0, 0};
@@ -234,7 +233,7 @@ double error_against_independent_traces(const Scatterer& scatterer, const Trajec
   const IntervalResult body =
       interval_response(scatterer, trajectory, r, polarisation, sampling, SolverSpec{}, 2, &sea);
   Random random({8, Stream::kTest, 0});
-  double error = 0, power = 0;
+  RelativeError error;
   for (int spot = 0; spot < spots; ++spot) {
     const int n = static_cast<int>(random.below(256)), b = static_cast<int>(random.below(40));
     const Pose pose = trajectory.pose(sampling.pulse_time_s[n]);
@@ -254,10 +253,9 @@ double error_against_independent_traces(const Scatterer& scatterer, const Trajec
       independent += SeaReflection::path_factor(path, sea.at(k, r.z()), element) *
                      std::polar(1.0, k * (t.r + s.r).dot(pose.p)) * matrix[element];
     }
-    error += std::norm(body.response.at(n, b) - independent);
-    power += std::norm(independent);
+    error.add(body.response.at(n, b), independent);
   }
-  return 10 * std::log10(error / power);
+  return error.db();
 }
 
 // Sinusoids of attitude and heave with these rates (rad/s, m/s) at a period of 3 s.

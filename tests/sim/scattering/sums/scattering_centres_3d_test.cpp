@@ -52,12 +52,10 @@ TEST_F(AspectDecomposition, CentresAndFacetsBothSumToTheScatteringMatrix) {
   const auto all = contributions();
   const auto s = matrix(k16);
   std::array<Complex, 4> by_centre{}, by_facet{};
-  for (const ScatteringCentre3d& c : cluster_centres(all, k16, 0.05)) {
+  for (const ScatteringCentre3d& c : cluster_centres(all, k16, 0.05))
     for (int i = 0; i < 4; ++i) by_centre[i] += c.amplitude[i];
-  }
-  for (const auto& f : facet_contributions(all, k16, scatterer_.facets().size())) {
+  for (const auto& f : facet_contributions(all, k16, scatterer_.facets().size()))
     for (int i = 0; i < 4; ++i) by_facet[i] += f[i];
-  }
   EXPECT_LT(distance(by_centre, s), kRounding * size(s));
   EXPECT_LT(distance(by_facet, s), kRounding * size(s));
 }
@@ -77,10 +75,9 @@ TEST_F(AspectDecomposition, ErrorOffTheAspectIsBoundedByTheCellSize) {
   double coarser = 0;
   for (const double cell : {0.04, 0.01, 0.0025}) {
     std::array<Complex, 4> sum{};
-    for (const ScatteringCentre3d& c : cluster_centres(all, k16, cell)) {
+    for (const ScatteringCentre3d& c : cluster_centres(all, k16, cell))
       for (int i = 0; i < 4; ++i)
         sum[i] += c.amplitude[i] * std::polar(1.0, dk * c.psi + k * c.gradient.dot(aspect_change));
-    }
     // 2: norm of four elements
     const double error = distance(sum, exact),
                  bound = 2 * amplitudes * 2 * cell * (dk + std::sqrt(3.0) * k * aspect_change.norm());
@@ -183,9 +180,8 @@ TriangleMesh mirror_and_wall(double wall_m) {
 
 TriangleMesh displaced(TriangleMesh mesh, double rms_m, std::uint64_t seed) {
   Random random({seed, Stream::kTest, 0});
-  for (Vec3& x : mesh.vertices) {
+  for (Vec3& x : mesh.vertices)
     for (int i = 0; i < 3; ++i) x[i] += rms_m * random.normal();
-  }
   return mesh;
 }
 

@@ -50,9 +50,8 @@ struct BeamScene {
   // Panels that the antenna sees, by their first facets.
   std::vector<int> seen() const {
     std::vector<int> facets;
-    for (int facet = 0; facet < static_cast<int>(target.facets().size()); ++facet) {
+    for (int facet = 0; facet < static_cast<int>(target.facets().size()); ++facet)
       if (!aspect.visible.pieces(facet).empty()) facets.push_back(facet);
-    }
     return facets;
   }
   Vec2 projected(const Vec3& x) const { return {x.dot(basis.h), x.dot(basis.v)}; }
@@ -201,8 +200,7 @@ class RecordedBeams : public InteractionVisitor {
 // then its other one. The rays arrive from the angle `alpha` above the first face and from the elevation `e`; a ray at
 // the distance s from the seam moves by tan(e) s / cos(alpha) along the seam between the faces.
 double twice_reflected_area(double width, double length, double alpha, double e) {
-  const double farthest = width * std::min(1.0, 1 / std::tan(alpha));
-  const double shift = std::tan(e) / std::cos(alpha);
+  const double farthest = width * std::min(1.0, 1 / std::tan(alpha)), shift = std::tan(e) / std::cos(alpha);
   return std::sin(alpha) * std::cos(e) * (length * farthest - shift * farthest * farthest / 2);
 }
 
@@ -387,9 +385,8 @@ TEST(VisibleSurface, OfRandomBodiesHasOnePieceAtEveryRayThatHits) {
     const Scatterer body(random_boxes(random, 6, 4));
     const BeamScene scene(body, random_direction(random), 1);
     std::vector<std::pair<int, MovingPolygon>> pieces;
-    for (const int facet : scene.seen()) {
+    for (const int facet : scene.seen())
       for (const MovingPolygon& piece : scene.aspect.visible.pieces(facet)) pieces.emplace_back(facet, piece);
-    }
     int hits = 0, at_border = 0;
     for (int n = 0; n < kRays; ++n) {
       const Vec2 p = body.radius() * Vec2(2 * random.uniform() - 1, 2 * random.uniform() - 1);
@@ -540,9 +537,8 @@ class ComparedSearch : public PanelSearch {
               const std::vector<Vec2>& points) const {
     const MovingPolygon polygon = projected(segment, front);
     for (const MovingPolygon& piece : cross_section.polygons()) {
-      for (const MovingVertex& vertex : piece) {
+      for (const MovingVertex& vertex : piece)
         if (polygon.size() < 3 || depth_inside(polygon, vertex.p) < 0) return false;
-      }
     }
     return std::ranges::all_of(
         points, [&](const Vec2& p) { return distance_to(segment, front, p) < distance_to(segment, behind, p); });

@@ -7,7 +7,6 @@
 #include <cstdio>
 #include <functional>
 #include <limits>
-#include <optional>
 #include <span>
 #include <string>
 #include <variant>
@@ -33,9 +32,8 @@ using namespace testing_echoes;
 // Largest element of the pattern over the footprint.
 double largest_pattern(const Contribution& contribution) {
   double pattern = largest(contribution.pattern.value);
-  if (const auto& curvature = contribution.footprint()->curvature) {
+  if (const auto& curvature = contribution.footprint()->curvature)
     for (const auto& at_vertex : curvature->pattern) pattern = std::max(pattern, largest(at_vertex));
-  }
   return pattern;
 }
 
@@ -163,9 +161,8 @@ TEST(ContributionBound, HoldsOnADefectiveMeshWithTheCreaseRule) {
 TEST(ContributionBound, HoldsOnRandomBodies) {
   std::vector<Vec3> views;
   for (int i = 0; i < 4; ++i) views.push_back(direction(17 + 97.0 * i, 1 + 15 * i));
-  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed)
     expect_bounded("random body", largest_excess(Scatterer(random_body(seed)), 10e9, views, kResolvedSides, 1e-3));
-  }
 }
 
 // A bundle that a concave reflector focuses, on a panel square to it and on an oblique one: |factor|^2 is at most the
@@ -305,16 +302,14 @@ struct Sample {
 
 // Relative error in L2 without the mechanisms for which `omitted` is true.
 double error_without(const std::vector<Sample>& samples, const std::function<bool(Mechanism)>& omitted) {
-  double error = 0, power = 0;
+  RelativeError error;
   for (const Sample& sample : samples) {
     Complex sum = 0;
-    for (std::size_t m = 0; m < kMechanisms; ++m) {
+    for (std::size_t m = 0; m < kMechanisms; ++m)
       if (!omitted(static_cast<Mechanism>(m))) sum += sample.parts[m];
-    }
-    error += std::norm(sum - sample.reference);
-    power += std::norm(sample.reference);
+    error.add(sum, sample.reference);
   }
-  return std::sqrt(error / power);
+  return error.value();
 }
 
 double error_without(const std::vector<Sample>& samples, Mechanism mechanism) {
@@ -366,7 +361,7 @@ std::vector<Sample> block_ship_samples(double elevation_deg, Channel channel) {
 std::vector<Sample> target_samples(const std::string& mesh, int aspects) {
   const Scatterer target(read_mesh(SEAGLINT_SOURCE_DIR "/assets/" + mesh));
   std::vector<Sample> samples;
-  double difference = 0, power = 0;
+  RelativeError error;
   for (int i = 0; i < aspects; ++i) {
     const RadarBasis radar = radar_basis(direction(3.7 + 360.0 * i / aspects, 2));
     const ByMechanism echo = parts_of(target, monostatic(radar), wavenumber(16e9), {0, kDefaultBounces, true});
@@ -376,11 +371,10 @@ std::vector<Sample> target_samples(const std::string& mesh, int aspects) {
         sample.parts[m] = echo.parts[m][channel];
         sample.reference += echo.parts[m][channel];
       }
-      difference += std::norm(sample.reference - echo.matrix[channel]);
-      power += std::norm(echo.matrix[channel]);
+      error.add(sample.reference, echo.matrix[channel]);
     }
   }
-  EXPECT_LT(std::sqrt(difference / power), 2e-3) << mesh;  // 1.2e-3 of the ship
+  EXPECT_LT(error.value(), 2e-3) << mesh;  // 1.2e-3 of the ship
   return samples;
 }
 

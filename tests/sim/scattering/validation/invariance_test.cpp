@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdio>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "sim/core/numbers/random.h"
@@ -163,21 +162,17 @@ std::vector<Complex> echoes(const TriangleMesh& mesh, const Mat3& turn = Mat3::I
     RadarBasis basis = radar_basis(direction(17 + 45.0 * i, 12 + i));
     for (Vec3* x : {&basis.r, &basis.h, &basis.v}) *x = turn * *x;
     const auto matrices = scattering_matrices(scatterer, monostatic(basis), k, {0, 6, true});
-    for (std::size_t q = 0; q < k.size(); ++q) {
+    for (std::size_t q = 0; q < k.size(); ++q)
       for (const Channel channel : {kHhChannel, kVvChannel})
         all.push_back(matrices[q][channel] * std::polar(1.0, -2 * k[q] * basis.r.dot(shift)));
-    }
   }
   return all;
 }
 
 double relative_change(const std::vector<Complex>& from, const std::vector<Complex>& to) {
-  double change = 0, power = 0;
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    change += std::norm(to[i] - from[i]);
-    power += std::norm(from[i]);
-  }
-  return std::sqrt(change / power);
+  RelativeError error;
+  for (std::size_t i = 0; i < from.size(); ++i) error.add(to[i], from[i]);
+  return error.value();
 }
 
 // Terms: the choice between contour and point terms at a facet, kContourRatio^-1.5 of its contribution; a few facets

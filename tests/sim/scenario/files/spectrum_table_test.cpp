@@ -1,33 +1,182 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Wave spectra from files, and the sea section's keys that belong together.
 #include <fmt/format.h>
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
-#include <unistd.h>
-
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/core/text/names.h"
 #include "sim/scenario/cases.h"
+#include "sim/scenario/files/tables.h"
 #include "sim/scenario/scenario.h"
+#include "tests/refusal.h"
+#include "tests/temporary_folder.h"
 
 namespace seaglint {
 namespace {
 
+using testing::StartsWith;
+
+std::string code_refusal(const std::string& text) {
+  return refusal_of([&] { read_hop_code({"hops.txt", text}, 4, 8); });
+}
+
+TEST(HopCodeText, IsReadWithAnySeparator) {
+  const char* const marked =
+      "\xef\xbb\xbf"
+      "0\t7\t3 \t1\r\n";
+  for (const char* text : {"0 7 3 1", "0,7,3,1\n", "0;7;3;1;\r\n", "# code\n0\n7\n\n3\n1\n", marked, "0\r7\r3\r1\r"})
+    EXPECT_EQ(read_hop_code({"hops.txt", text}, 4, 8), (std::vector<int>{0, 7, 3, 1})) << text;
+}
+
+// numpy.savetxt, NumPy's print, MATLAB's save -ascii, writematrix, fprintf('%f') and disp, and Fortran.
+TEST(HopCodeText, IsReadAsNumPyAndMatlabPrintIt) {
+  for (const char* text :
+       {"0.000000000000000000e+00\n7.000000000000000000e+00\n3.000000000000000000e+00\n1.000000000000000000e+00\n",
+        "[0 7 3 1]\n", "[0. 7. 3. 1.]", "[[0, 7],\n [3, 1]]\n",
+        "   0.0000000e+00   7.0000000e+00   3.0000000e+00   1.0000000e+00\n", "0,7,3,1\n",
+        "0.000000\n7.000000\n3.000000\n1.000000\n",
+        "  Columns 1 through 3\n\n     0     7     3\n\n  Column 4\n\n     1\n",
+        "  Columns 1 and 2\n     0     7\n  Columns 3 and 4\n     3     1\n", " 0.0D+00 7.0D+00 3.0D+00 1.0D+00\n"})
+    EXPECT_EQ(read_hop_code({"hops.txt", text}, 4, 8), (std::vector<int>{0, 7, 3, 1})) << text;
+}
+
+TEST(HopCodeText, OfNumPysSavetxtIsThatOfPlainNumbers) {
+  const std::string folder = SEAGLINT_SOURCE_DIR "/tests/cases/tables/";
+  const std::vector<int> plain = read_hop_code(TextSource::read(folder + "hop_plain.txt"), 256, 8);
+  EXPECT_EQ(read_hop_code(TextSource::read(folder + "hop_numpy_savetxt.txt"), 256, 8), plain);
+  for (const int carrier : {0, 1, 2, 3, 4, 5, 6, 7}) EXPECT_EQ(std::count(plain.begin(), plain.end(), carrier), 32);
+}
+
+TEST(HopCodeText, ThatCountsFromOneIsNamed) {
+  EXPECT_EQ(code_refusal("1 8\n4 2\n"),
+            "hops.txt:1:3: '8': must be a carrier's number, 0 to 7 (radar.hop_count - 1); the file counts from 1 to 8 "
+            "and has no 0: subtract 1 from each number");
+  for (const char* text : {"1 8 0 2", "1 9 4 2", "-1 8 4 2"})
+    EXPECT_THAT(code_refusal(text), testing::Not(testing::HasSubstr("counts from 1"))) << text;
+}
+
+TEST(HopCodeText, IsRefusedWithThePlaceOfItsMistake) {
+  EXPECT_EQ(code_refusal("0 7\n3 8\n"), "hops.txt:2:3: '8': must be a carrier's number, 0 to 7 (radar.hop_count - 1)");
+  for (const char* word : {"-1", "1.5", "1x", "0x1", "+-1", "1e-1", "1e400", "nan", "1:2"})
+    EXPECT_HAS(code_refusal(std::string("0 1 2 ") + word), "hops.txt:1:7: '" + std::string(word) + "'");
+  EXPECT_EQ(code_refusal("0 1 2"), "hops.txt: 3 carrier numbers: must be radar.pulses, 4, or a multiple of them");
+  EXPECT_HAS(code_refusal(std::string("\xff\xfe"
+                                      "0\0 \0",
+                                      6)),
+             "UTF-16");
+}
+
+// Scatter diagrams as they are printed and exported are read, and drawn as often as they count.
+
+std::string diagram_refusal(const std::string& text) {
+  return refusal_of([&] { read_scatter_diagram({"s.csv", text}); });
+}
+
+// Cells as lines "height_low height_high period_low period_high count".
+std::string cells_of(const std::string& text) {
+  std::string lines;
+  for (const ScatterCell& cell : read_scatter_diagram({"s.csv", text}).cells)
+    lines += fmt::format("{:g} {:g} {:g} {:g} {:g}\n", cell.lowest_height_m, cell.highest_height_m,
+                         cell.lowest_period_s, cell.highest_period_s, cell.count);
+  return lines;
+}
+
+const char* const kCells =
+    "0 1 4 6 10\n"
+    "0 1 6 8 30\n"
+    "1 2 6 8 20\n"
+    "2 3 8 10 5\n";
+
+TEST(ScatterDiagram, IsReadInAnyLayoutAndWithAnySeparator) {
+  for (const char* text :
+       {"Hs/Tp,5,7,9\n0.5,10,30,0\n1.5,0,20,0\n2.5,0,0,5\n",
+        "# North Sea, counts\nHs [m] \\ Tp [s];5;7;9;Sum\n0,5;10;30;0;40\n1,5;;20;;20\n2,5;0;0;5;5\nSum;10;50;5;65\n",
+        "significant_wave_height_m/peak_period_s\t4-6\t6-8\t8-10\n0-1\t10\t30\t-\n1 - 2\t0\t20\t0\n2 to 3\t0\t0\t5\n",
+        "Tp/Hs 0.5 1.5 2.5\n5 10 0 0\n7 30 20 0\n9 0 0 5\n",
+        "hs_m,tp_s,count\n0.5,5,10\n0.5,7,30\n1.5,7,20\n2.5,9,5\n2.5,5,0\n",
+        "count;peak_period_s;significant_wave_height_m\n5;9;2,5\n20;7;1,5\n30;7;0,5\n10;5;0,5\n"}) {
+    EXPECT_EQ(cells_of(text), kCells) << text;
+    EXPECT_EQ(read_scatter_diagram({"s.csv", text}).period_key, "peak_period_s");
+  }
+}
+
+TEST(ScatterDiagram, IsRefusedWithThePlaceOfItsMistake) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"5,7\n0.5,10,30\n", "s.csv: no scatter diagram: its first cell must name"},
+      {"Hs/Tx,5,7\n0.5,10,30\n1.5,1,1\n", "s.csv: no scatter diagram"},
+      {"", "s.csv: no scatter diagram"},
+      {"Hs/Tp,5,seven\n0.5,10,30\n", "s.csv:1:9: 'seven': must be a period"},
+      {"Hs/Tp,5,5\n0.5,10,30\n", "s.csv:1:9: '5': appears twice"},
+      {"Hs/Tp,5,7\n0.5,10,-30\n1.5,0,0\n", "s.csv:2:8: '-30': must be a count"},
+      {"Hs/Tp,5,7\n0.5,10,nan\n1.5,0,0\n", "s.csv:2:8: 'nan': must be a count"},
+      {"Hs/Tp,5,7\n0.5,10\n1.5,0,0\n", "s.csv:2:1: 2 cells where the first row has 3"},
+      {"Hs/Tp,5,7\n0.5,10,1,2\n1.5,0,0\n", "4 cells where the first row has 3"},
+      {"Hs/Tp,5,7\n0.5,0,0\n1.5,0,0\n", "s.csv: all counts are 0"},
+      {"Hs/Tp,5,7\n0.5,1,0\n", "s.csv:2:1: '0.5': wave heights must be centres of two or more equal cells"},
+      {"Hs/Tp,5,7,10\n0.5,1,0,1\n1.5,1,0,1\n", "s.csv:1:11: '10': periods must be centres of two or more equal cells"},
+      {"Hs/Tp,5,7-9\n0.5,1,0\n1.5,1,0\n", "all be centres of cells, or all cells LOW-HIGH"},
+      {"Hs/Tp,5,7\n0,1,0\n1,1,0\n", "s.csv:2:1: '0': its cell, -0.5 to 0.5, begins below 0"},
+      {"hs_m,tp_s,count\n0.5,5,10\n0.5,5,30\n1.5,7,20\n", "this pair of height and period appears twice"},
+      {"hs_m,tp_s,count\n0.5,5,10\n1.5,7,-1\n", "must be"}};
+  for (const auto& [text, message] : cases) EXPECT_HAS(diagram_refusal(text), message) << text;
+}
+
+// Pearson's statistic of 4 cells has 3 degrees of freedom: 21.1 is exceeded with probability 1e-4; the means of u over
+// a cell of n draws have the standard deviation 1/sqrt(12 n).
+TEST(ScatterDiagram, IsDrawnAsOftenAsItCountsAndUniformlyWithinItsCells) {
+  const ScatterDiagram diagram = read_scatter_diagram({"s.csv", "Hs/Tp,5,7,9\n0.5,10,30,0\n1.5,0,20,0\n2.5,0,0,5\n"});
+  constexpr int kDraws = 20000;
+  std::vector<double> counts(diagram.cells.size()), heights(counts.size()), periods(counts.size());
+  for (int i = 0; i < kDraws; ++i) {
+    Random random({1, Stream::kTest, static_cast<std::uint64_t>(i)});
+    const SeaPair pair = diagram.draw(random);
+    std::size_t inside = 0;
+    for (std::size_t c = 0; c < counts.size(); ++c) {
+      const ScatterCell& cell = diagram.cells[c];
+      const double u =
+          (pair.significant_wave_height_m - cell.lowest_height_m) / (cell.highest_height_m - cell.lowest_height_m);
+      const double v = (pair.period_s - cell.lowest_period_s) / (cell.highest_period_s - cell.lowest_period_s);
+      if (u < 0 || u > 1 || v < 0 || v > 1) continue;
+      ++inside;
+      ++counts[c];
+      heights[c] += u;
+      periods[c] += v;
+    }
+    ASSERT_EQ(inside, 1u) << pair.significant_wave_height_m << " " << pair.period_s;
+  }
+  double chi_squared = 0;
+  for (std::size_t c = 0; c < counts.size(); ++c) {
+    const double expected = kDraws * diagram.cells[c].count / diagram.count();
+    chi_squared += (counts[c] - expected) * (counts[c] - expected) / expected;
+    for (const double sum : {heights[c], periods[c]})
+      EXPECT_NEAR(sum / counts[c], 0.5, 5 / std::sqrt(12 * counts[c])) << c;
+  }
+  EXPECT_LT(chi_squared, 21.1);
+}
+
+TEST(ScatterDiagram, WithoutSomeCellsStatesTheirPartOfTheCounts) {
+  ScatterDiagram diagram = read_scatter_diagram({"s.csv", "Hs/Tp,5,7,9\n0.5,10,30,0\n1.5,0,20,0\n2.5,0,0,5\n"});
+  EXPECT_EQ(diagram.likeliest().period_s, 7);
+  EXPECT_EQ(diagram.likeliest().significant_wave_height_m, 0.5);
+  exclude_cells(diagram, {false, true, false, true});
+  EXPECT_EQ(diagram.cells.size(), 2u);
+  EXPECT_EQ(diagram.excluded_cells, 2u);
+  EXPECT_NEAR(diagram.excluded_fraction, 35.0 / 65, 1e-15);
+}
+
+// Wave spectra from files, and the sea section's keys that belong together.
+
 namespace fs = std::filesystem;
 
 std::string complaint(const std::string& table) {
-  try {
-    read_spectrum_table({"s.csv", table});
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return refusal_of([&] { read_spectrum_table({"s.csv", table}); });
 }
 
 TEST(SpectrumTable, IsReadInEitherUnit) {
@@ -86,12 +235,7 @@ TEST(SpectrumTable, IsReadFromFilesOfNdbc) {
       "#YY  MM DD hh mm Sep_Freq  < spec_1 (freq_1) spec_2 (freq_2) ... >\n"
       "2026 07 30 01 50 0.120 0.000 (0.050) 1.500 (0.100) 0.000 (0.200)\n");
   const auto complaint = [](const std::string& time) {
-    try {
-      read_spectrum_table({"s.txt", kHistorical}, time);
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string("accepted");
+    return refusal_of([&] { read_spectrum_table({"s.txt", kHistorical}, time); });
   };
   EXPECT_EQ(complaint(""), "s.txt: 3 spectra, 2018-01-01 00:40 to 2018-01-01 02:40: sea.table_time must choose one");
   EXPECT_EQ(complaint("2018-01-01 01:41"),
@@ -126,12 +270,7 @@ TEST(SpectrumTable, IsReadFromFilesOfSwan) {
   expect_triangle(
       swan(directions, density, fmt::format("19680606.0300\nFACTOR\n{}\n 0 0 0 0\n 1 2 3 4\n 0 0 0 0\n", 1.5 / 900)));
   const auto complaint = [](const std::string& text, const char* time = "") {
-    try {
-      read_spectrum_table({"s.spc", text}, time);
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string("accepted");
+    return refusal_of([&] { read_spectrum_table({"s.spc", text}, time); });
   };
   EXPECT_EQ(complaint(swan("", three, rows + "19680606.040000\nLOCATION     1\nNODATA\n")),
             "s.spc: 2 spectra, 1968-06-06 03:00 to 1968-06-06 04:00: sea.table_time must choose one");
@@ -164,11 +303,7 @@ TEST(SpectrumTable, IsRefusedForEveryMistake) {
 
 class SeaKeys : public testing::Test {
  protected:
-  SeaKeys() : folder_(fs::path(testing::TempDir()) / fmt::format("sea_keys_{}", ::getpid())) {
-    fs::create_directories(folder_);
-    write_file(folder_ / "buoy.csv", "omega_rad_s,density_m2_s\n0.4,0\n0.8,0.5\n1.6,0\n");
-  }
-  ~SeaKeys() override { fs::remove_all(folder_); }
+  SeaKeys() { write_file(folder_ / "buoy.csv", "omega_rad_s,density_m2_s\n0.4,0\n0.8,0.5\n1.6,0\n"); }
   Scenario read(const std::string& sea) const {
     return parse_scenario("seaglint: 1\ntargets: {a: {label: 1, mesh: a.glb}}\nsea: {" + sea + "}\n",
                           folder_ / "file.yaml");
@@ -182,7 +317,8 @@ class SeaKeys : public testing::Test {
     }
     return "accepted";
   }
-  fs::path folder_;
+  const TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path();
 };
 
 TEST_F(SeaKeys, ATableHasPeakAndHeight) {

@@ -3,13 +3,13 @@
 #include "sim/scenario/layout/layout.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "sim/core/numbers/constants.h"
 #include "sim/scenario/scenario.h"
+#include "tests/refusal.h"
 #include "tests/sim/scenario/parsing.h"
 
 namespace seaglint {
@@ -27,9 +27,8 @@ TargetSpec target_of(AreaLayout area, std::uint64_t seed = 0) {
 
 double least_distance(const std::vector<Vec2>& places) {
   double least = 1e9;
-  for (std::size_t i = 0; i < places.size(); ++i) {
+  for (std::size_t i = 0; i < places.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) least = std::min(least, (places[i] - places[j]).norm());
-  }
   return least;
 }
 
@@ -170,22 +169,21 @@ TEST(Layout, RefusesWhatCannotBe) {
   const auto complaint = [](const std::string& keys) {
     return complaint_about(kShort + "  t: {label: 1, mesh: a.glb, layout: {" + keys + "}}\n");
   };
-  EXPECT_THAT(complaint("line: {}, area: {}"),
-              HasSubstr("file.yaml:4:38: targets.t.layout: must have line or area, not both"));
-  EXPECT_THAT(complaint("area: {shape: line, count: 30, length_m: 60, min_distance_m: 3}"),
-              HasSubstr("targets.t.layout.area: bodies 0 and 1 are 2.06897 m apart: must be at least 3"));
-  EXPECT_THAT(complaint("area: {shape: random, count: 30, length_m: 10, width_m: 10, min_distance_m: 5}"),
-              HasSubstr("targets.t.layout.area: 30 bodies find no places 5 m apart in 10 by 10 m"));
-  EXPECT_THAT(complaint("area: {shape: heap}"), HasSubstr("value 'heap': must be one of line, ring, grid, random"));
-  EXPECT_THAT(complaint("area: {}, heights: {lowest_m: 2, highest_m: 1}"),
-              HasSubstr("targets.t.layout.heights.lowest_m: value '2': must be at most 1, the highest"));
-  EXPECT_THAT(complaint("line: {}, scales: {lowest: 3}"),
-              HasSubstr("file.yaml:4:66: targets.t.layout.scales.lowest: value '3': must be at most 1, the highest"));
-  EXPECT_THAT(complaint("line: {}, scales: {lowest: 0}"),
-              HasSubstr("targets.t.layout.scales.lowest: value '0': must be a number within 0.001 and 1000"));
-  EXPECT_THAT(complaint("line: {}, scales: [1, 2]"),
-              HasSubstr("file.yaml:4:57: targets.t.layout.scales: a list: must be a map of key: value"));
-  EXPECT_THAT(complaint("line: {}, heights: {highest_m: 200}"), HasSubstr("must be a number within -10 and 100"));
+  EXPECT_HAS(complaint("line: {}, area: {}"), "file.yaml:4:38: targets.t.layout: must have line or area, not both");
+  EXPECT_HAS(complaint("area: {shape: line, count: 30, length_m: 60, min_distance_m: 3}"),
+             "targets.t.layout.area: bodies 0 and 1 are 2.06897 m apart: must be at least 3");
+  EXPECT_HAS(complaint("area: {shape: random, count: 30, length_m: 10, width_m: 10, min_distance_m: 5}"),
+             "targets.t.layout.area: 30 bodies find no places 5 m apart in 10 by 10 m");
+  EXPECT_HAS(complaint("area: {shape: heap}"), "value 'heap': must be one of line, ring, grid, random");
+  EXPECT_HAS(complaint("area: {}, heights: {lowest_m: 2, highest_m: 1}"),
+             "targets.t.layout.heights.lowest_m: value '2': must be at most 1, the highest");
+  EXPECT_HAS(complaint("line: {}, scales: {lowest: 3}"),
+             "file.yaml:4:66: targets.t.layout.scales.lowest: value '3': must be at most 1, the highest");
+  EXPECT_HAS(complaint("line: {}, scales: {lowest: 0}"),
+             "targets.t.layout.scales.lowest: value '0': must be a number within 0.001 and 1000");
+  EXPECT_HAS(complaint("line: {}, scales: [1, 2]"),
+             "file.yaml:4:57: targets.t.layout.scales: a list: must be a map of key: value");
+  EXPECT_HAS(complaint("line: {}, heights: {highest_m: 200}"), "must be a number within -10 and 100");
 }
 
 }  // namespace

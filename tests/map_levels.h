@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Level of clutter around a point, for tests of detections in it.
+// Levels in maps: the peak, and the mean around a point.
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +10,21 @@
 #include "radar/rvmap/rv_map.h"
 
 namespace seaglint {
+
+struct Peak {
+  double range_m = 0, velocity_mps = 0, level = 0;
+  Complex value;
+};
+
+inline Peak peak_of(const RvMap& map) {
+  Peak peak;
+  for (std::size_t v = 0; v < map.velocity_mps.size(); ++v) {
+    for (std::size_t r = 0; r < map.columns(); ++r)
+      if (std::abs(map.at(v, r)) > peak.level)
+        peak = {map.range_m[r], map.velocity_mps[v], std::abs(map.at(v, r)), map.at(v, r)};
+  }
+  return peak;
+}
 
 // Mean |RV|^2 of a map, m^2, in 5 velocities x 13 ranges around a point, without the cells outside the map.
 inline double mean_around(const RvMap& map, double range_m, double velocity_mps) {
