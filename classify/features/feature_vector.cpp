@@ -39,7 +39,22 @@ VelocityLine fit_line(std::span<const ScatteringCentre> centres, const std::vect
   return {slope, mean_v - slope * mean_r};
 }
 
+// Weights proportional to amplitude, with sum N_sc.
+std::vector<double> amplitude_weights(std::span<const ScatteringCentre> centres) {
+  double total = 0;
+  for (const ScatteringCentre& centre : centres) total += centre.amplitude_m;
+  const auto count = static_cast<double>(centres.size());
+  std::vector<double> weight;
+  for (const ScatteringCentre& centre : centres) weight.push_back(total > 0 ? count * centre.amplitude_m / total : 1);
+  return weight;
+}
+
 }  // namespace
+
+VelocityLine least_squares_line(std::span<const ScatteringCentre> centres, const FeatureSpec& spec) {
+  if (centres.empty()) return {};
+  return fit_line(centres, spec.weighted_fit ? amplitude_weights(centres) : std::vector<double>(centres.size(), 1.0));
+}
 
 FeatureVector compute_features(std::span<const ScatteringCentre> centres, const FeatureSpec& spec) {
   FeatureVector features;
@@ -48,13 +63,8 @@ FeatureVector compute_features(std::span<const ScatteringCentre> centres, const 
   if (centres.empty()) return features;
   const auto count = static_cast<double>(centres.size());
 
-  // Weights proportional to amplitude, with sum N_sc.
-  double total = 0;
-  for (const ScatteringCentre& centre : centres) total += centre.amplitude_m;
-  std::vector<double> weight, equal(centres.size(), 1.0);
-  for (const ScatteringCentre& centre : centres) weight.push_back(total > 0 ? count * centre.amplitude_m / total : 1);
-
-  const VelocityLine line = fit_line(centres, spec.weighted_fit ? weight : equal);
+  const std::vector<double> weight = amplitude_weights(centres);
+  const VelocityLine line = least_squares_line(centres, spec);
   double mean_r = 0, mean_v = 0;
   for (std::size_t i = 0; i < centres.size(); ++i) {
     const double residual = line.residual(centres[i]);

@@ -52,6 +52,9 @@ struct VelocityLine {
 // centres the first 64 count, the strongest of clean_map().
 VelocityLine robust_velocity_line(std::span<const ScatteringCentre> centres);
 
+// The line v^ of compute_features(). Without centres all is 0.
+VelocityLine least_squares_line(std::span<const ScatteringCentre> centres, const FeatureSpec& spec);
+
 // Features of rigidity beyond the paper's four: what is left of the centres' velocities when the rotation of a rigid
 // body is taken out by the robust line. Deviations count by magnitude, so that one centre on a clutter peak, which
 // dominates the squares of MWR, does not hide a line. Weights are w_i = A_i / sum A, residuals e_i those of the robust

@@ -320,6 +320,37 @@ TEST(MapCommand, DrawsTheMapAndListsTheCentre) {
   EXPECT_HAS(result.out, "SCR per pulse 20.00 dB");
 }
 
+// The text of the figure of a map.
+std::string figure_text(const Words& more) {
+  const TemporaryFolder folder;
+  completed(map_of(folder.path() / "map.svg", with(kOnePoint, more)));
+  return read_file(folder.path() / "map.svg");
+}
+
+TEST(MapCommand, ShowsTheTargetsWindowUnlessTheWholeIsWanted) {
+  const std::string text = figure_text({});
+  for (const char* word :
+       {"whole map", "1 scattering centre", "line, azimuth 0 deg, Hs", "carrier 16 GHz", "sample 0, seed"})
+    EXPECT_HAS(text, word);
+  const std::string whole = figure_text({"--whole", "--centres", "off"});
+  EXPECT_THAT(whole, Not(HasSubstr("whole map")));
+  EXPECT_THAT(whole, Not(HasSubstr("scattering centre")));
+  // Clutter 40 dB above the target in every pulse.
+  EXPECT_THAT(figure_text({"--set", "clutter.scr_db=-60"}), HasSubstr("whole map: "));
+  EXPECT_THAT(figure_text({"--style", "paper"}), HasSubstr("width=\"333\""));
+}
+
+TEST(MapCommand, DrawsTheImageAndTheProfileOfTheTarget) {
+  const std::string image = figure_text({"--product", "isar"});
+  for (const char* word : {"ISAR: line, azimuth 0 deg", "target alone, whole band in every pulse", "no cross range: "})
+    EXPECT_THAT(image, HasSubstr(word));
+  const std::string profile = figure_text({"--product", "hrrp"});
+  for (const char* word : {"range profile: line", "point 1", "RCS (dBsm)", "level to peak (dB)"})
+    EXPECT_THAT(profile, HasSubstr(word));
+  // 2 m: 17 dBsm.
+  EXPECT_THAT(profile, HasSubstr("0 dB below: 17.0 dBsm"));
+}
+
 // A chirp narrower than the carrier step leaves gaps in the band, and centres are listed at empty places.
 TEST(MapCommand, EchoAndGenerateWarnOfGapsInTheBand) {
   const TemporaryFolder folder;

@@ -164,7 +164,7 @@ TEST(Commands, CheckTheirOutputFilesFirst) {
   for (const auto& words : {Words{"sea", "no.yaml", "-o", table, "--figure", "figure.bmp"},
                             {"motion", "no.yaml", "-o", table, "--snapshots", "figure.bmp"},
                             {"map", "no.yaml", "-o", "figure.bmp"}})
-    expect_refused(words, "figure.bmp: a figure's name ends in .png or .svg");
+    expect_refused(words, "figure.bmp: a figure's name ends in .png, .svg or .pdf");
 }
 
 // Rotations of WAMIT are per wamit_ulen_m, and waves of finite depth are shorter.

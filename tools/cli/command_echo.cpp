@@ -4,9 +4,11 @@
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <type_traits>
 #include <variant>
 
+#include "classify/dataset/directory/dataset_writer.h"
 #include "classify/dataset/format/npz.h"
 #include "classify/features/feature_vector.h"
 #include "classify/features/scattering_centres.h"
@@ -18,8 +20,8 @@
 #include "sim/scenario/sample_plan.h"
 #include "sim/scenario/scenario.h"
 #include "tools/cli/command_line.h"
-#include "tools/figure/figure.h"
-#include "tools/pipeline/pipeline.h"
+#include "tools/figure/map_figure.h"
+#include "tools/pipeline/imaging.h"
 #include "tools/pipeline/warnings.h"
 
 namespace seaglint {
@@ -152,49 +154,185 @@ void print_result(const ReceivedInterval& received, const std::vector<Scattering
 }
 
 struct MapArguments : SampleArguments {
-  std::string product = "rv";
+  std::string product = "rv", style = "screen", centres = "on";
+  bool whole = false;
 };
 
-// Profiles of single pulses as a heat map over time, dB against the largest value.
-Heatmap profile_figure(const RangeProfiles& profiles, const std::string& title) {
-  const double peak = *std::max_element(profiles.magnitude_m.begin(), profiles.magnitude_m.end());
+FigureStyle style_of(const std::string& name) {
+  return name == "paper" ? FigureStyle::kPaper : name == "paper-wide" ? FigureStyle::kPaperWide : FigureStyle::kScreen;
+}
+
+std::vector<float> single(const std::vector<double>& values) { return {values.begin(), values.end()}; }
+
+// True where the command line sets a key, which then has precedence over what the target's motion suggests.
+bool sets(const MapArguments& arguments, const std::string& key) {
+  return std::ranges::any_of(arguments.set, [&](const std::string& word) { return word.starts_with(key + "="); });
+}
+
+struct ProductRequest {
+  const MapArguments& arguments;
+  const Pipeline& pipeline;
+  const RadarSpec& radar;      // with the sample's drawn values
+  const SampleRecord& record;  // planned
+  int threads = 0;
+
+  double start_s() const { return pipeline.plan().start_s(pipeline.plan().address(arguments.sample)); }
+};
+
+void append(const std::vector<std::string>& more, std::vector<std::string>& notes) {
+  notes.insert(notes.end(), more.begin(), more.end());
+}
+
+std::string product_title(const std::string& product, const SampleRecord& record) {
+  return fmt::format("{}: {}, azimuth {:g} deg, Hs {:g} m", product, record.target_name, record.azimuth_deg,
+                     record.significant_wave_height_m);
+}
+
+Heatmap isar_figure(const ProductRequest& request) {
+  const auto& [arguments, pipeline, radar, record, threads] = request;
+  IsarPlan plan = isar_plan(pipeline, arguments.sample);
+  const MapSpec& own = pipeline.scenario().map;
+  MapSpec& map = *plan.sampling.map;
+  if (sets(arguments, "radar.pulses")) {
+    plan.sampling.pulses = radar.pulses;
+    plan.duration_s = 1e-6 * radar.pri_us * radar.pulses;
+    plan.cross_range.reset();
+  }
+  if (sets(arguments, "map.range_span_m")) map.range_span_m = own.range_span_m;
+  if (sets(arguments, "map.velocity_span_mps")) map.velocity_span_mps = own.velocity_span_mps;
+  if (sets(arguments, "map.range_oversampling")) map.range_oversampling = own.range_oversampling;
+  if (sets(arguments, "map.velocity_oversampling")) map.velocity_oversampling = own.velocity_oversampling;
+  if (sets(arguments, "map.range_taper")) map.range_taper = own.range_taper;
+  if (sets(arguments, "map.velocity_taper")) map.velocity_taper = own.velocity_taper;
+  const FullBandInterval band = full_band_interval(pipeline, arguments.sample, plan.sampling);
+  const MagnitudeMap image = magnitude_map(band.image);
+  const std::optional<MapWindow> window =
+      arguments.whole ? std::nullopt : std::optional(MapWindow{plan.range_m, plan.velocity_mps});
+
   Heatmap figure;
-  figure.title = title;
-  figure.x.label = "range against the reference point (m), positive = farther";
-  figure.y.label = "time in the interval (ms)";
-  figure.colour = {"|HRRP| against the peak (dB)", AxisRange{-40, 0}, false};
-  figure.x_cells = profiles.range_m;
-  for (const double t : profiles.time_s) figure.y_cells.push_back(1e3 * t);
-  for (const double m : profiles.magnitude_m) figure.values.push_back(std::max(-40.0, 20 * std::log10(m / peak)));
+  figure.title = product_title("ISAR", record);
+  figure.x.label = "range (m)";
+  figure.y.label = "velocity (m/s)";
+  figure.colour = level_axis("|RV|");
+  figure.map = levels_in(image.axes, image.magnitude, window);
+  figure.notes.push_back("target alone, whole band in every pulse");
+  figure.notes.push_back(fmt::format("from {:.2f} s on", request.start_s() + plan.sampling.offset_s));
+  if (const auto& cross = plan.cross_range) {
+    constexpr double kUpright = 0.94;  // within 20 deg of the vertical
+    const double sign = cross->up < 0 ? -1 : 1;
+    const bool upright = std::abs(cross->up) > kUpright;
+    figure.right = {upright ? "height (m)" : "cross range (m)", cross->origin_mps, sign * cross->rate_rad_s};
+    figure.upside_down = sign < 0;
+    figure.notes.push_back(fmt::format("aspect change {:.2f} deg", degrees(cross->angle_rad)));
+    figure.notes.push_back(
+        fmt::format("cells {:.2g} m in range, {:.2g} m across", band.train.range_resolution_m(), cross->cell_m));
+    if (!upright) {
+      figure.notes.push_back(
+          fmt::format("image plane {:.0f} deg off the vertical", degrees(std::acos(std::abs(cross->up)))));
+    }
+  } else {
+    figure.notes.push_back("no cross range: " + (plan.no_cross_range.empty() ? "own interval" : plan.no_cross_range));
+  }
+  RadarSpec shown = radar;
+  shown.pulses = plan.sampling.pulses;
+  append(small_print(pipeline.scenario(), shown, record), figure.notes);
   return figure;
 }
 
-void show_map(const MapArguments& arguments) {
+Heatmap hrrp_figure(const ProductRequest& request, std::size_t names) {
+  const auto& [arguments, pipeline, radar, record, threads] = request;
+  constexpr int kProfiles = 48;
+  const Scenario& scenario = pipeline.scenario();
+  ProfileTimes times{
+      .duration_s = 1e-6 * radar.pri_us * radar.pulses, .count = kProfiles, .map = scenario.map, .threads = threads};
+  if (!sets(arguments, "map.range_oversampling")) times.map.range_oversampling = 4;
+  const bool recorded = std::ranges::any_of(
+      scenario.targets, [](const TargetSpec& target) { return target.motion.model == MotionModel::kSeries; });
+  if (record.significant_wave_height_m > 0 && !recorded && !sets(arguments, "radar.pulses"))
+    times.duration_s = std::max(times.duration_s, record.peak_period_s);
+  const RangeProfiles profiles = profiles_over(pipeline, arguments.sample, times);
+  const std::size_t cells = profiles.range_m.size();
+  const std::vector<float> magnitudes = single(profiles.magnitude_m);
+  const float strongest = std::ranges::max(magnitudes);
+
+  Heatmap figure;
+  figure.title = product_title("range profile", record);
+  figure.x.label = "range (m)";
+  const bool seconds = profiles.time_s.back() >= 1;
+  figure.y.label = seconds ? "time (s)" : "time (ms)";
+  figure.colour = {"level to peak (dB)", AxisRange{kMapFloorDb, 0}, false};
+  const IsarPlan plan = isar_plan(pipeline, arguments.sample);
+  const std::optional<MapWindow> window =
+      arguments.whole ? std::nullopt : std::optional(MapWindow{plan.range_m, {-1e300, 1e300}});
+  figure.map = levels_in({profiles.range_m, profiles.time_s}, magnitudes, window);
+  for (double& time : figure.map.y) time *= seconds ? 1 : 1e3;
+  ProfileAbove& above = figure.profile.emplace();
+  above.y = {"RCS (dBsm)", {}, false};
+  const auto dbsm = [](double magnitude_m) {
+    return 20 * std::log10(std::max(magnitude_m, 1e-9)) + 10 * std::log10(4 * kPi);
+  };
+  const double top =
+      std::ceil(dbsm(*std::max_element(magnitudes.begin(), magnitudes.begin() + static_cast<std::ptrdiff_t>(cells))) /
+                5) *
+      5;
+  above.y.range = AxisRange{top + kMapFloorDb, top};
+  for (const double range_m : figure.map.x) {
+    const auto at = static_cast<std::size_t>(std::ranges::find(profiles.range_m, range_m) - profiles.range_m.begin());
+    above.values.push_back(dbsm(profiles.magnitude_m[at]));
+  }
+  for (const NamedPeak& peak : named_peaks(pipeline, arguments.sample, profiles, names))
+    above.peaks.push_back({peak.range_m, dbsm(peak.magnitude_m), peak.name});
+  figure.notes.push_back("target alone, whole band in every pulse");
+  figure.notes.push_back(fmt::format("above: at {:.2f} s, named by what scatters most", request.start_s()));
+  figure.notes.push_back(fmt::format("0 dB below: {:.1f} dBsm", dbsm(strongest)));
+  RadarSpec shown = radar;
+  shown.pulses = times.count;
+  shown.pri_us = 1e6 * times.duration_s / times.count;
+  append(small_print(scenario, shown, record), figure.notes);
+  return figure;
+}
+
+Heatmap map_figure(const MapArguments& arguments, const Pipeline& pipeline, const RadarSpec& radar,
+                   const GeneratedSample& made) {
+  constexpr double kDetail = 4;  // cells of the target's window in each cell of the map, along both axes
+  const Scenario& scenario = pipeline.scenario();
+  std::optional<MagnitudeMap> fine;
+  if (!scenario.map.clean) {
+    MapSpec finer = scenario.map;
+    finer.range_oversampling *= kDetail;
+    finer.velocity_oversampling *= kDetail;
+    fine = magnitude_map(form_rv_map(made.received.echo, made.train, finer, radar.intra_pulse_motion));
+  }
+  Heatmap figure = rv_figure({.sample = made.stored,
+                              .axes = stored_axes(made.received.map),
+                              .line = least_squares_line(made.centres, scenario.features),
+                              .whole = arguments.whole,
+                              .centres = arguments.centres == "on",
+                              .fine = fine ? &*fine : nullptr});
+  append(small_print(scenario, radar, made.stored.record), figure.notes);
+  return figure;
+}
+
+void show_map(const MapArguments& arguments, int threads) {
   require_figure(arguments.output);
   const Pipeline pipeline = pipeline_of(arguments);
-  const Scenario& scenario = pipeline.scenario();
   const SamplePlan& plan = pipeline.plan();
-  const std::size_t sample = arguments.sample;
+  const SampleAddress at = plan.address(arguments.sample);
+  const RadarSpec radar = pipeline.scenario_of(at).radar;
   const bool is_map = arguments.product == "rv";
+  const FigureStyle style = style_of(arguments.style);
   report_scenario(pipeline, {.bands = is_map, .coverage = is_map});
-  const SampleAddress address = plan.address(sample);
-  const TargetSpec& target = scenario.targets[static_cast<std::size_t>(address.target)];
-  const View view = plan.view(address);
-  const std::string title =
-      fmt::format("{}: sample {}, {}, Hs {:g} m, azimuth {:g} deg, elevation {:g} deg", scenario.name, sample,
-                  target.name, plan.sea_state(address).significant_wave_height_m, view.azimuth_deg, view.elevation_deg);
-  if (!is_map) {
-    const FullBandInterval band = full_band_interval(pipeline, sample);
-    if (arguments.product == "isar") {
-      write_figure(rv_figure(band.image, {}, title + ", whole band every pulse"), arguments.output);
-    } else {
-      write_figure(profile_figure(range_profiles(band, scenario.map), title), arguments.output);
-    }
+  const auto write = [&](const Heatmap& figure) { write_figure(figure, arguments.output, map_size(style)); };
+  if (is_map) {
+    const GeneratedSample made = pipeline.generate_sample(arguments.sample);
+    write(map_figure(arguments, pipeline, radar, made));
+    print_result(made.received, made.centres, made.features);
     return;
   }
-  const GeneratedSample made = pipeline.generate_sample(sample);
-  write_figure(rv_figure(made.received.map, made.centres, title), arguments.output);
-  print_result(made.received, made.centres, made.features);
+  const SampleRecord record = planned_record(pipeline.scenario(), plan, arguments.sample, at);
+  const ProductRequest request{arguments, pipeline, radar, record, threads};
+  write(arguments.product == "isar" ? isar_figure(request)
+                                    : hrrp_figure(request, style == FigureStyle::kPaper ? 6 : 12));
 }
 
 }  // namespace
@@ -203,7 +341,7 @@ void add_map(CommandOptions& program, CommandContext& context) {
   CommandOptions command =
       program.add_command("map", "Draw one range-velocity map, list its scattering centres and features");
   auto arguments = std::make_shared<MapArguments>();
-  add_sample_arguments(command, *arguments, "Picture, .png or .svg");
+  add_sample_arguments(command, *arguments, "Picture, .png, .svg or .pdf");
   command
       .add_option(
           "--product", arguments->product,
@@ -211,13 +349,22 @@ void add_map(CommandOptions& program, CommandContext& context) {
           "bandwidth in every pulse")
       .one_of({"rv", "isar", "hrrp"})
       .show_default();
+  command
+      .add_option("--style", arguments->style,
+                  "screen, or for print, .png with 300 dots per inch: paper 88 mm wide, paper-wide 180 mm")
+      .one_of({"screen", "paper", "paper-wide"})
+      .show_default();
+  command.add_flag("--whole", arguments->whole, "The whole map; else the target's own window, with the whole as inset");
+  command.add_option("--centres", arguments->centres, "Rings at the scattering centres and the line fitted to them")
+      .one_of({"on", "off"})
+      .show_default();
   add_threads_option(command, context);
   command.footer(
       "Example:\n  seaglint map scenarios/points.yaml --sample 0 -o map.png\n"
       "  seaglint map scenarios/points.yaml --sample 0 --set map.clean=true -o clean.png");
   command.callback([arguments, &context] {
     context.uninterruptible = true;
-    context.work = [arguments] { show_map(*arguments); };
+    context.work = [arguments, &context] { show_map(*arguments, context.threads); };
   });
 }
 

@@ -143,8 +143,8 @@ void write_sea(const SeaArguments& arguments, const CommandContext& context) {
                                                 .stop = &context.stop});
     statistics = ensemble_text(ensemble, summary);
     if (!arguments.figure.empty()) {
-      const std::string title =
-          fmt::format("{}: Hs {:.3g} m, Tp {:.3g} s", scenario.name, total_wave_height(state), state.peak_period_s);
+      const std::string title = fmt::format("{}: Hs {:.3g} m, Tp {:.3g} s, seed {}", scenario.name,
+                                            total_wave_height(state), state.peak_period_s, scenario.seed);
       write_sea_figure(state, field, summary, ensemble, title, arguments.figure);
     }
     if (!arguments.spectrum.empty()) write_file(arguments.spectrum, as_comment(lines) + spectrum_csv(ensemble));
@@ -169,7 +169,7 @@ void add_sea(CommandOptions& program, CommandContext& context) {
   command.add_option("--spectrum", arguments->spectrum,
                      "CSV file for the spectrum: the state's, and that of the realisations");
   command.add_option("--figure", arguments->figure,
-                     "Picture (.png or .svg) of elevation, spectrum, exceedance of crests and slope");
+                     "Picture (.png, .svg or .pdf) of elevation, spectrum, exceedance of crests and slope");
   command
       .add_option("--realisations", arguments->realisations, "Realisations that --spectrum and --figure take together")
       .integer_within(1, 10000);
@@ -204,8 +204,8 @@ struct MovingBodies {
 void write_pictures(const MotionArguments& arguments, const Scenario& scenario, const MovingBodies& moving) {
   const SeaState& state = moving.scene.state;
   const std::string title =
-      fmt::format("{}: Hs {:.3g} m, Tp {:.3g} s towards {:.4g} deg", scenario.name, state.significant_wave_height_m,
-                  state.peak_period_s, degrees(state.propagation_rad));
+      fmt::format("{}: Hs {:.3g} m, Tp {:.3g} s towards {:.4g} deg, seed {}", scenario.name,
+                  state.significant_wave_height_m, state.peak_period_s, degrees(state.propagation_rad), scenario.seed);
   if (!arguments.figure.empty()) write_motion_figure(moving.named, arguments.duration_s, title, arguments.figure);
   if (!arguments.frames.empty()) {
     const double period = std::min(state.peak_period_s, arguments.duration_s);
@@ -291,7 +291,7 @@ void add_motion(CommandOptions& program, CommandContext& context) {
   add_scenario_arguments(command, arguments->scenario);
   command.add_option("-o,--output", arguments->output, "CSV file to write").required();
   command.add_option("--spectrum", arguments->spectrum, "CSV file for the spectra of the series' angles");
-  command.add_option("--figure", arguments->figure, "Picture (.png or .svg) of the first 100 s of all angles");
+  command.add_option("--figure", arguments->figure, "Picture (.png, .svg or .pdf) of the first 100 s of all angles");
   command.add_option(
       "--snapshots", arguments->frames,
       "Figure with five snapshots over one wave period: first and last body in the waves, seen from starboard");

@@ -357,8 +357,8 @@ std::vector<Heatmap> comparison_images(const std::vector<PairedCut>& cuts, doubl
   Heatmap image;
   image.x.label = grid->angle;
   image.y.label = "frequency (GHz)";
-  image.x_cells = grid->deg;
-  image.y_cells = grid->ghz;
+  image.map.x = grid->deg;
+  image.map.y = grid->ghz;
   std::vector<Heatmap> images(3, image);
   const std::string place = fmt::format("{}, {}", kQuantityNames[strongest.quantity()], grid->place);
   images[0].title = fmt::format("{}: {}", strongest.reference, place);
@@ -368,9 +368,9 @@ std::vector<Heatmap> comparison_images(const std::vector<PairedCut>& cuts, doubl
     images[i].colour = {"radar cross section (dBsm)", AxisRange{lowest, highest}, false};
   images[2].colour = {"difference (dB)", AxisRange{-widest, widest}, false};
   images[2].diverging = true;
-  images[0].values = grid->reference;
-  images[1].values = grid->compared;
-  images[2].values = std::move(difference);
+  images[0].map.values = grid->reference;
+  images[1].map.values = grid->compared;
+  images[2].map.values = std::move(difference);
   return images;
 }
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "tools/compare/paired_cut.h"
-#include "tools/figure/figure.h"
+#include "tools/figure/map_figure.h"
 
 namespace seaglint {
 

@@ -32,7 +32,7 @@ Camera camera_of(const PictureView& view) {
   return camera;
 }
 
-struct Sample {
+struct PixelSample {
   float depth = -std::numeric_limits<float>::infinity();
   float brightness = 0;
   float facing = 0;
@@ -61,28 +61,28 @@ class Canvas {
         }
         if (weight[0] < 0 || weight[1] < 0 || weight[2] < 0) continue;
         const auto depth = static_cast<float>(weight[0] * p[0].z() + weight[1] * p[1].z() + weight[2] * p[2].z());
-        Sample& sample = samples_[static_cast<std::size_t>(y) * width_ + x];
+        PixelSample& sample = samples_[static_cast<std::size_t>(y) * width_ + x];
         if (depth > sample.depth) sample = {depth, brightness, facing};
       }
     }
   }
 
-  const Sample& at(int x, int y) const {
+  const PixelSample& at(int x, int y) const {
     return samples_[static_cast<std::size_t>(std::clamp(y, 0, height_ - 1)) * width_ + std::clamp(x, 0, width_ - 1)];
   }
 
  private:
   int width_, height_;
-  std::vector<Sample> samples_;
+  std::vector<PixelSample> samples_;
 };
 
 // Darkness of the line at a sample: on the silhouette, where depth departs from the plane through the two neighbours by
 // more than `step`, or where the shade changes.
 double line_at(const Canvas& canvas, int x, int y, float step) {
-  const Sample& here = canvas.at(x, y);
+  const PixelSample& here = canvas.at(x, y);
   double line = 0;
   for (const auto& [dx, dy] : {std::pair{1, 0}, std::pair{0, 1}}) {
-    const Sample &before = canvas.at(x - dx, y - dy), &after = canvas.at(x + dx, y + dy);
+    const PixelSample &before = canvas.at(x - dx, y - dy), &after = canvas.at(x + dx, y + dy);
     if (std::isinf(here.depth) && std::isinf(after.depth)) continue;
     if (std::isinf(here.depth) != std::isinf(after.depth)) return 0.55;
     if (!std::isinf(before.depth) && std::abs(after.depth - 2 * here.depth + before.depth) > step) line = 0.4;
@@ -148,7 +148,7 @@ Picture picture_of(const TriangleMesh& mesh, const PictureView& view) {
       double colour[3] = {0, 0, 0};
       for (int k = 0; k < kSamples * kSamples; ++k) {
         const int sx = kSamples * x + k % kSamples, sy = kSamples * y + k / kSamples;
-        const Sample& sample = canvas.at(sx, sy);
+        const PixelSample& sample = canvas.at(sx, sy);
         const double ink = 1.0 - line_at(canvas, sx, sy, step);
         for (int c = 0; c < 3; ++c)
           colour[c] += ink * (std::isinf(sample.depth) ? kPaper[c] : kPaint[c] * sample.brightness);

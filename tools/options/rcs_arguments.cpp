@@ -121,9 +121,10 @@ void ReferenceArguments::add_to(CommandOptions& command) {
           .group("Reference");
   for (const CommandOption& option : add_properties_to(command)) CommandOption(option).needs(reference);
   command
-      .add_option("--figure", figure,
-                  "Figure of the levels, of the comparison or of --uncertainty, .png or .svg; default: the output's "
-                  "name with .png; off: none")
+      .add_option(
+          "--figure", figure,
+          "Figure of the levels, of the comparison or of --uncertainty, .png, .svg or .pdf; default: the output's "
+          "name with .png; off: none")
       .group("Reference");
   command
       .add_option("--curves", curves,

@@ -93,8 +93,16 @@ double Pipeline::window_m_of(const Scenario& other) const {
   return range_window_m({.scenario = other, .plan = SamplePlan(other), .cache = cache_.get()}, *targets_);
 }
 
-std::shared_ptr<const Scene> Pipeline::scene(int sea_state, int realisation) const {
-  return scenes_.get({sea_state, realisation}, [&] {
+std::shared_ptr<const Scene> Pipeline::scene(int sea_state, int realisation, double at_least_s) const {
+  if (at_least_s > 0) {
+    auto usual = scene(sea_state, realisation);
+    const auto lasts = [&](const Trajectory& body) { return body.end_s() >= at_least_s; };
+    if (std::ranges::all_of(usual->bodies, [&](const auto& bodies) { return std::ranges::all_of(bodies, lasts); }))
+      return usual;
+    constexpr double kStep_s = 30;  // so that many such calls are for few scenes
+    at_least_s = kStep_s * std::ceil(at_least_s / kStep_s);
+  }
+  return scenes_.get({sea_state, realisation, at_least_s}, [&] {
     auto targets = targets_;
     if (!scenario_.variations.empty()) {
       const Scenario drawn = plan_.drawn(scenario_, {.sea_state = sea_state, .realisation = realisation});
@@ -104,7 +112,8 @@ std::shared_ptr<const Scene> Pipeline::scene(int sea_state, int realisation) con
     Scene scene = make_scene({.scenario = scenario_,
                               .targets = *targets,
                               .sea = {static_cast<std::size_t>(sea_state), static_cast<std::size_t>(realisation)},
-                              .plan = &plan_});
+                              .plan = &plan_,
+                              .at_least_s = at_least_s});
     scene.targets = std::move(targets);
     return scene;
   });
@@ -163,8 +172,9 @@ ClutterScene Pipeline::clutter_scene(const SampleAddress& at, const Scene& scene
 }
 
 IntervalResult Pipeline::response(const SampleAddress& at, const PulseTrain& train, const StopFlag* stop) const {
-  ObservedInterval seen{scenario_of(at), scene(at.sea_state, at.realisation), plan_.view(at),
-                        interval_sampling(train, plan_.start_s(at))};
+  const double start_s = plan_.start_s(at);
+  ObservedInterval seen{scenario_of(at), scene(at.sea_state, at.realisation, start_s + train.time_s.back()),
+                        plan_.view(at), interval_sampling(train, start_s)};
   seen.sampling.line_of_sight_rate = Vec3(scenario_.radar.platform.velocity_mps) / (scenario_.radar.range_km * 1e3);
   const auto target = static_cast<std::size_t>(at.target);
   IntervalResult sum = target_response(target, seen, stop);
@@ -257,47 +267,6 @@ GeneratedSample sample_of_echo(const Echo& echo, const PulseTrain& train, const 
 }
 
 StoredAxes stored_axes(const RvMap& map) { return {map.range_m, map.velocity_mps}; }
-
-FullBandInterval full_band_interval(const Pipeline& pipeline, std::size_t sample) {
-  const SampleAddress at = pipeline.plan().address(sample);
-  const Scenario scenario = pipeline.scenario_of(at);
-  // One carrier with the bandwidth of all; the hop step is the whole band, so that the unambiguous range window is
-  // unchanged.
-  RadarSpec radar = scenario.radar;
-  const double lowest_mhz = 1e3 * radar.carrier_ghz - 0.5 * radar.bandwidth_mhz;
-  radar.bandwidth_mhz += (radar.carrier_count - 1) * radar.hop_step_mhz;
-  radar.hop_step_mhz = radar.bandwidth_mhz;
-  radar.carrier_count = 1;
-  radar.hop_code = HopCode::kStepped;
-  radar.carrier_ghz = 1e-3 * (lowest_mhz + 0.5 * radar.bandwidth_mhz);
-  radar.sampling_mhz = std::max(radar.sampling_mhz, 2 * radar.bandwidth_mhz);
-
-  FullBandInterval band;
-  band.train = make_pulse_train(radar, pipeline.window_m(), scenario.seed, pipeline.plan().first_of_interval(sample));
-  ClutterSpec none;
-  none.enabled = false;
-  band.echo = pipeline.echo(sample, band.train, pipeline.response(at, band.train), none).target;
-  band.image = form_rv_map(band.echo, band.train, scenario.map, radar.intra_pulse_motion);
-  return band;
-}
-
-RangeProfiles range_profiles(const FullBandInterval& band, const MapSpec& spec) {
-  RangeProfiles profiles;
-  const std::size_t frequencies = band.train.frequencies();
-  MapSpec row = spec;
-  row.velocity_span_mps = 1e-6;  // one velocity, 0
-  for (std::size_t n = 0; n < band.train.pulses(); ++n) {
-    PulseTrain pulse = band.train;
-    pulse.code = {band.train.code[n]};
-    pulse.carrier_hz = {band.train.carrier_hz[n]};
-    pulse.time_s = {0};
-    const RvMap map = form_rv_map({&band.echo[n * frequencies], frequencies}, pulse, row, pulse.intra_pulse_motion);
-    profiles.time_s.push_back(band.train.time_s[n]);
-    profiles.range_m = map.range_m;
-    for (const Complex& value : map.values) profiles.magnitude_m.push_back(std::abs(value));
-  }
-  return profiles;
-}
 
 namespace {
 

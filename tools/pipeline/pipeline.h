@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Generates one sample of a scenario: sea and motion, response, echo, map, features; and other products of its
-// interval: ISAR image, range profiles, I/Q samples. Every step is one call of one stage.
+// Generates one sample of a scenario: sea and motion, response, echo, map, features; and its I/Q samples. Every step is
+// one call of one stage.
 
 #include <memory>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -80,8 +81,8 @@ class Pipeline {
   // maps, and the hop code of the first.
   PulseTrain nominal_train() const;
 
-  // The scene of a realisation; the most recent ones are cached.
-  std::shared_ptr<const Scene> scene(int sea_state, int realisation) const;
+  // The scene of a realisation, with all its intervals and at least this long; the most recent ones are cached.
+  std::shared_ptr<const Scene> scene(int sea_state, int realisation, double at_least_s = 0) const;
 
  private:
   Pipeline(Scenario scenario, SamplePlan plan, std::shared_ptr<TargetCache> cache, std::optional<double> range_window_m,
@@ -104,26 +105,9 @@ class Pipeline {
   std::shared_ptr<const std::vector<Target>> targets_;
   double range_window_m_ = 0;
 
-  mutable SharedResults<std::pair<int, int>, Scene> scenes_{8};       // by sea state and realisation
-  mutable SharedResults<std::size_t, IntervalResult> responses_{16};  // by the first sample of an interval and target
+  mutable SharedResults<std::tuple<int, int, double>, Scene> scenes_{8};  // by sea state, realisation, least duration
+  mutable SharedResults<std::size_t, IntervalResult> responses_{16};      // by the first sample of interval and target
 };
-
-// Echo and map of the target alone, without clutter and noise, for a radar that transmits the whole synthetic bandwidth
-// with every pulse: an ISAR image (range, velocity). Band, pulse times and motion, including the radar's own, are those
-// of the sample's map.
-struct FullBandInterval {
-  PulseTrain train;           // of one carrier, in the middle of the band
-  std::vector<Complex> echo;  // [pulse][frequency]
-  RvMap image;
-};
-FullBandInterval full_band_interval(const Pipeline& pipeline, std::size_t sample);
-
-// High-resolution range profiles |HRRP| of its single pulses, metres, [pulse][range].
-struct RangeProfiles {
-  std::vector<double> time_s, range_m;
-  std::vector<double> magnitude_m;
-};
-RangeProfiles range_profiles(const FullBandInterval& band, const MapSpec& spec);
 
 // Echo of a sample over time as I/Q samples of a receiver. Target and clutter are those of the sample's map, at the
 // same levels. Noise has the level of the map's noise but is another realisation: the map's frequencies contain only

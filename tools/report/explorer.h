@@ -14,13 +14,13 @@
 #include "sim/core/process/parallel.h"
 #include "sim/scenario/sample_plan.h"
 #include "sim/scenario/scenario.h"
+#include "tools/figure/map_figure.h"
 #include "tools/pipeline/scene.h"
 
 namespace seaglint {
 
 // Samples and maps as report.js reads them: the columns of all samples, and as many maps as the page has room for.
 
-inline constexpr double kMapFloorDb = -45;                   // of a map, relative to its strongest cell
 inline constexpr std::size_t kExplorerBytes = 820'000;       // of all packed maps with their centres
 inline constexpr std::size_t kExplorerCells[2] = {64, 128};  // velocity, range; larger maps are reduced to these
 

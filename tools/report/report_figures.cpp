@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -16,6 +17,7 @@
 #include "sim/scenario/layout/layout.h"
 #include "sim/scenario/sample_plan.h"
 #include "tools/figure/figure.h"
+#include "tools/figure/map_figure.h"
 #include "tools/figure/mesh_picture.h"
 #include "tools/figure/tsne.h"
 #include "tools/page/html.h"
@@ -227,47 +229,23 @@ std::string file_word(const std::string& name) {
   return word;
 }
 
-// The frame around all scattering centres of a map, with a margin of slightly more than half a cell.
-std::array<double, 4> centre_box(const ShownMap& shown) {
-  const auto& range = shown.axes.range_m;
-  const auto& velocity = shown.axes.velocity_mps;
-  const double range_margin = range.size() > 1 ? 3 * (range[1] - range[0]) : 1;
-  const double velocity_margin = velocity.size() > 1 ? 1.5 * (velocity[1] - velocity[0]) : 1;
-  std::array<double, 4> box{1e300, -1e300, 1e300, -1e300};
-  for (const StoredCentre& centre : shown.sample.centre_list) {
-    box = {std::min(box[0], centre[0] - range_margin), std::max(box[1], centre[0] + range_margin),
-           std::min(box[2], centre[1] - velocity_margin), std::max(box[3], centre[1] + velocity_margin)};
-  }
-  return {std::max(box[0], range.front()), std::min(box[1], range.back()), std::max(box[2], velocity.front()),
-          std::min(box[3], velocity.back())};
-}
-
-Heatmap heatmap_of(const ShownMap& shown) {
+// A map in the target's window, its centres and the fitted line, with small print.
+Heatmap map_of(const ShownMap& shown, const Scenario& scenario, const SamplePlan& plan) {
   const SampleRecord& record = shown.sample.record;
-  Heatmap map;
-  map.title = fmt::format("{}, azimuth {:g} deg, Hs {:g} m", record.target_name, record.azimuth_deg,
-                          record.significant_wave_height_m);
-  map.x.label = "range relative to the target's reference (m)";
-  map.y.label = "velocity, positive = receding (m/s)";
-  map.colour = {"|RV| below the strongest cell (dB)", AxisRange{kMapFloorDb, 0}, false};
-  map.x_cells = shown.axes.range_m;
-  map.y_cells = shown.axes.velocity_mps;
-  for (const float value : shown.sample.magnitude) {
-    map.values.push_back(20 * std::log10(std::max<double>(value, 1e-12) / std::max(record.peak_m, 1e-12)));
-  }
-  for (const StoredCentre& centre : shown.sample.centre_list) map.markers.push_back({centre[0], centre[1]});
-  map.marker_name = "scattering centres";
-  if (!shown.sample.centre_list.empty()) map.boxes.push_back(centre_box(shown));
+  const LineFit line = fit_line(shown.sample.centre_list);
+  Heatmap map = rv_figure({.sample = shown.sample, .axes = shown.axes, .line = {line.slope, line.intercept}});
+  const SampleAddress address = plan.address(static_cast<std::size_t>(record.sample));
+  std::ranges::copy(small_print(scenario, plan.drawn(scenario, address).radar, record), std::back_inserter(map.notes));
   return map;
 }
 
-void add_maps(FigureList& list, const ReportData& data) {
+void add_maps(FigureList& list, const ReportData& data, const Scenario& scenario, const SamplePlan& plan) {
   for (const ShownMap& shown : data.shown) {
     const SampleRecord& record = shown.sample.record;
     const LineFit line = fit_line(shown.sample.centre_list);
     list.add(
-        "maps", fmt::format("map_{}_{:g}deg", file_word(record.target_name), record.azimuth_deg), heatmap_of(shown),
-        {720, 450},
+        "maps", fmt::format("map_{}_{:g}deg", file_word(record.target_name), record.azimuth_deg),
+        map_of(shown, scenario, plan), map_size(FigureStyle::kScreen),
         fmt::format("<b>{}</b>, azimuth {:g}°, H<sub>s</sub> {:g} m (sample {}). Strongest cell {:.3g} m ({:.1f} "
                     "dBsm), {} centres, "
                     "MWR {:.3g} (m/s)², CCF {:.2f}, σ<sub>r</sub> {:.1f} m, σ<sub>v</sub> {:.2f} m/s; the straight "
@@ -282,18 +260,20 @@ void add_maps(FigureList& list, const ReportData& data) {
 }
 
 // Maps that the fused features get wrong on unseen seas, the surest first.
-void add_wrong_maps(FigureList& list, const ReportData& data, const Study& study, const ClassNames& classes,
-                    const fs::path& directory) {
+void add_wrong_maps(FigureList& list, const ReportRequest& request) {
   constexpr std::size_t kMost = 4;
-  const std::vector<Prediction>& wrong = outcome_of(study, "fused").wrong;
+  const ReportData& data = request.results.data;
+  const ClassNames classes = class_names(request.scenario);
+  const std::vector<Prediction>& wrong = outcome_of(request.results.numbers.study, "fused").wrong;
   if (wrong.empty()) return;
-  const DatasetReader reader(directory / "data");
+  const DatasetReader reader(request.directory / "data");
   for (std::size_t i = 0; i < std::min(kMost, wrong.size()); ++i) {
     const std::int64_t sample = data.rows.at(wrong[i].row).record.sample;
     const ShownMap shown{stored_sample(reader, static_cast<std::size_t>(sample)).sample, data.axes};
     const SampleRecord& record = shown.sample.record;
     list.add(
-        "wrong", fmt::format("wrong_map_{}", i + 1), heatmap_of(shown), {720, 450},
+        "wrong", fmt::format("wrong_map_{}", i + 1), map_of(shown, request.scenario, request.plan),
+        map_size(FigureStyle::kScreen),
         fmt::format("Sample {}: <b>{}</b> declared <b>{}</b> with probability {:.2f}. {} centres, MWR {:.3g} (m/s)², "
                     "CCF {:.2f}.",
                     sample, escape_html(classes.at(static_cast<std::size_t>(wrong[i].label))),
@@ -598,9 +578,9 @@ std::vector<ReportFigure> draw_report_figures(const ReportRequest& request) {
   const Scenario& scenario = request.scenario;
   FigureList list(request.directory);
   const ClassNames classes = class_names(scenario);
-  add_maps(list, data);
+  add_maps(list, data, scenario, request.plan);
   add_scores(list, numbers.study, scenario.learning.split);
-  add_wrong_maps(list, data, numbers.study, classes, request.directory);
+  add_wrong_maps(list, request);
   add_features(list, data, classes, scenario.seed);
   add_aspects(list, data, classes);
   if (!data.shown.empty()) add_sea(list, scenario, request.plan, request.targets, data.shown.front().sample.record);

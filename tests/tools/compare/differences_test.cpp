@@ -207,12 +207,12 @@ TEST(ComparisonImages, HaveLevelsAndDifferencesOverAzimuthAndFrequency) {
   const std::vector<Heatmap> images = comparison_images(cuts, 80);
   ASSERT_EQ(images.size(), 3u);
   EXPECT_THAT(images[0].title, testing::HasSubstr("hh"));
-  EXPECT_THAT(images[0].y_cells,
+  EXPECT_THAT(images[0].map.y,
               testing::ElementsAre(testing::DoubleEq(9.0), testing::DoubleEq(9.1), testing::DoubleEq(9.2)));
-  EXPECT_THAT(images[0].x_cells, testing::ElementsAre(0, 1, 2, 3, 4));
-  EXPECT_NEAR(images[0].values[5 * 2 + 3], 3 + 9.2 - 3, 1e-12);
-  EXPECT_NEAR(images[1].values[5 * 2 + 3], 4 + 9.2 - 6, 1e-12);
-  EXPECT_NEAR(images[2].values[5 * 2 + 3], 1 - 3, 1e-12);
+  EXPECT_THAT(images[0].map.x, testing::ElementsAre(0, 1, 2, 3, 4));
+  EXPECT_NEAR(images[0].map.values[5 * 2 + 3], 3 + 9.2 - 3, 1e-12);
+  EXPECT_NEAR(images[1].map.values[5 * 2 + 3], 4 + 9.2 - 6, 1e-12);
+  EXPECT_NEAR(images[2].map.values[5 * 2 + 3], 1 - 3, 1e-12);
   EXPECT_TRUE(images[2].diverging);
   EXPECT_EQ(images[2].colour.range->first, -images[2].colour.range->second);
   EXPECT_EQ(images[0].colour.range, images[1].colour.range);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Figures, statistics of a motion, and planes that preserve neighbourhoods.
-#include "tools/figure/figure.h"
+#include "tools/figure/map_figure.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,8 +9,10 @@
 #include <sys/resource.h>
 #include <unistd.h>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <limits>
+#include <tuple>
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/random.h"
@@ -48,21 +50,21 @@ Heatmap ripple(int columns, int rows) {
   map.x.label = "range (m)";
   map.y.label = "velocity (m/s)";
   map.colour = {"level (dB)", AxisRange{-40, 0}, false};
-  for (int i = 0; i < columns; ++i) map.x_cells.push_back(i * 0.75);
-  for (int j = 0; j < rows; ++j) map.y_cells.push_back(j * 0.146 - 1);
+  for (int i = 0; i < columns; ++i) map.map.x.push_back(i * 0.75);
+  for (int j = 0; j < rows; ++j) map.map.y.push_back(j * 0.146 - 1);
   for (int j = 0; j < rows; ++j) {
-    for (int i = 0; i < columns; ++i) map.values.push_back(-20 + 20 * std::sin(0.3 * i) * std::cos(0.5 * j));
+    for (int i = 0; i < columns; ++i) map.map.values.push_back(-20 + 20 * std::sin(0.3 * i) * std::cos(0.5 * j));
   }
-  map.values[0] = std::numeric_limits<double>::quiet_NaN();
-  map.markers = {{3, 0}, {6, -0.5}};
-  map.marker_name = "centres";
+  map.map.values[0] = std::numeric_limits<double>::quiet_NaN();
+  map.rings = {{3, 0}, {6, -0.5}};
+  map.ring_name = "centres";
   return map;
 }
 
 TEST_F(Figure, HeatmapsOfAnyShapeBecomePicturesWithoutOtherFiles) {
   std::size_t count = 0;
   for (const auto& [columns, rows] : {std::pair{40, 20}, {40, 1}, {1, 20}, {1, 1}}) {
-    for (const char* extension : {"png", "svg"}) {
+    for (const char* extension : {"png", "svg", "pdf"}) {
       const fs::path file = folder_ / (std::to_string(columns) + "x" + std::to_string(rows) + "." + extension);
       write_figure(ripple(columns, rows), file);
       EXPECT_GT(read_file(file).size(), 1000u) << file;
@@ -108,6 +110,138 @@ TEST_F(Figure, RefusesOtherFormatsAndMissingFolders) {
   EXPECT_EQ(files(), 0u);
 }
 
+// The text of a figure as an SVG has it.
+std::string svg_of(const Heatmap& figure, const fs::path& folder, FigureSize size = {}) {
+  write_figure(figure, folder / "text.svg", size);
+  return read_file(folder / "text.svg");
+}
+
+std::size_t count_of(const std::string& text, const std::string& word) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++count;
+  return count;
+}
+
+// A map of 128 x 64 cells of 0.75 m and 0.15 m/s with three centres of a target, its pedestal over all velocities of
+// their ranges, and clutter.
+struct MapWithTarget {
+  Sample sample;
+  StoredAxes axes;
+
+  explicit MapWithTarget(float target_m = 1, float clutter_m = 0.01f) {
+    for (int i = 0; i < 128; ++i) axes.range_m.push_back(0.75 * (i - 64));
+    for (int j = 0; j < 64; ++j) axes.velocity_mps.push_back(0.15 * (j - 32));
+    sample.magnitude.assign(axes.cells(), clutter_m);
+    for (const auto& [i, j] : {std::pair{54, 31}, {64, 32}, {74, 33}}) {
+      for (std::size_t v = 0; v < 64; ++v) sample.magnitude[v * 128 + static_cast<std::size_t>(i)] = 0.1f * target_m;
+      sample.magnitude[static_cast<std::size_t>(j * 128 + i)] = target_m;
+      sample.centre_list.push_back({static_cast<float>(axes.range_m[static_cast<std::size_t>(i)]),
+                                    static_cast<float>(axes.velocity_mps[static_cast<std::size_t>(j)]), target_m});
+    }
+    sample.record.target_name = "ship";
+    sample.record.azimuth_deg = 80;
+    sample.record.significant_wave_height_m = 1;
+    sample.record.peak_period_s = 8;
+    sample.record.sample = 3;
+    sample.record.mwr = 0.004;
+  }
+};
+
+TEST(MapWindow, IsThatOfTheCentresAndNotOfTheirPedestal) {
+  MapWithTarget map;
+  const TargetWindow target = target_window(map.sample, map.axes);
+  ASSERT_TRUE(target.window);
+  EXPECT_EQ(target.reason, "");
+  // Margins of four and two cells beyond the centres at -7.5 to 7.5 m and -0.15 to 0.15 m/s, on edges of cells; at
+  // least nine cells of velocity.
+  EXPECT_NEAR(target.window->x.first, -10.5 - 0.375, 1e-9);
+  EXPECT_NEAR(target.window->x.second, 10.5 + 0.375, 1e-9);
+  EXPECT_NEAR(target.window->y.first, -0.675, 1e-9);
+  EXPECT_NEAR(target.window->y.second, 0.675, 1e-9);
+  // A centre 40 dB below the strongest is none of the window's.
+  map.sample.centre_list.push_back({40, 4, 0.01f});
+  EXPECT_EQ(target_window(map.sample, map.axes).window, target.window);
+  // One at the edge of the map: the window ends there.
+  map.sample.centre_list.push_back({47.25f, 4.65f, 0.5f});
+  const TargetWindow wide = target_window(map.sample, map.axes);
+  ASSERT_TRUE(wide.window);
+  EXPECT_NEAR(wide.window->x.second, 47.25 + 0.375, 1e-9);
+  EXPECT_NEAR(wide.window->y.second, 4.65 + 0.075, 1e-9);
+}
+
+TEST(MapWindow, IsTheWholeMapWhereClutterDominates) {
+  MapWithTarget map;
+  map.sample.magnitude[0] = 2;
+  EXPECT_FALSE(target_window(map.sample, map.axes).window);
+  EXPECT_NE(target_window(map.sample, map.axes).reason, "");
+  map.sample.centre_list.clear();
+  EXPECT_FALSE(target_window(map.sample, map.axes).window);
+  EXPECT_NE(rv_figure({.sample = map.sample, .axes = map.axes, .line = {}}).notes.front().find("whole map: "),
+            std::string::npos);
+}
+
+TEST_F(Figure, OfAMapShowsTheWindowTheWholeTheRingsAndTheLine) {
+  const MapWithTarget map;
+  const RvFigureRequest request{.sample = map.sample, .axes = map.axes, .line = {0.02, 0}};
+  const Heatmap figure = rv_figure(request);
+  EXPECT_EQ(figure.rings.size(), 3u);
+  ASSERT_EQ(figure.line.size(), 2u);
+  EXPECT_NEAR(figure.line[1][1], 0.02 * 7.5, 1e-6);
+  ASSERT_TRUE(figure.whole);
+  EXPECT_EQ(figure.whole->values.size(), map.axes.cells());
+  EXPECT_EQ(figure.map.x.size(), 29u);
+  EXPECT_EQ(figure.map.y.size(), 9u);
+  EXPECT_EQ(figure.colour.range, (AxisRange{-40, 0}));
+  EXPECT_NEAR(figure.map.values[4 * 29 + 4 + 10], 0, 1e-6);  // the middle centre
+  const std::string text = svg_of(figure, folder_);
+  for (const char* word : {"whole map", "3 scattering centres", "fitted line, MWR 0.004 (m/s)^2", "range (m)",
+                           "velocity (m/s)", "ship, azimuth 80 deg, Hs 1 m"})
+    EXPECT_NE(text.find(word), std::string::npos) << word;
+  EXPECT_EQ(count_of(text, "data:image/png"), 2u);
+
+  RvFigureRequest plain = request;
+  plain.whole = true;
+  plain.centres = false;
+  const std::string whole = svg_of(rv_figure(plain), folder_);
+  EXPECT_EQ(count_of(whole, "data:image/png"), 1u);
+  EXPECT_EQ(whole.find("whole map"), std::string::npos);
+  EXPECT_EQ(whole.find("scattering centre"), std::string::npos);
+}
+
+TEST_F(Figure, OfPaperHasItsWidthDotsAndSmallPrint) {
+  const MapWithTarget map;
+  Heatmap figure = rv_figure({.sample = map.sample, .axes = map.axes, .line = {}});
+  Scenario scenario;
+  scenario.name = "quick";
+  scenario.seed = 42;
+  figure.notes = small_print(scenario, scenario.radar, map.sample.record);
+  for (const auto& [style, dots, pixels] :
+       {std::tuple{FigureStyle::kPaper, 1039, 333}, {FigureStyle::kPaperWide, 2126, 680}}) {
+    const fs::path file = folder_ / "paper.png";
+    write_figure(figure, file, map_size(style));
+    const std::string png = read_file(file);
+    const auto number = [&](std::size_t at) {
+      std::uint32_t value = 0;
+      for (std::size_t i = 0; i < 4; ++i) value = value << 8 | static_cast<unsigned char>(png[at + i]);
+      return value;
+    };
+    EXPECT_EQ(number(16), static_cast<std::uint32_t>(dots));
+    EXPECT_EQ(png.substr(37, 4), "pHYs");
+    EXPECT_EQ(number(41), 11811u);  // dots per metre
+    const std::string text = svg_of(figure, folder_, map_size(style));
+    EXPECT_NE(text.find("width=\"" + std::to_string(pixels) + "\""), std::string::npos);
+    for (const char* word : {"carrier 16 GHz + 8 x 25 MHz", "azimuth 80 deg, elevation 0 deg", "Hs 1 m, Tp 8 s",
+                             "quick, sample 3, seed 42"})
+      EXPECT_NE(text.find(word), std::string::npos) << word;
+  }
+  const fs::path file = folder_ / "paper.pdf";
+  write_figure(figure, file, map_size(FigureStyle::kPaper));
+  const std::string pdf = read_file(file);
+  write_figure(figure, file, map_size(FigureStyle::kPaper));
+  EXPECT_EQ(read_file(file), pdf);
+  EXPECT_NE(pdf.find("(D:19700101000000"), std::string::npos);
+}
+
 // During its lifetime no file grows beyond `bytes`; writes fail as on a full disk.
 class FileSizeLimit {
  public:
@@ -130,7 +264,7 @@ class FileSizeLimit {
 
 // Script and data fit, the picture does not.
 TEST_F(Figure, CutShortByAFullDiskIsAnErrorAndNoFile) {
-  for (const char* name : {"map.png", "map.svg"}) {
+  for (const char* name : {"map.png", "map.svg", "map.pdf"}) {
     const FileSizeLimit limit(4096);
     EXPECT_THROW(write_figure(ripple(4, 4), folder_ / name), WorkError) << name;
     EXPECT_EQ(files(), 0u) << name;

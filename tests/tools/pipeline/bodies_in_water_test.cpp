@@ -19,6 +19,7 @@
 #include "tests/refusal.h"
 #include "tests/temporary_folder.h"
 #include "tests/tools/pipeline/target_responses.h"
+#include "tools/pipeline/imaging.h"
 #include "tools/pipeline/pipeline.h"
 #include "tools/pipeline/warnings.h"
 

@@ -18,6 +18,7 @@
 #include "tests/relative_difference.h"
 #include "tests/temporary_folder.h"
 #include "tools/pipeline/generate.h"
+#include "tools/pipeline/imaging.h"
 #include "tools/pipeline/pipeline.h"
 #include "tools/pipeline/scenario_check.h"
 #include "tools/pipeline/warnings.h"
@@ -76,6 +77,58 @@ TEST(FullBand, FollowsUncompensatedPlatformMotion) {
   // A radar ahead that recedes from the target; each peak lies on the map's cells.
   const double difference = velocity("false") - velocity("true");
   EXPECT_NEAR(difference, 0.8, step_mps);
+}
+
+// A ship that rolls: at its largest rate of roll the image is upright, and its window holds the ship.
+TEST(Isar, PlansIntervalWindowAndHeightByTheShipsMotion) {
+  const Pipeline pipeline(parse_scenario(R"(
+seaglint: 1
+name: ship
+view: {azimuth_deg: 90, elevation_deg: 2}
+sea: {significant_wave_height_m: 2, peak_period_s: 8, propagation_deg: 120}
+targets: {ship: {label: 1, mesh: assets/combatant_144m.glb, motion: {model: ship}}}
+dataset: {maps_per_case: 1, realisations_per_case: 1}
+)",
+                                         "ship.yaml"));
+  const IsarPlan plan = isar_plan(pipeline, 0);
+  ASSERT_TRUE(plan.cross_range);
+  EXPECT_EQ(plan.no_cross_range, "");
+  EXPECT_GT(std::abs(plan.cross_range->up), 0.9);
+  EXPECT_NEAR(plan.cross_range->rate_rad_s * plan.duration_s, plan.cross_range->angle_rad, 1e-12);
+  EXPECT_LE(plan.cross_range->cell_m, 34.4 / 8);
+  EXPECT_GE(plan.cross_range->cell_m, 0.7);
+  EXPECT_NEAR(plan.sampling.pulses * 250e-6, plan.duration_s, 250e-6);
+  EXPECT_LT(plan.sampling.offset_s, 8);
+  EXPECT_LT(plan.range_m.first, -10);
+  EXPECT_GT(plan.range_m.second, 10);
+  EXPECT_LT(plan.range_m.second, 30);
+  // The velocity of the mast's top, 34.4 m over the origin, is that of the axis.
+  const double top_mps = plan.cross_range->origin_mps + 34.4 * plan.cross_range->rate_rad_s * plan.cross_range->up;
+  EXPECT_GT(top_mps, plan.velocity_mps.first);
+  EXPECT_LT(top_mps, plan.velocity_mps.second);
+  EXPECT_EQ(plan.sampling.map->range_taper, Taper::kHamming);
+}
+
+TEST(Isar, OfPointsHasNoCrossRange) {
+  const IsarPlan plan = isar_plan(Pipeline(parse_scenario(kOnePoint, "point.yaml")), 0);
+  EXPECT_FALSE(plan.cross_range);
+  EXPECT_NE(plan.no_cross_range, "");
+  EXPECT_LT(plan.velocity_mps.first, -1.5);
+  EXPECT_GT(plan.velocity_mps.second, -1.5);
+  EXPECT_LT(plan.range_m.first, -30);
+  EXPECT_GT(plan.range_m.second, -30);
+}
+
+TEST(RangeProfiles, OverTimeAreThoseOfSinglePulsesWithTheirPeaksNamed) {
+  const Pipeline pipeline(parse_scenario(kOnePoint, "point.yaml"));
+  const RangeProfiles profiles =
+      profiles_over(pipeline, 0, {.duration_s = 4, .count = 4, .map = pipeline.scenario().map});
+  ASSERT_EQ(profiles.time_s, (std::vector<double>{0, 1, 2, 3}));
+  const std::vector<NamedPeak> peaks = named_peaks(pipeline, 0, profiles, 3);
+  ASSERT_EQ(peaks.size(), 1u);
+  EXPECT_EQ(peaks[0].name, "point 1");
+  EXPECT_NEAR(peaks[0].range_m, -30, 0.2);
+  EXPECT_NEAR(peaks[0].magnitude_m, 2, 0.1);
 }
 
 TEST(RangeProfiles, FollowThePoint) {

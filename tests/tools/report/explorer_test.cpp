@@ -43,8 +43,8 @@ TEST(Explorer, ACellHasTheStrongestOfItsGroupInWholeDecibels) {
   sample.magnitude[11] = 0.1F;
   sample.centre_list = {{7, 0, 2}, {10, 0, 0.2F}};
   std::vector<std::uint8_t> expected(128, 0);
-  expected[3] = 45;
-  expected[5] = 25;
+  expected[3] = 40;
+  expected[5] = 20;
   const ExplorerMap map = explorer_map(sample, axes);
   EXPECT_EQ(map.packed, packed(expected));
   EXPECT_NEAR(map.centres[1][2], -20, 1e-5);
