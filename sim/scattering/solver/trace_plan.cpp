@@ -53,24 +53,30 @@ TracePlan::TracePlan(const ObservedMotion& motion, std::span<const PropagationPa
     for (const bool by_sea : {path.outbound_via_sea, path.return_via_sea})
       turn = std::max(turn, length_of(seen.of(by_sea)));
   }
-  // Spans are shortened until the cross-track displacement of every path is within its limit, or each span has one
-  // pulse.
+  const auto trace_at = [&](double time_s) {
+    const Pose pose = pose_at(time_s);
+    traces_.push_back(planned(traces_.size(), pose,
+                              line_of_sight_from(line_of_sight_at(sampling, r_hat, time_s), pose.p, range_m), seen,
+                              paths));
+  };
+  // Spans are shortened until the cross-track displacement of every path is within its limit. With as many spans as
+  // pulses each pulse has a trace of its own.
   spans_ = std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(turn / limits.aspect_change)));
-  for (;; spans_ += (spans_ + 1) / 2) {
+  for (; spans_ < time_.size(); spans_ += (spans_ + 1) / 2) {
     traces_.clear();
     double beside = 0;
     for (std::size_t i = 0; i < spans_; ++i) {
-      const double middle_s = start + length * (static_cast<double>(i) + 0.5) / static_cast<double>(spans_);
-      const Pose pose = pose_at(middle_s);
-      traces_.push_back(planned(
-          i, pose, line_of_sight_from(line_of_sight_at(sampling, r_hat, middle_s), pose.p, range_m), seen, paths));
+      trace_at(start + length * (static_cast<double>(i) + 0.5) / static_cast<double>(spans_));
       for (const PlannedPath& path : traces_.back().paths) beside = std::max(beside, path.look_path.q_limit);
     }
-    if (beside <= limits.cross_track || spans_ >= time_.size()) break;
+    if (beside <= limits.cross_track) return;
   }
+  traces_.clear();
+  for (const double time_s : sampling.pulse_time_s) trace_at(time_s);
 }
 
 double TracePlan::interpolation_weight(std::size_t trace, int pulse) const {
+  if (spans_ >= time_.size()) return trace == static_cast<std::size_t>(pulse) ? 1 : 0;
   const auto spans = static_cast<double>(spans_), own = static_cast<double>(trace);
   const double place = std::clamp(time_[static_cast<std::size_t>(pulse)] * spans - 0.5, 0.0, spans - 1);
   return std::max(0.0, 1 - std::abs(place - own));

@@ -40,7 +40,8 @@ struct TraceLimits {
 };
 
 // Divides the interval into equal spans, each traced at its middle. Between two of these instants the responses are
-// interpolated linearly; before the first and after the last one the nearest response is used.
+// interpolated linearly; before the first and after the last one the nearest response is used. Of pulses so far apart
+// that there would be no fewer spans, each has a trace of its own.
 class TracePlan {
  public:
   TracePlan(const ObservedMotion& motion, std::span<const PropagationPath> paths, const TraceLimits& limits);
@@ -58,7 +59,7 @@ class TracePlan {
 
  private:
   struct Directions;
-  // Trace of one span, at the pose and look directions of its middle.
+  // Trace of one span, at the pose and look directions of its middle, or of one pulse.
   PlannedTrace planned(std::size_t trace, const Pose& pose, const LineOfSight& line_of_sight, const Directions& seen,
                        std::span<const PropagationPath> paths) const;
 

@@ -46,15 +46,16 @@ Trajectory rocking(const Vec3& rates, double period_s, const Vec3& centre, const
 // difference at `spots` random pulses and frequencies over the mean square of the whole response. The mean square at a
 // few spots may be that of a fade.
 double error_against_independent_traces(const Scatterer& scatterer, const Trajectory& trajectory, const Vec3& r_hat,
-                                        const SolverSpec& solver, int spots, std::uint64_t index) {
-  const IntervalSampling sampling = paper_interval(0.3);
+                                        const SolverSpec& solver, int spots, std::uint64_t index,
+                                        const IntervalSampling& sampling = paper_interval(0.3)) {
   const IntervalResult body = interval_response(scatterer, trajectory, r_hat, Polarisation::kVv, sampling, solver, 2);
   const RadarBasis world = radar_basis(r_hat);
   const double range_m = solver.wavefront_range_m;
   Random random({11, Stream::kTest, index});
   double error = 0, power = 0;
   for (int i = 0; i < spots; ++i) {
-    const int n = static_cast<int>(random.below(256)), b = static_cast<int>(random.below(40));
+    const int n = static_cast<int>(random.below(static_cast<std::uint32_t>(sampling.pulse_time_s.size())));
+    const int b = static_cast<int>(random.below(40));
     const Pose pose = trajectory.pose(sampling.pulse_time_s[n]);
     const Mat3 R_BT = pose.R.transpose();
     const double k = wavenumber(sampling.first_hz + (sampling.pulse_first[n] + b) * sampling.step_hz);
@@ -204,6 +205,22 @@ TEST(IntervalResponse, OfTheRollingShipMatchesIndependentTraces) {
     record_figure(error, 1, "interval_ship_{}_db", azimuth);
     std::printf("ship at %g deg: %.1f dB\n", azimuth, error);
     EXPECT_LT(error, -30) << azimuth;
+  }
+}
+
+// Pulses so far apart that the ship turns by several limits of a trace from one to the next: each has its own trace,
+// and what is left is the patterns frozen at the band's centre.
+TEST(IntervalResponse, OfDistantPulsesMatchesIndependentTraces) {
+  const Scatterer ship(read_mesh(SEAGLINT_SOURCE_DIR "/assets/combatant_144m.glb"));
+  for (const double spacing_s : {0.01, 0.04}) {
+    IntervalSampling sampling = paper_interval(1);
+    sampling.pulse_time_s.resize(24);
+    sampling.pulse_first.resize(24);
+    for (std::size_t n = 0; n < 24; ++n) sampling.pulse_time_s[n] = spacing_s * static_cast<double>(n);
+    const double error = error_against_independent_traces(ship, rocking({0.13, 0.09, 0.04}, 8, {0, 0, 1.7}),
+                                                          direction(30, 2), {}, 4, 1, sampling);
+    fmt::print("pulses every {} s: {:.1f} dB\n", spacing_s, error);
+    EXPECT_LT(error, -30) << spacing_s;
   }
 }
 
