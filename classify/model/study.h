@@ -39,11 +39,11 @@ struct Outcome {
   // Without the network (hand-made, extended): trees on all training rows, and on their rows of fusion `split`; with
   // it: the scenario's fusion and the other one.
   Evaluation primary;
-  std::optional<Evaluation> alternative;   // absent in StudyScope::kPrimary
-  Evaluation linear;                       // logistic regression in place of the trees of the primary
-  std::vector<std::vector<RocPoint>> roc;  // of the primary: roc_curves()
+  std::optional<Evaluation> alternative;      // absent in StudyScope::kPrimary
+  Evaluation linear;                          // logistic regression in place of the trees of the primary
+  std::vector<std::vector<RocPoint>> roc;     // of the primary: roc_curves()
   std::vector<ConditionScores> by_condition;  // of the primary, by conditions_of() after the wave height
-  std::vector<Prediction> wrong;  // of the primary, the surest first: at most kMostWrong rows, each once
+  std::vector<Prediction> wrong;              // of the primary, the surest first: at most kMostWrong rows, each once
 };
 
 struct FeatureGroupResult {

@@ -363,7 +363,8 @@ TEST_F(DrawnJob, IsDoneWithPairsOfAScatterDiagram) {
   write_report(run, scenario, 1, nullptr);
   const json metrics = json::parse(read_file(run / "metrics.json"));
   std::vector<std::string> drawn;
-  for (const json& condition : metrics.at("fused").at("group").at("by_condition")) drawn.push_back(condition.at("column"));
+  for (const json& condition : metrics.at("fused").at("group").at("by_condition"))
+    drawn.push_back(condition.at("column"));
   EXPECT_THAT(drawn, testing::ElementsAre("sea.peak_period_s", "view.azimuth_deg"));
 }
 

@@ -99,17 +99,21 @@ LinePlot plot_of_levels(const LevelCurve& curve, DrawnAxis axis) {
   lowest = std::max(lowest, highest - kMostLevelSpan);
   plot.y = {"radar cross section (dBsm)", AxisRange{5 * std::floor(lowest / 5), 5 * std::ceil(highest / 5 + 0.2)},
             false};
+  plot.legend_above = true;
+  const bool has_medians = axis == DrawnAxis::kAzimuth && std::ranges::is_sorted(curve.x) &&
+                           curve.x.back() - curve.x.front() >= 4 * kMedianWindow_deg;
+  constexpr std::array kPale{"#9ecae1", "#fdc086"}, kStrong{"#0072b2", "#d55e00"};
+  const auto add = [&](std::string name, std::vector<double> levels, const char* colour, double width) {
+    Series series{std::move(name), curve.x, std::move(levels), {}, SeriesStyle::kLines};
+    series.colour = colour;
+    series.width = width;
+    plot.series.push_back(std::move(series));
+  };
   for (std::size_t element = 0; element < 2; ++element)
-    plot.series.push_back({kCoPolarNames[element], curve.x, curve.dbsm[element], {}, SeriesStyle::kLines});
-  const bool is_ascending = std::ranges::is_sorted(curve.x);
-  if (axis != DrawnAxis::kAzimuth || !is_ascending || curve.x.back() - curve.x.front() < 4 * kMedianWindow_deg)
-    return plot;
-  for (std::size_t element = 0; element < 2; ++element)
-    plot.series.push_back({fmt::format("{}, median in {:g} deg", kCoPolarNames[element], kMedianWindow_deg),
-                           curve.x,
-                           moving_median(curve.x, curve.dbsm[element], kMedianWindow_deg),
-                           {},
-                           SeriesStyle::kLines});
+    add(kCoPolarNames[element], curve.dbsm[element], has_medians ? kPale[element] : kStrong[element], 1.2);
+  for (std::size_t element = 0; has_medians && element < 2; ++element)
+    add(fmt::format("{}, median in {:g} deg", kCoPolarNames[element], kMedianWindow_deg),
+        moving_median(curve.x, curve.dbsm[element], kMedianWindow_deg), kStrong[element], 2.4);
   return plot;
 }
 

@@ -30,7 +30,7 @@ std::vector<LevelStatistics> level_statistics(const RcsSweep& sweep);
 std::string statistics_text(const std::vector<LevelStatistics>& statistics);
 
 inline constexpr std::size_t kFewestDrawn = 8;
-inline constexpr double kMedianWindow_deg = 5;
+inline constexpr double kMedianWindow_deg = 10;
 
 // hh and vv of the last model over the longest axis of the sweep (azimuth, else frequency, else elevation), a panel for
 // each of at most four other values, evenly chosen; over azimuths of a sector of four windows and more also their

@@ -184,8 +184,8 @@ RunResult run_scenario(const Scenario& scenario, const fs::path& directory, cons
   for (const auto& [stage, seconds] : results.numbers.run.seconds)
     text += fmt::format("{:<10}{:8.1f} s\n", stage, seconds);
   if (made.kept > 0) text += fmt::format("{} of {} maps were there already\n", made.kept, made.kept + made.made);
-  text += fmt::format("\n{}\nReport: {}\n", finding(results.numbers.study, scenario),
-                      (directory / kReportFile).string());
+  text +=
+      fmt::format("\n{}\nReport: {}\n", finding(results.numbers.study, scenario), (directory / kReportFile).string());
   return {std::move(results.numbers.study), std::move(text)};
 }
 

@@ -52,7 +52,7 @@ TEST(LevelPlots, HaveTheLongestAxisAndAtMostFourPanels) {
   ASSERT_EQ(one.plots.size(), 1u);
   EXPECT_EQ(one.plots[0].x.label, "azimuth (deg)");
   ASSERT_EQ(one.plots[0].series.size(), 4u);
-  // The median in a window of five steps of a ramp is the ramp.
+  // The median in a window of ten steps of a ramp is the ramp.
   EXPECT_NEAR(one.plots[0].series[2].y[50], 50, 1e-9);
   EXPECT_EQ(level_plots(rising(20, {9e9, 10e9, 11e9}, {0, 1, 2})).plots.size(), 4u);
   EXPECT_EQ(level_plots(rising(2, std::vector<double>(8, 9e9))).plots[0].x.label, "frequency (GHz)");
