@@ -89,7 +89,7 @@ TEST_F(ThreeClasses, AreScoredAndReported) {
     EXPECT_GT(scores.at("accuracy").get<double>(), 0.5);  // chance is 1/3
   }
   const std::string html = read_file(path("run/report.html"));
-  EXPECT_THAT(html, AllOf(HasSubstr("decoys or ship or guarded ship?"), HasSubstr("declared guarded ship"),
+  EXPECT_THAT(html, AllOf(HasSubstr("Decoys or ship or guarded ship?"), HasSubstr("declared guarded ship"),
                           HasSubstr("must stay near 33 %"), HasSubstr("mean over pairs of classes")));
   completed({"report", path("run")});
 }

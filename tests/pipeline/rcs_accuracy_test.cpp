@@ -192,7 +192,20 @@ TEST_F(UncertainRcs, WarnsWhereFlatFacetsWouldDiffer) {
 TEST_F(UncertainRcs, DoesNotWarnOfAPlate) {
   EXPECT_THAT(completed(rcs({"--frequency-ghz", "10", "--azimuth-deg", "-30:30:1"})).err, Not(HasSubstr("part '")));
   EXPECT_THAT(read_file(table()), Not(HasSubstr("flat facets")));
-  expect_refused(rcs({"--frequency-ghz", "10", "--azimuth-deg", "0", "--figure", "a.png"}), "--figure");
+}
+
+// hh and vv with their percentiles beside the table, unless the figure is not wanted or the sweep is too short.
+TEST_F(UncertainRcs, OfAPlateIsDrawnByDefault) {
+  const std::filesystem::path figure = std::filesystem::path(table()).replace_extension(".png");
+  const Words sweep{"--frequency-ghz", "10", "--azimuth-deg", "-30:30:1"};
+  const std::string out = completed(rcs(sweep)).out;
+  EXPECT_HAS(out, "Figure: " + figure.string());
+  EXPECT_HAS(out, "hh,      10 GHz");
+  EXPECT_TRUE(std::filesystem::remove(figure));
+  EXPECT_THAT(completed(rcs(with(sweep, {"--figure", "off"}))).out, Not(HasSubstr("Figure: ")));
+  EXPECT_FALSE(std::filesystem::exists(figure));
+  EXPECT_HAS(completed(rcs({"--frequency-ghz", "10", "--azimuth-deg", "0", "--figure", figure})).out,
+             "No figure: it needs a cut along azimuth, elevation or frequency of 8 points or more");
 }
 
 // `seaglint mesh sensitivity`: the echo on other meshes of the same surface.

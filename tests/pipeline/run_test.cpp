@@ -259,7 +259,7 @@ TEST(Report, IsWrittenWithoutMeshesThatAreNotFound) {
   const std::string page = read_file(run / "report.html");
   EXPECT_THAT(page, Not(HasSubstr("Picture of one")));
   EXPECT_HAS(page, "Neither the targets nor their motion are drawn");
-  EXPECT_HAS(page, "Elevation of the sea against time");
+  EXPECT_HAS(page, "Elevation of the sea and angles of the targets against time");
 }
 
 TEST(Run, ReportsErrorsOfLearningAndAMissingGnuplotBeforeAnyWork) {

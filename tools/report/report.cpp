@@ -428,7 +428,9 @@ std::string report_body(const RunResults& results, const Scenario& scenario, con
   };
   double seconds = 0;
   for (const auto& [stage, of_stage] : numbers.run.seconds) seconds += of_stage;
-  PageValues values{{"the_question", capital(fmt::format("{}", fmt::join(classes.rbegin(), classes.rend(), " or ")))},
+  ClassNames named = classes;
+  if (scenario.dataset.classes == default_classes()) std::ranges::reverse(named);  // the ship first
+  PageValues values{{"the_question", capital(fmt::format("{}", fmt::join(named, " or ")))},
                     {"finding", finding(study, scenario)},
                     {"the_classes", classes.size() == 2 ? "two" : "classes"},
                     {"scenario", scenario.name},

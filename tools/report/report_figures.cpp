@@ -389,7 +389,10 @@ PlotPanels feature_histograms(const ReportData& data, const ClassNames& classes)
       {{"velocity variance explained by the line (%)", {}, false},
        [](const ReportRow& row) { return 100 * row.line.explained; }}};
   PlotPanels panels{{}, 2, {1100, 1000}};
-  for (const auto& [axis, value] : quantities) panels.plots.push_back(histogram(data, classes, axis, value));
+  for (const auto& [axis, value] : quantities) {
+    const auto is_defined = [value = value](const ReportRow& row) { return std::isfinite(value(row)); };
+    if (std::ranges::any_of(data.rows, is_defined)) panels.plots.push_back(histogram(data, classes, axis, value));
+  }
   return panels;
 }
 
