@@ -24,6 +24,6 @@ import seaglint
 assert seaglint.data_folder() == os.path.join(os.path.dirname(seaglint.__file__), "share/seaglint"), seaglint.data_folder()
 echo = seaglint.rcs("assets/icosahedral_reflector.glb", 10e9, [0, 30])
 assert echo.shape == (1, 1, 2, 2, 2) and numpy.abs(echo[..., 0, 0]).min() > 0
-assert numpy.isfinite(seaglint.sample("points.yaml", 0).magnitude).all()
+assert numpy.isfinite(seaglint.sample("points.yaml", 0).map).all()
 print("seaglint", seaglint.__version__, "for Python", sys.version.split()[0])
 PYTHON
