@@ -204,6 +204,11 @@ TEST_F(UncertainRcs, OfAPlateIsDrawnByDefault) {
   EXPECT_TRUE(std::filesystem::remove(figure));
   EXPECT_THAT(completed(rcs(with(sweep, {"--figure", "off"}))).out, Not(HasSubstr("Figure: ")));
   EXPECT_FALSE(std::filesystem::exists(figure));
+  // Nothing is put beside a device.
+  EXPECT_THAT(completed({"rcs", "--target", "assets/icosahedral_reflector.glb", "--frequency-ghz", "10",
+                         "--azimuth-deg", "0:20:2", "-o", "/dev/null"})
+                  .out,
+              Not(HasSubstr("Figure: ")));
   EXPECT_HAS(completed(rcs({"--frequency-ghz", "10", "--azimuth-deg", "0", "--figure", figure})).out,
              "No figure: it needs a cut along azimuth, elevation or frequency of 8 points or more");
 }

@@ -76,12 +76,20 @@ bool is_figure_asked(const RcsArguments& arguments) {
   return arguments.reference.figure_given() || !arguments.reference.files.empty() || arguments.request.uncertainty;
 }
 
+// Levels are drawn beside a table that is a file, not a device.
+bool is_drawn(const RcsArguments& arguments) {
+  std::error_code error;
+  const std::filesystem::file_status output = std::filesystem::status(arguments.output, error);
+  const bool is_file = !std::filesystem::exists(output) || std::filesystem::is_regular_file(output);
+  return arguments.reference.draws() && (is_figure_asked(arguments) || is_file);
+}
+
 void require_files(const RcsArguments& arguments) {
   const ViewExport& exports = arguments.request.exports;
   std::vector<std::filesystem::path> inputs(arguments.reference.files.begin(), arguments.reference.files.end());
   inputs.insert(inputs.end(), arguments.targets.begin(), arguments.targets.end());
   std::vector<std::string> outputs{arguments.output, exports.centres, exports.hot_spots, arguments.reference.curves};
-  if (arguments.reference.draws()) {
+  if (is_drawn(arguments)) {
     outputs.push_back(figure_file(arguments));
     if (is_figure_asked(arguments)) require_figure(outputs.back());
   }
@@ -194,7 +202,7 @@ void run_rcs(const RcsArguments& arguments, const CommandContext& context) {
   for (PairedCut& cut : cuts) set_models(cut, sweep);
   if (!cuts.empty()) print_out("{}", error_table(cuts, arguments.reference.floor_db));
   if (cuts.empty()) print_out("{}", statistics_text(level_statistics(sweep)));
-  if (arguments.reference.draws()) show_figure(arguments, cuts, sweep);
+  if (is_drawn(arguments)) show_figure(arguments, cuts, sweep);
   if (!arguments.reference.curves.empty()) write_curves(arguments.reference.curves, cuts, arguments.reference.floor_db);
   if (!computed.converged) throw WorkError(fmt::format("{}: {}", arguments.output, warnings.back()));
 }

@@ -37,9 +37,10 @@ inline constexpr double kMedianWindow_deg = 10;
 // medians in a window of kMedianWindow_deg. No panels below kFewestDrawn values.
 PlotPanels level_plots(const RcsSweep& sweep);
 
-// The narrowest lobe over azimuth of scatterers D apart, lambda / 2D of one antenna and lambda / D of two, against the
-// step: a sentence with the step that has two values per lobe, if the step of a sweep is wider than the lobe. D: the
-// largest horizontal extent of the mesh (Knott, Shaeffer and Tuley, Radar Cross Section, 2nd ed., section 5.2).
+// The narrowest lobe over azimuth against the step: a sentence with the step that has two values per lobe, if the step
+// of a sweep is wider than the lobe. Two scatterers D apart across the line of sight differ by the two-way phase 2 k D
+// sin(azimuth), 2 pi per lambda / 2D; with one antenna fixed by k D sin(azimuth), 2 pi per lambda / D. D: the diagonal
+// of the mesh's horizontal bounding box.
 std::optional<std::string> lobe_warning(const RcsRequest& request, const TriangleMesh& mesh);
 
 }  // namespace seaglint

@@ -108,7 +108,7 @@ std::string finding(const Study& study, const Scenario& scenario) {
   for (const ProbeResult& probe : study.probes) {
     if (probe.kind == ProbeKind::kBlind && !as_chance(probe, repeats))
       return text + fmt::format(
-                        "{}, which knows nothing of the target, is away from chance with {}: look for a leak "
+                        "{}, which does not depend on the target, is away from chance with {}: look for a leak "
                         "before any other figure is believed.",
                         capital(probe.name), in_words(probe.of_group().scores));
   }

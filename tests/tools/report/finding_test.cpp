@@ -65,7 +65,7 @@ TEST(Finding, NamesALeakFirst) {
   EXPECT_EQ(
       finding_with({probe("sigma_r alone", ProbeKind::kFeature, 0.97), probe("hop code", ProbeKind::kBlind, 0.6)}),
       std::string(kFused) +
-          "Hop code, which knows nothing of the target, is away from chance with 60.0 % (58–62): "
+          "Hop code, which does not depend on the target, is away from chance with 60.0 % (58–62): "
           "look for a leak before any other figure is believed.");
 }
 
