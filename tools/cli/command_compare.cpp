@@ -82,10 +82,11 @@ Counterpart counterpart_of(const CompareArguments& arguments, const std::vector<
 }
 
 // Writes NAME.png and NAME.svg; empty without any plot.
-std::filesystem::path draw_panels(const PlotPanels& panels, const std::string& title,
-                                  const std::filesystem::path& directory, const std::string& name) {
+std::filesystem::path draw_panels(PlotPanels panels, const std::string& title, const std::filesystem::path& directory,
+                                  const std::string& name) {
   if (panels.plots.empty()) return {};
-  for (const char* kind : {".png", ".svg"}) write_figure(title, panels, directory / (name + kind));
+  panels.title = title;
+  for (const char* kind : {".png", ".svg"}) write_figure(panels, directory / (name + kind));
   return directory / (name + ".png");
 }
 

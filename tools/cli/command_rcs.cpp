@@ -61,9 +61,10 @@ void run_rcs_cross_check(const RcsArguments& arguments, const CommandContext& co
   print_out("{}", cross_check_text(check, target));
   if (arguments.output.empty()) return;
   print_out("Table: {}\n", arguments.output);
-  const PlotPanels panels = cross_check_plots(check);
+  PlotPanels panels = cross_check_plots(check);
   if (panels.plots.empty()) return;
-  write_figure(fmt::format("{}, seaglint {}", arguments.target_name(), kVersion), panels, figure);
+  panels.title = fmt::format("{}, seaglint {}", arguments.target_name(), kVersion);
+  write_figure(panels, figure);
   print_out("Figure: {}\n", figure.string());
 }
 
@@ -104,10 +105,11 @@ void show_figure(const RcsArguments& arguments, const std::vector<PairedCut>& cu
   const std::string title = fmt::format("{}, seaglint {}", arguments.target_name(), kVersion);
   const bool is_asked = is_figure_asked(arguments);
   try {
-    const PlotPanels panels = !cuts.empty()                   ? comparison_plots(cuts, arguments.reference.floor_db)
-                              : arguments.request.uncertainty ? PlotPanels()
-                                                              : level_plots(sweep);
-    if (!panels.plots.empty()) write_figure(title, panels, figure);
+    PlotPanels panels = !cuts.empty()                   ? comparison_plots(cuts, arguments.reference.floor_db)
+                        : arguments.request.uncertainty ? PlotPanels()
+                                                        : level_plots(sweep);
+    panels.title = title;
+    if (!panels.plots.empty()) write_figure(panels, figure);
     if (!panels.plots.empty() ||
         (arguments.request.uncertainty && cuts.empty() && draw_uncertainty(sweep, title, figure)))
       print_out("Figure: {}\n", figure.string());

@@ -254,7 +254,7 @@ PlotPanels cross_check_plots(const CrossCheck& check) {
   const bool azimuth = varies(&CrossCheckRow::azimuth_deg), elevation = varies(&CrossCheckRow::elevation_deg);
   if (azimuth == elevation) return {};
   constexpr double kMargin_db = 3, kLongest_db = 60;
-  PlotPanels panels{{}, 2, {1500, 800}};
+  PlotPanels panels{.plots = {}, .columns = 2, .size = {1500, 800}};
   for (const bool levels : {true, false}) {
     for (std::size_t element = 0; element < kCoPolarNames.size(); ++element) {
       Series beams{"beams", {}, {}, {}, SeriesStyle::kLines}, rays{"rays", {}, {}, {}, SeriesStyle::kLines},

@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "sim/core/process/error.h"
 
 namespace seaglint {
@@ -72,33 +75,103 @@ PlotText plot_text(const LinePlot& figure, std::size_t first_index) {
   return {commands + "plot " + plots.substr(0, plots.size() - 2) + "\n", data};
 }
 
-}  // namespace
-
-void write_figure(const LinePlot& figure, const std::filesystem::path& file, FigureSize size) {
-  const PlotText text = plot_text(figure, 0);
-  draw_by_gnuplot(file, size, text.data, "set title " + gnuplot_text(figure.title) + "\n" + text.commands);
+// Phrases in lines of at most `most` characters: a phrase is divided only where it is longer than a line.
+std::vector<std::string> wrapped(const std::vector<std::string>& phrases, std::size_t most) {
+  std::vector<std::string> lines;
+  const auto append = [&](const std::string& text) {
+    if (!lines.empty() && lines.back().size() + 1 + text.size() <= most) {
+      lines.back() += " " + text;
+    } else {
+      lines.push_back(text);
+    }
+  };
+  for (const std::string& phrase : phrases) {
+    std::string text = phrase + (&phrase == &phrases.back() ? "" : ";");
+    if (text.size() <= most) {
+      append(text);
+      continue;
+    }
+    for (std::size_t end; (end = text.find(' ')) != std::string::npos; text.erase(0, end + 1))
+      append(text.substr(0, end));
+    append(text);
+  }
+  return lines;
 }
 
-void write_figure(const std::string& title, std::span<const LinePlot> plots, int columns,
-                  const std::filesystem::path& file, FigureSize size) {
-  SEAGLINT_CHECK(!plots.empty() && columns >= 1, fmt::format("{} plots in {} columns", plots.size(), columns));
-  const std::size_t rows = (plots.size() + static_cast<std::size_t>(columns) - 1) / static_cast<std::size_t>(columns);
-  std::string data,
-      commands = fmt::format("set multiplot layout {},{} rowsfirst title {}\nset lmargin 11\nset rmargin 3\n", rows,
-                             columns, gnuplot_text(title));
+// In units of the text's size.
+constexpr double kSmallLine = 1.15;                        // height of a line of small print
+constexpr double kTitleLine = 1.4, kTitleCharacter = 0.6;  // height, mean width of a character
+
+// The figure as a style has it.
+PlotPanels in_style(PlotPanels figure) {
+  if (figure.size.style == FigureStyle::kScreen) return figure;
+  constexpr double kHeightOverWidth = 0.62;
+  figure.columns = std::min(figure.columns, figure.size.style == FigureStyle::kPaper ? 1 : 2);
+  for (LinePlot& plot : figure.plots) plot.legend_above = true;
+  const auto columns = static_cast<std::size_t>(figure.columns);
+  const std::size_t rows = (figure.plots.size() + columns - 1) / columns;
+  figure.size.height =
+      static_cast<int>(std::lround(kHeightOverWidth * figure.size.width / figure.columns * static_cast<double>(rows)));
+  return figure;
+}
+
+}  // namespace
+
+SmallPrint::SmallPrint(const FigureLayout& at, const std::vector<std::string>& phrases, double left)
+    : at_(at),
+      left_(left),
+      lines_(wrapped(phrases, static_cast<std::size_t>((at.width() - left - 0.8) / kSmallCharacter))) {}
+
+double SmallPrint::height() const { return kSmallLine * static_cast<double>(lines_.size()); }
+
+std::string SmallPrint::commands(double upper) const {
+  std::string text;
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
+    text += fmt::format("set label {} at screen {:.5f},{:.5f} left font {} tc rgb '#404040'\n", gnuplot_text(lines_[i]),
+                        at_.x(left_), at_.y(upper - kSmallLine * static_cast<double>(i)), kSmallFont);
+  }
+  return text;
+}
+
+void write_figure(const LinePlot& figure, const std::filesystem::path& file, FigureSize size) {
+  write_figure(PlotPanels{.plots = {figure}, .size = size}, file);
+}
+
+void write_figure(const PlotPanels& asked, const std::filesystem::path& file) {
+  const PlotPanels figure = in_style(asked);
+  SEAGLINT_CHECK(!figure.plots.empty() && figure.columns >= 1,
+                 fmt::format("{} plots in {} columns", figure.plots.size(), figure.columns));
+  const auto columns = static_cast<std::size_t>(figure.columns);
+  const std::size_t rows = (figure.plots.size() + columns - 1) / columns;
+  const FigureLayout at(figure_area(figure.size));
+  const std::vector<std::string> title =
+      wrapped({figure.title}, static_cast<std::size_t>((at.width() - 2) / kTitleCharacter));
+  const SmallPrint notes(at, figure.notes, 1.2);
+  const double bottom = figure.notes.empty() ? 0 : notes.height() + 0.6;
+  const double head = figure.title.empty() ? 0 : 0.5 + kTitleLine * static_cast<double>(title.size());
+  const double width = 1.0 / figure.columns, height = at.y(at.height() - head - bottom) / static_cast<double>(rows);
+
+  std::string data, commands = "set multiplot\nset lmargin 11\nset rmargin 3\n" + notes.commands(notes.height() - 0.3);
+  for (std::size_t i = 0; i < title.size(); ++i) {
+    commands += fmt::format("set label {} at screen 0.5,{:.5f} center\n", gnuplot_text(title[i]),
+                            at.y(at.height() - 1.2 - kTitleLine * static_cast<double>(i)));
+  }
   std::size_t index = 0;
-  for (const LinePlot& plot : plots) {
+  for (std::size_t i = 0; i < figure.plots.size(); ++i) {
+    const LinePlot& plot = figure.plots[i];
     const PlotText text = plot_text(plot, index);
     // Each plot starts from gnuplot's default axes.
     commands += fmt::format(
-                    "unset logscale\nset format\nset xlabel offset 0,0.3\nset xrange [*:*]\nset yrange [*:*]\nset "
-                    "offsets\nset title {}\n",
+                    "set origin {:.5f},{:.5f}\nset size noratio {:.5f},{:.5f}\nunset logscale\nset format\nset xlabel "
+                    "offset 0,0.3\nset xrange [*:*]\nset yrange [*:*]\nset offsets\nset title {}\n",
+                    width * static_cast<double>(i % columns),
+                    at.y(bottom) + height * static_cast<double>(rows - 1 - i / columns), width, height,
                     gnuplot_text(plot.title)) +
-                text.commands;
+                text.commands + "unset label\n";
     data += text.data;
     index += plot.series.size();
   }
-  draw_by_gnuplot(file, size, data, commands + "unset multiplot\n");
+  draw_by_gnuplot(file, figure.size, data, commands + "unset multiplot\n");
 }
 
 }  // namespace seaglint

@@ -6,7 +6,6 @@
 #include <array>
 #include <filesystem>
 #include <optional>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -53,21 +52,48 @@ struct LinePlot {
   bool legend_above = false;
 };
 
-// Several plots of one figure, in rows of `columns`; none: there is nothing to draw.
+// Several plots of one figure, in rows of `columns` with aligned frames; none: there is nothing to draw.
 struct PlotPanels {
   std::vector<LinePlot> plots;
   int columns = 1;
-  FigureSize size;
+  FigureSize size = {};    // in a style of paper only its proportions are those of the plots, see write_figure()
+  std::string title = {};  // above all
+  std::vector<std::string> notes = {};  // phrases of the small print below all: radar, aspect, sea, seed, version
 };
 
-// Throw as draw_by_gnuplot().
+// One or two columns of a journal have one or at most two plots side by side, each 0.62 of its width high, with the
+// legend above. Throw as draw_by_gnuplot().
+void write_figure(const PlotPanels& figure, const std::filesystem::path& file);
 void write_figure(const LinePlot& figure, const std::filesystem::path& file, FigureSize size = {});
 
-// Several plots in one figure, in rows of `columns` with aligned frames, below a common `title`.
-void write_figure(const std::string& title, std::span<const LinePlot> plots, int columns,
-                  const std::filesystem::path& file, FigureSize size = {});
-inline void write_figure(const std::string& title, const PlotPanels& panels, const std::filesystem::path& file) {
-  write_figure(title, panels.plots, panels.columns, file, panels.size);
-}
+// Places of the parts of a figure, in units of the text's size from the lower left corner.
+class FigureLayout {
+ public:
+  explicit FigureLayout(const FigureArea& area) : width_(area.width / area.em), height_(area.height / area.em) {}
+
+  double width() const { return width_; }
+  double height() const { return height_; }
+  double x(double em) const { return em / width_; }  // of the figure's width and height
+  double y(double em) const { return em / height_; }
+
+ private:
+  double width_, height_;
+};
+
+// Small print from a line's left end and the uppermost line's height on, in lines that end before the right margin.
+class SmallPrint {
+ public:
+  SmallPrint(const FigureLayout& at, const std::vector<std::string>& phrases, double left);
+
+  double height() const;                     // of all lines
+  std::string commands(double upper) const;  // gnuplot's labels; height of the uppermost line
+
+ private:
+  FigureLayout at_;
+  double left_;
+  std::vector<std::string> lines_;
+};
+
+inline constexpr double kSmallCharacter = 0.5;  // mean width of a character of small print
 
 }  // namespace seaglint

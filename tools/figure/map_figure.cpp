@@ -61,56 +61,19 @@ double tic_step(const AxisRange& range, double count) {
   return 10 * power;
 }
 
-// Phrases in lines of at most `most` characters: a phrase is divided only where it is longer than a line.
-std::vector<std::string> wrapped(const std::vector<std::string>& phrases, std::size_t most) {
-  std::vector<std::string> lines;
-  const auto append = [&](const std::string& text) {
-    if (!lines.empty() && lines.back().size() + 1 + text.size() <= most) {
-      lines.back() += " " + text;
-    } else {
-      lines.push_back(text);
-    }
-  };
-  for (const std::string& phrase : phrases) {
-    std::string text = phrase + (&phrase == &phrases.back() ? "" : ";");
-    if (text.size() <= most) {
-      append(text);
-      continue;
-    }
-    for (std::size_t end; (end = text.find(' ')) != std::string::npos; text.erase(0, end + 1))
-      append(text.substr(0, end));
-    append(text);
-  }
-  return lines;
+// The frame of a plot, in units of the text's size from the lower left corner.
+std::string margins(const FigureLayout& at, const AxisRange& across, const AxisRange& up) {
+  return fmt::format(
+      "set lmargin at screen {:.5f}\nset rmargin at screen {:.5f}\nset bmargin at screen {:.5f}\nset tmargin at "
+      "screen {:.5f}\n",
+      at.x(across.first), at.x(across.second), at.y(up.first), at.y(up.second));
 }
 
-// Places of the parts of a figure, in units of the text's size from the lower left corner.
-class Layout {
- public:
-  explicit Layout(const FigureArea& area) : width_(area.width / area.em), height_(area.height / area.em) {}
-
-  double width() const { return width_; }
-  double height() const { return height_; }
-  double x(double em) const { return em / width_; }
-  double y(double em) const { return em / height_; }
-
-  std::string margins(const AxisRange& across, const AxisRange& up) const {
-    return fmt::format(
-        "set lmargin at screen {:.5f}\nset rmargin at screen {:.5f}\nset bmargin at screen {:.5f}\nset tmargin at "
-        "screen {:.5f}\n",
-        x(across.first), x(across.second), y(up.first), y(up.second));
-  }
-
- private:
-  double width_, height_;
-};
-
-constexpr double kNoteLine = 1.15, kNoteCharacter = 0.5;  // height and mean width in the small print
-
 // The panel of a profile above the map, with names at its peaks: each on a line that leads to a place of its own.
-std::string profile_commands(const Heatmap& figure, const Layout& at, const AxisRange& across, const AxisRange& up) {
+std::string profile_commands(const Heatmap& figure, const FigureLayout& at, const AxisRange& across,
+                             const AxisRange& up) {
   const ProfileAbove& profile = *figure.profile;
-  std::string text = at.margins(across, up) + axis_commands("y", profile.y);
+  std::string text = margins(at, across, up) + axis_commands("y", profile.y);
   text += "set xlabel ''\nset format x ''\nset grid lc rgb '#d8d8d8' lw 0.6\n";
   const AxisRange range = *figure.x.range;
   const auto screen_x = [&](double x) {
@@ -155,7 +118,7 @@ void write_figure(const Heatmap& figure, const std::filesystem::path& file, Figu
   const std::size_t columns = figure.map.x.size(), rows = figure.map.y.size();
   SEAGLINT_CHECK(columns >= 1 && rows >= 1 && figure.map.values.size() == columns * rows,
                  fmt::format("{} values for {} x {} cells", figure.map.values.size(), rows, columns));
-  const Layout at(figure_area(size));
+  const FigureLayout at(figure_area(size));
   const bool inset = figure.whole.has_value();
   Heatmap shown = figure;
   const CellAxis x = cell_axis(figure.map.x), y = cell_axis(figure.map.y);
@@ -169,25 +132,20 @@ void write_figure(const Heatmap& figure, const std::filesystem::path& file, Figu
   const double strip_left = inset ? 3.6 + 0.38 * at.width() : 1.2;
   const bool legend = !figure.rings.empty() || !figure.line.empty();
   const double legend_height = legend ? 1.3 * (!figure.rings.empty() + !figure.line.empty()) + 0.4 : 0;
-  const std::vector<std::string> notes =
-      wrapped(figure.notes, static_cast<std::size_t>((at.width() - strip_left - 0.8) / (kNoteCharacter)));
-  const double strip = std::max(inset ? 9.0 : 0.0, 0.9 + legend_height + kNoteLine * static_cast<double>(notes.size()));
+  const SmallPrint notes(at, figure.notes, strip_left);
+  const double strip = std::max(inset ? 9.0 : 0.0, 0.9 + legend_height + notes.height());
   const double title = figure.profile ? 2.0 : 2.2;
   std::size_t longest = 0;  // name of a peak
   if (figure.profile) {
     for (const auto& peak : figure.profile->peaks) longest = std::max(longest, peak.name.size());
   }
-  const double names = longest > 0 ? 1.6 + std::sqrt(0.5) * kNoteCharacter * static_cast<double>(longest) : 0;
+  const double names = longest > 0 ? 1.6 + std::sqrt(0.5) * kSmallCharacter * static_cast<double>(longest) : 0;
   const double top = at.height() - title - names, bottom = strip + 4.1;
   const AxisRange up{bottom, figure.profile ? bottom + 0.5 * (top - bottom) : top};
 
   std::string commands = "set multiplot\nunset key\n";
   commands += figure.diverging ? kBlueWhiteRed : kViridis;
-  for (std::size_t i = 0; i < notes.size(); ++i) {
-    commands +=
-        fmt::format("set label {} at screen {:.5f},{:.5f} left font small tc rgb '#404040'\n", gnuplot_text(notes[i]),
-                    at.x(strip_left), at.y(strip - legend_height - 0.6 - kNoteLine * static_cast<double>(i)));
-  }
+  commands += notes.commands(strip - legend_height - 0.6);
   commands += fmt::format("set label {} at screen {:.5f},{:.5f} center\n", gnuplot_text(figure.title),
                           at.x(0.5 * (across.first + across.second)), at.y(at.height() - 1.2));
   commands += axis_commands("x", shown.x);
@@ -204,7 +162,7 @@ void write_figure(const Heatmap& figure, const std::filesystem::path& file, Figu
         kGnuplotData, index++);
     commands += axis_commands("x", shown.x);
   }
-  commands += at.margins(across, up) + axis_commands("y", shown.y) + axis_commands("cb", figure.colour);
+  commands += margins(at, across, up) + axis_commands("y", shown.y) + axis_commands("cb", figure.colour);
   commands +=
       "set xlabel offset 0,0.4+0.25*label_shift\nset ylabel offset label_shift,0\nset cblabel offset "
       "1-0.4*label_shift,0\n";
@@ -239,7 +197,7 @@ void write_figure(const Heatmap& figure, const std::filesystem::path& file, Figu
     data += image_data(*figure.whole, whole_x, whole_y);
     const FigureAxis x_axis{"", whole_x.edges, false}, y_axis{"", whole_y.edges, false};
     commands += "unset colorbox\nunset y2tics\nunset y2label\nset border lw 0.5\nset tics out nomirror font small\n";
-    commands += at.margins({3.4, 2.4 + 0.38 * at.width()}, {1.7, strip - 0.6});
+    commands += margins(at, {3.4, 2.4 + 0.38 * at.width()}, {1.7, strip - 0.6});
     commands += axis_commands("x", x_axis) + axis_commands("y", y_axis);
     commands += fmt::format("set xtics {:g} offset 0,0.5\nset ytics {:g} offset 0.6,0\n", tic_step(whole_x.edges, 5),
                             tic_step(whole_y.edges, 5));

@@ -79,7 +79,7 @@ void write_motion_figure(const std::vector<NamedTrajectory>& bodies, double dura
       plots[axis].series.push_back(series);
     }
   }
-  write_figure(title, plots, 1, file, {1000, 900});
+  write_figure({.plots = plots, .size = {1000, 900}, .title = title}, file);
 }
 
 namespace {
@@ -158,7 +158,7 @@ void write_motion_frames(const std::vector<NamedTrajectory>& bodies, const WaveF
       plots.push_back(frame(row == 0 ? bodies.front() : bodies.back(), sea, period_s * n / kMoments));
     }
   }
-  write_figure(title, plots, kMoments, file, {2000, rows == 2 ? 800 : 420});
+  write_figure({.plots = plots, .columns = kMoments, .size = {2000, rows == 2 ? 800 : 420}, .title = title}, file);
 }
 
 void write_rao_figure(const ShipParticulars& ship, double mu, double depth, const RaoReference& reference,
@@ -206,7 +206,7 @@ void write_rao_figure(const ShipParticulars& ship, double mu, double depth, cons
     for (const double y : published[axis].y) largest = std::max(largest, y);
     plots[axis].y.range = AxisRange{0, 1.3 * largest};
   }
-  write_figure(title, plots, 1, file, {900, 1000});
+  write_figure({.plots = plots, .size = {900, 1000}, .title = title}, file);
 }
 
 }  // namespace seaglint

@@ -155,9 +155,15 @@ std::string ensemble_text(const SeaEnsemble& ensemble, const SeaSummary& summary
 
 void write_sea_figure(const SeaState& state, const WaveField& field, const SeaSummary& summary,
                       const SeaEnsemble& ensemble, const std::string& title, const std::filesystem::path& file) {
-  const std::array plots{elevation_plot(state, field), spectrum_plot(summary, ensemble), crest_plot(summary, ensemble),
-                         slope_plot(state, field, summary)};
-  write_figure(title, plots, 2, file, {1300, 940});
+  write_figure(
+      {
+          .plots = {elevation_plot(state, field), spectrum_plot(summary, ensemble), crest_plot(summary, ensemble),
+                    slope_plot(state, field, summary)},
+          .columns = 2,
+          .size = {1300, 940},
+          .title = title,
+      },
+      file);
 }
 
 }  // namespace seaglint

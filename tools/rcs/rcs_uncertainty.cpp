@@ -226,7 +226,14 @@ LinePlot plot_of(const RcsSweep& sweep, const Cut& cut, std::size_t element) {
 bool draw_uncertainty(const RcsSweep& sweep, const std::string& title, const std::filesystem::path& file) {
   const std::optional<Cut> cut = cut_of(sweep);
   if (!cut) return false;
-  write_figure(title, std::array{plot_of(sweep, *cut, 0), plot_of(sweep, *cut, 1)}, 2, file, {1500, 480});
+  write_figure(
+      {
+          .plots = {plot_of(sweep, *cut, 0), plot_of(sweep, *cut, 1)},
+          .columns = 2,
+          .size = {1500, 480},
+          .title = title,
+      },
+      file);
   return true;
 }
 

@@ -189,7 +189,7 @@ class FigureList {
     if constexpr (std::is_same_v<Plot, PlotPanels>) figure.plot = plot_json(plot.plots, plot.columns);
     drawings_.push_back({std::move(figure), [plot = std::move(plot), size](const fs::path& file) {
                            if constexpr (std::is_same_v<Plot, PlotPanels>)
-                             write_figure("", plot, file);
+                             write_figure(plot, file);
                            else
                              write_figure(plot, file, size);
                          }});
@@ -388,7 +388,7 @@ PlotPanels feature_histograms(const ReportData& data, const ClassNames& classes)
       {{"number of centres", {}, false}, [](const ReportRow& row) { return static_cast<double>(row.record.centres); }},
       {{"velocity variance explained by the line (%)", {}, false},
        [](const ReportRow& row) { return 100 * row.line.explained; }}};
-  PlotPanels panels{{}, 2, {1100, 1000}};
+  PlotPanels panels{.plots = {}, .columns = 2, .size = {1100, 1000}};
   for (const auto& [axis, value] : quantities) {
     const auto is_defined = [value = value](const ReportRow& row) { return std::isfinite(value(row)); };
     if (std::ranges::any_of(data.rows, is_defined)) panels.plots.push_back(histogram(data, classes, axis, value));
@@ -539,7 +539,7 @@ void add_sea(FigureList& list, const Scenario& scenario, const SamplePlan& plan,
   Series full{scenario.sea.order == 2 ? "second order" : "linear", times, {}, {}, SeriesStyle::kLines};
   for (const double t : times) full.y.push_back(scene.sea.surface(0, 0, t).elevation);
   waves.series.push_back(std::move(full));
-  PlotPanels panels{{std::move(waves)}, 1, {}};
+  PlotPanels panels{.plots = {std::move(waves)}};
   for (std::size_t t = 0; t < targets.size(); ++t) {
     if (scene.bodies[t].empty()) continue;
     const bool is_one_of_many = scene.bodies[t].size() > 1 && !is_raft(targets[t].spec.layout);
