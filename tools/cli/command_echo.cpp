@@ -158,10 +158,6 @@ struct MapArguments : SampleArguments {
   bool whole = false;
 };
 
-FigureStyle style_of(const std::string& name) {
-  return name == "paper" ? FigureStyle::kPaper : name == "paper-wide" ? FigureStyle::kPaperWide : FigureStyle::kScreen;
-}
-
 std::vector<float> single(const std::vector<double>& values) { return {values.begin(), values.end()}; }
 
 // True where the command line sets a key, which then has precedence over what the target's motion suggests.
@@ -320,7 +316,7 @@ void show_map(const MapArguments& arguments, int threads) {
   const SampleAddress at = plan.address(arguments.sample);
   const RadarSpec radar = pipeline.scenario_of(at).radar;
   const bool is_map = arguments.product == "rv";
-  const FigureStyle style = style_of(arguments.style);
+  const FigureStyle style = figure_style(arguments.style);
   report_scenario(pipeline, {.bands = is_map, .coverage = is_map});
   const auto write = [&](const Heatmap& figure) { write_figure(figure, arguments.output, map_size(style)); };
   if (is_map) {
@@ -349,11 +345,7 @@ void add_map(CommandOptions& program, CommandContext& context) {
           "bandwidth in every pulse")
       .one_of({"rv", "isar", "hrrp"})
       .show_default();
-  command
-      .add_option("--style", arguments->style,
-                  "screen, or for print, .png with 300 dots per inch: paper 88 mm wide, paper-wide 180 mm")
-      .one_of({"screen", "paper", "paper-wide"})
-      .show_default();
+  add_style_option(command, arguments->style);
   command.add_flag("--whole", arguments->whole, "The whole map; else the target's own window, with the whole as inset");
   command.add_option("--centres", arguments->centres, "Rings at the scattering centres and the line fitted to them")
       .one_of({"on", "off"})

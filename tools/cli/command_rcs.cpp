@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "seaglint_version.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/core/process/printable.h"
@@ -25,6 +24,8 @@
 #include "tools/rcs/rcs_table.h"
 #include "tools/rcs/rcs_uncertainty.h"
 #include "tools/rcs/rcs_views.h"
+#include "tools/rcs/turntable.h"
+#include "tools/rcs/turntable_figure.h"
 
 namespace seaglint {
 
@@ -63,7 +64,9 @@ void run_rcs_cross_check(const RcsArguments& arguments, const CommandContext& co
   print_out("Table: {}\n", arguments.output);
   PlotPanels panels = cross_check_plots(check);
   if (panels.plots.empty()) return;
-  panels.title = fmt::format("{}, seaglint {}", arguments.target_name(), kVersion);
+  panels.title = arguments.target_name();
+  panels.notes = sweep_notes(request);
+  panels.size.style = figure_style(arguments.style);
   write_figure(panels, figure);
   print_out("Figure: {}\n", figure.string());
 }
@@ -85,33 +88,52 @@ bool is_drawn(const RcsArguments& arguments) {
   return arguments.reference.draws() && (is_figure_asked(arguments) || is_file);
 }
 
+bool has_images(const RcsArguments& arguments) { return !arguments.isar.empty() || !arguments.profiles.empty(); }
+
+// Throws before any work where the sweep cannot have the images that are asked for.
+void require_images(const RcsArguments& arguments, const RcsRequest& request, const TriangleMesh& mesh) {
+  for (const auto& [file, option] :
+       {std::pair{&arguments.isar, "--isar"}, std::pair{&arguments.profiles, "--profiles"}}) {
+    if (file->empty()) continue;
+    require_turntable(request, option);
+    require_window(request, mesh, option, file == &arguments.isar);
+  }
+  if (arguments.polar && request.azimuth_deg.size() < kFewestDrawn)
+    throw InputError(
+        fmt::format("--azimuth-deg: {} values: --polar needs at least {}", request.azimuth_deg.size(), kFewestDrawn));
+}
+
 void require_files(const RcsArguments& arguments) {
   const ViewExport& exports = arguments.request.exports;
   std::vector<std::filesystem::path> inputs(arguments.reference.files.begin(), arguments.reference.files.end());
   inputs.insert(inputs.end(), arguments.targets.begin(), arguments.targets.end());
-  std::vector<std::string> outputs{arguments.output, exports.centres, exports.hot_spots, arguments.reference.curves};
+  std::vector<std::string> outputs{arguments.output,           exports.centres, exports.hot_spots,
+                                   arguments.reference.curves, arguments.isar,  arguments.profiles};
   if (is_drawn(arguments)) {
     outputs.push_back(figure_file(arguments));
     if (is_figure_asked(arguments)) require_figure(outputs.back());
   }
   require_outputs(outputs, inputs);
+  require_figure(arguments.isar);
+  require_figure(arguments.profiles);
   if (!exports.hot_spots.empty()) require_coloured_mesh(exports.hot_spots);
 }
 
 // Draws the comparison; without references the uncertainty where it is asked for, else the levels. A figure that was
 // not asked for is left out, with the reason, where gnuplot or the place is missing.
-void show_figure(const RcsArguments& arguments, const std::vector<PairedCut>& cuts, const RcsSweep& sweep) {
+void show_figure(const RcsArguments& arguments, const RcsRequest& request, const std::vector<PairedCut>& cuts,
+                 const RcsSweep& sweep) {
   const std::filesystem::path figure = figure_file(arguments);
-  const std::string title = fmt::format("{}, seaglint {}", arguments.target_name(), kVersion);
   const bool is_asked = is_figure_asked(arguments);
   try {
     PlotPanels panels = !cuts.empty()                   ? comparison_plots(cuts, arguments.reference.floor_db)
-                        : arguments.request.uncertainty ? PlotPanels()
-                                                        : level_plots(sweep);
-    panels.title = title;
+                        : arguments.request.uncertainty ? uncertainty_plots(sweep)
+                                                        : level_plots(sweep, arguments.polar);
+    panels.title = arguments.target_name();
+    panels.notes = sweep_notes(request);
+    panels.size.style = figure_style(arguments.style);
     if (!panels.plots.empty()) write_figure(panels, figure);
-    if (!panels.plots.empty() ||
-        (arguments.request.uncertainty && cuts.empty() && draw_uncertainty(sweep, title, figure)))
+    if (!panels.plots.empty())
       print_out("Figure: {}\n", figure.string());
     else if (is_asked)
       print_out("No figure: it needs a cut along azimuth, elevation or frequency of {} points or more\n",
@@ -120,6 +142,32 @@ void show_figure(const RcsArguments& arguments, const std::vector<PairedCut>& cu
     if (is_asked) throw;
     print_out("No figure: {}\n", error.what());
   }
+}
+
+// The turntable image and the range profiles that are asked for.
+void show_images(const RcsArguments& arguments, const RcsRequest& request, const RcsTarget& target,
+                 const RcsSweep& sweep, int threads) {
+  const FigureStyle style = figure_style(arguments.style);
+  const auto element = static_cast<std::size_t>(std::ranges::find(kPolarisationNames, arguments.polarisation) -
+                                                std::begin(kPolarisationNames));
+  const TurntableEcho echo = turntable_echo(sweep, element);
+  const TurntableSampling sampling = turntable_sampling(echo.frequency_hz, echo.azimuth_deg, echo.elevation_deg);
+  const TriangleMesh& mesh = target.prepared.mesh;
+  const TurntableExtent extent = turntable_extent(mesh, echo.azimuth_deg, echo.elevation_deg);
+  TurntableCaption caption{fmt::format("{}, {}", arguments.target_name(), arguments.polarisation),
+                           solver_notes(request)};
+  if (!arguments.isar.empty()) {
+    const Heatmap figure =
+        turntable_figure(echo, turntable_image(echo, turntable_area(sampling, &extent), threads), &mesh, caption);
+    write_figure(figure, arguments.isar, map_size(style));
+    print_out("Turntable image: {}\n", arguments.isar);
+  }
+  if (arguments.profiles.empty()) return;
+  const Heatmap figure = profiles_figure(echo, turntable_profiles(echo, profiles_range(sampling, &extent)), caption,
+                                         part_names(request, target, element, sampling.range_cell_m),
+                                         style == FigureStyle::kPaper ? 6 : 12);
+  write_figure(figure, arguments.profiles, map_size(style));
+  print_out("Range profiles: {}\n", arguments.profiles);
 }
 
 // Writes the panels of the comparison's figure; without any there are no curves.
@@ -167,6 +215,7 @@ void run_rcs(const RcsArguments& arguments, const CommandContext& context) {
   PreparedTarget prepared = prepare_mesh(request);
   warnings.insert(warnings.end(), prepared.warnings.begin(), prepared.warnings.end());
   warn(prepared.warnings);
+  require_images(arguments, request, prepared.mesh);
   const RcsTarget target = select_echoes(request, std::move(prepared));
   if (const auto lobes = lobe_warning(request, target.prepared.mesh)) warn(std::array{*lobes});
   for (const NamedCavity& cavity : target.cavities) {
@@ -204,7 +253,8 @@ void run_rcs(const RcsArguments& arguments, const CommandContext& context) {
   for (PairedCut& cut : cuts) set_models(cut, sweep);
   if (!cuts.empty()) print_out("{}", error_table(cuts, arguments.reference.floor_db));
   if (cuts.empty()) print_out("{}", statistics_text(level_statistics(sweep)));
-  if (is_drawn(arguments)) show_figure(arguments, cuts, sweep);
+  if (is_drawn(arguments)) show_figure(arguments, request, cuts, sweep);
+  if (has_images(arguments)) show_images(arguments, request, target, sweep, context.threads);
   if (!arguments.reference.curves.empty()) write_curves(arguments.reference.curves, cuts, arguments.reference.floor_db);
   if (!computed.converged) throw WorkError(fmt::format("{}: {}", arguments.output, warnings.back()));
 }
@@ -220,14 +270,18 @@ void add_rcs(CommandOptions& program, CommandContext& context) {
       "Example:\n  seaglint rcs --target assets/icosahedral_reflector.glb --frequency-ghz 16 --azimuth-deg 0:360:0.5 "
       "--elevation-deg 2 -o rcs.csv\n  seaglint rcs --target plate.glb --frequency-ghz 10.24 --azimuth-deg 0:60:0.5 -o "
       "plate.csv --reference "
-      "ref.H.txt --reference ref.V.txt");
+      "ref.H.txt --reference ref.V.txt\n  seaglint rcs --target ship.glb --frequency-ghz 9.85:10.15:0.001 "
+      "--azimuth-deg "
+      "29.1:30.9:0.009 -o ship.csv --isar ship_isar.png --profiles ship_profiles.png");
   command.callback([arguments, command, &context] {
     command.require_any_of("--transmit-elevation-deg", {"--transmit-azimuth-deg"});
     command.require_any_of("--centre-cell-m", {"--export-scattering-centres"});
     command.require_any_of("--export-dynamic-range-db", {"--export-scattering-centres", "--export-hot-spots"});
+    command.require_any_of("--polarisation", {"--isar", "--profiles"});
     command.require_one_of({"--output", "--cross-check"});
-    command.refuse_with("--cross-check", {"--method", "--cavity", "--converge", "--uncertainty", "--reference",
-                                          "--export-as", "--export-scattering-centres", "--export-hot-spots"});
+    command.refuse_with("--cross-check",
+                        {"--method", "--cavity", "--converge", "--uncertainty", "--reference", "--export-as",
+                         "--export-scattering-centres", "--export-hot-spots", "--isar", "--profiles", "--polar"});
     context.work = [arguments, &context] {
       arguments->cross_check ? run_rcs_cross_check(*arguments, context) : run_rcs(*arguments, context);
     };

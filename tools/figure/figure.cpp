@@ -25,6 +25,20 @@ namespace {
 // Okabe and Ito's palette, distinguishable for colour-blind readers.
 constexpr const char* kLineColours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"};
 
+// Axes of a polar plot: gnuplot leaves out points below the lower end of the radius, which is the centre.
+std::string polar_commands(const FigureAxis& radius) {
+  SEAGLINT_CHECK(radius.range.has_value(), "a polar plot needs the range of its levels");
+  const auto& [low, high] = *radius.range;
+  const double step = (high - low) / 10 > 5 ? 20 : high - low > 30 ? 10 : 5;
+  return fmt::format(
+      "set polar\nset angles degrees\nset theta top counterclockwise\nset trange [0:360]\nset rrange [{:g}:{:g}]\n"
+      "unset xtics\nunset ytics\nunset border\nset border polar\nunset xlabel\nunset ylabel\nunset raxis\n"
+      "set rtics {:g},{:g} scale 0 font {}\nset ttics 0,30 font {}\n"
+      "set ttics add ('0 bow' 0, '90 port' 90, '180 stern' 180, '270 starboard' 270)\n"
+      "set grid polar 30 lt 1 lc rgb '#d8d8d8' lw 0.6\nset size ratio 1\n",
+      low, high, low + step, step, kSmallFont, kSmallFont);
+}
+
 // The commands that draw a plot whose series start at `first_index` of the data, and the data of these series.
 struct PlotText {
   std::string commands, data;
@@ -42,8 +56,10 @@ PlotText plot_text(const LinePlot& figure, std::size_t first_index) {
     for (std::size_t i = 0; i < series.x.size(); ++i) {
       const auto interval =
           series.interval.empty() ? std::array<double, 2>{series.y[i], series.y[i]} : series.interval[i];
-      data += fmt::format("{} {} {} {}\n", gnuplot_number(series.x[i]), gnuplot_number(series.y[i]),
-                          gnuplot_number(interval[0]), gnuplot_number(interval[1]));
+      const double x = figure.polar ? series.x[i] - 360 * std::floor(series.x[i] / 360) : series.x[i],
+                   y = figure.polar ? std::max(series.y[i], figure.y.range->first) : series.y[i];
+      data += fmt::format("{} {} {} {}\n", gnuplot_number(x), gnuplot_number(y), gnuplot_number(interval[0]),
+                          gnuplot_number(interval[1]));
     }
     if (series.x.empty()) data += "NaN NaN NaN NaN\n";
     data += "\n\n";
@@ -65,14 +81,26 @@ PlotText plot_text(const LinePlot& figure, std::size_t first_index) {
     plots += fmt::format("{}1:2 with {} lc rgb '{}' lw {:g} {} {}, ", index, style, colour, series.width, marks, title);
   }
   SEAGLINT_CHECK(!plots.empty(), "a plot without series");
-  std::string commands = axis_commands("x", figure.x) + axis_commands("y", figure.y);
-  commands += "set grid lc rgb '#d8d8d8' lw 0.6\n";
+  std::string commands;
+  if (figure.polar) {
+    commands = polar_commands(figure.y);
+  } else {
+    commands = axis_commands("x", figure.x) + axis_commands("y", figure.y);
+    commands += "set grid lc rgb '#d8d8d8' lw 0.6\n";
+  }
+  for (const LinePlot::Mark& mark : figure.marks) {
+    commands += fmt::format("set label {} at first {:.9g},{:.9g} left rotate by 60 offset 0,0.4 font {}\n",
+                            gnuplot_text(mark.name), mark.x, mark.y, kSmallFont);
+  }
   const char* place = figure.legend_above ? "outside center top horizontal" : "outside right top";
   commands += named ? fmt::format("set key {} reverse Left samplen 2\n", place) : "unset key\n";
-  if (!figure.x.range && !figure.x.logarithmic)
+  if (!figure.polar && !figure.x.range && !figure.x.logarithmic)
     commands += "set autoscale xfix\nset offsets graph 0.03, graph 0.03, 0, 0\n";
   if (figure.equal_axes) commands += "set size ratio -1\n";
-  return {commands + "plot " + plots.substr(0, plots.size() - 2) + "\n", data};
+  commands += "plot " + plots.substr(0, plots.size() - 2) + "\n";
+  if (figure.polar)
+    commands += "unset polar\nunset rtics\nunset ttics\nunset grid\nset border 31\nset xtics\nset ytics\n";
+  return {commands, data};
 }
 
 // Phrases in lines of at most `most` characters: a phrase is divided only where it is longer than a line.

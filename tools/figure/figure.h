@@ -50,6 +50,14 @@ struct LinePlot {
   std::vector<Series> series;
   bool equal_axes = false;  // one metre is one metre in x and y
   bool legend_above = false;
+  // Azimuths x in degrees, the bow up and counter-clockwise, with y outwards from the lower end of its range, which is
+  // given; lower values are raised to it.
+  bool polar = false;
+  struct Mark {
+    double x = 0, y = 0;
+    std::string name;
+  };
+  std::vector<Mark> marks = {};  // names above points of the plot, for which y's range leaves room
 };
 
 // Several plots of one figure, in rows of `columns` with aligned frames; none: there is nothing to draw.

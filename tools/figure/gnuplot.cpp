@@ -266,6 +266,10 @@ std::string without_date(std::string pdf) {
 
 }  // namespace
 
+FigureStyle figure_style(const std::string& name) {
+  return name == "paper" ? FigureStyle::kPaper : name == "paper-wide" ? FigureStyle::kPaperWide : FigureStyle::kScreen;
+}
+
 FigureArea figure_area(FigureSize size) {
   const double width = size.style == FigureStyle::kScreen ? size.width : width_mm(size.style) / kInch_mm * kPixels;
   return {width, width * size.height / size.width, text_points(size.style) * kPixels / kPoints};

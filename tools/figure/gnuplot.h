@@ -12,6 +12,9 @@ namespace seaglint {
 // proportion, text of 7 or 8 points; .png with 300 dots per inch.
 enum class FigureStyle { kScreen, kPaper, kPaperWide };
 
+// The style of a name, "screen", "paper" or "paper-wide"; any other is kScreen.
+FigureStyle figure_style(const std::string& name);
+
 struct FigureSize {
   int width = 900;  // pixels of 1/96 inch
   int height = 560;

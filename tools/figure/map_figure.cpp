@@ -61,6 +61,24 @@ double tic_step(const AxisRange& range, double count) {
   return 10 * power;
 }
 
+// Step of the tics along an axis of this height in units of the text's size.
+double upright_step(const AxisRange& range, const AxisRange& up) {
+  constexpr double kApart = 2.4;
+  return tic_step({std::min(range.first, range.second), std::max(range.first, range.second)},
+                  std::max(2.0, (up.second - up.first) / kApart));
+}
+
+// Left end of a frame: room for the label and the longest number of its axis.
+double left_of(const AxisRange& range, const AxisRange& up) {
+  constexpr double kLeast = 5.6, kLabel = 4, kDigit = 0.62;
+  const double step = upright_step(range, up);
+  std::size_t longest = 0;
+  for (double at = std::ceil(std::min(range.first, range.second) / step) * step;
+       at <= std::max(range.first, range.second); at += step)
+    longest = std::max(longest, fmt::format("{:.6g}", at + 0.0).size());
+  return std::max(kLeast, kLabel + kDigit * static_cast<double>(longest));
+}
+
 // The frame of a plot, in units of the text's size from the lower left corner.
 std::string margins(const FigureLayout& at, const AxisRange& across, const AxisRange& up) {
   return fmt::format(
@@ -74,6 +92,7 @@ std::string profile_commands(const Heatmap& figure, const FigureLayout& at, cons
                              const AxisRange& up) {
   const ProfileAbove& profile = *figure.profile;
   std::string text = margins(at, across, up) + axis_commands("y", profile.y);
+  if (profile.y.range) text += fmt::format("set ytics {:g}\n", upright_step(*profile.y.range, up));
   text += "set xlabel ''\nset format x ''\nset grid lc rgb '#d8d8d8' lw 0.6\n";
   const AxisRange range = *figure.x.range;
   const auto screen_x = [&](double x) {
@@ -118,7 +137,6 @@ void write_figure(const Heatmap& figure, const std::filesystem::path& file, Figu
   const std::size_t columns = figure.map.x.size(), rows = figure.map.y.size();
   SEAGLINT_CHECK(columns >= 1 && rows >= 1 && figure.map.values.size() == columns * rows,
                  fmt::format("{} values for {} x {} cells", figure.map.values.size(), rows, columns));
-  const FigureLayout at(figure_area(size));
   const bool inset = figure.whole.has_value();
   Heatmap shown = figure;
   const CellAxis x = cell_axis(figure.map.x), y = cell_axis(figure.map.y);
@@ -127,21 +145,39 @@ void write_figure(const Heatmap& figure, const std::filesystem::path& file, Figu
   if (figure.upside_down) std::swap(shown.y.range->first, shown.y.range->second);
   std::string data = image_data(figure.map, x, y);
 
-  // Frames: the map, below it the inset with the legend and the small print at its side.
-  const AxisRange across{5.6, at.width() - (figure.right ? 12.4 : 7)};
-  const double strip_left = inset ? 3.6 + 0.38 * at.width() : 1.2;
+  // Frames: the map, below it the inset with the legend and the small print at its side. Lines of small print depend on
+  // the width alone.
+  const FigureLayout asked(figure_area(size));
+  const double strip_left = inset ? 3.6 + 0.38 * asked.width() : 1.2;
   const bool legend = !figure.rings.empty() || !figure.line.empty();
   const double legend_height = legend ? 1.3 * (!figure.rings.empty() + !figure.line.empty()) + 0.4 : 0;
-  const SmallPrint notes(at, figure.notes, strip_left);
-  const double strip = std::max(inset ? 9.0 : 0.0, 0.9 + legend_height + notes.height());
-  const double title = figure.profile ? 2.0 : 2.2;
+  const double strip =
+      std::max(inset ? 9.0 : 0.0, 0.9 + legend_height + SmallPrint(asked, figure.notes, strip_left).height());
+  const double title = figure.profile ? 2.0 : 2.2, bottom = strip + 4.1;
   std::size_t longest = 0;  // name of a peak
   if (figure.profile) {
     for (const auto& peak : figure.profile->peaks) longest = std::max(longest, peak.name.size());
   }
   const double names = longest > 0 ? 1.6 + std::sqrt(0.5) * kSmallCharacter * static_cast<double>(longest) : 0;
-  const double top = at.height() - title - names, bottom = strip + 4.1;
-  const AxisRange up{bottom, figure.profile ? bottom + 0.5 * (top - bottom) : top};
+  const auto up_to = [&](double height) {
+    const double top = height - title - names;
+    return AxisRange{bottom, figure.profile ? bottom + 0.5 * (top - bottom) : top};
+  };
+  AxisRange across{left_of(*shown.y.range, up_to(asked.height())), asked.width() - (figure.right ? 12.4 : 7)};
+  if (figure.equal_axes) {
+    constexpr double kHighest = 1.3;  // of the width
+    const double ratio =
+        std::abs((shown.y.range->second - shown.y.range->first) / (shown.x.range->second - shown.x.range->first));
+    const double room = kHighest * asked.width() - bottom - title,
+                 wide = std::min(across.second - across.first, room / ratio);
+    size.height = static_cast<int>(std::lround(size.width * (bottom + wide * ratio + title) / asked.width()));
+    const double middle = 0.5 * (across.first + across.second);
+    across = {middle - 0.5 * wide, middle + 0.5 * wide};
+  }
+  const FigureLayout at(figure_area(size));
+  const SmallPrint notes(at, figure.notes, strip_left);
+  const AxisRange up = up_to(at.height());
+  const double top = at.height() - title - names;
 
   std::string commands = "set multiplot\nunset key\n";
   commands += figure.diverging ? kBlueWhiteRed : kViridis;
@@ -163,6 +199,8 @@ void write_figure(const Heatmap& figure, const std::filesystem::path& file, Figu
     commands += axis_commands("x", shown.x);
   }
   commands += margins(at, across, up) + axis_commands("y", shown.y) + axis_commands("cb", figure.colour);
+  commands += fmt::format("set ytics {:g}\n", upright_step(*shown.y.range, up));
+  if (figure.colour.range) commands += fmt::format("set cbtics {:g}\n", upright_step(*figure.colour.range, up));
   commands +=
       "set xlabel offset 0,0.4+0.25*label_shift\nset ylabel offset label_shift,0\nset cblabel offset "
       "1-0.4*label_shift,0\n";
@@ -182,13 +220,14 @@ void write_figure(const Heatmap& figure, const std::filesystem::path& file, Figu
   }
   commands += fmt::format("plot {} index 0 using 1:2:3 with image notitle", kGnuplotData);
   const auto drawn = [&](const std::vector<std::array<double, 2>>& points, const std::string& style,
-                         const std::string& name) {
+                         const std::string& name, const char* colour = kMarks) {
     if (points.empty()) return;
     for (const auto& point : points) data += fmt::format("{} {}\n", gnuplot_number(point[0]), gnuplot_number(point[1]));
     data += "\n\n";
     commands += fmt::format(", {} index {} using 1:2 with {} lc rgb '{}' title {}", kGnuplotData, index++, style,
-                            kMarks, gnuplot_text(name));
+                            colour, gnuplot_text(name));
   };
+  drawn(figure.outline, "lines lw 0.6", "", "#60ffffff");
   drawn(figure.line, "lines lw 1.4 dt 2", figure.line_name);
   drawn(figure.rings, "points pt 6 ps 1.3*mark_size lw 1.4", figure.ring_name);
   commands += "\nunset label\nunset key\n";

@@ -59,13 +59,15 @@ struct Heatmap {
   CellMap map;                   // shown over the range of its axes, or that of `x` and `y`
   std::optional<CellMap> whole;  // an inset, with a frame around what is shown
   bool upside_down = false;      // y grows downwards
+  bool equal_axes = false;       // one metre is one metre in x and y; the figure is as high as that needs
   std::optional<RightAxis> right;
   std::optional<ProfileAbove> profile;
   std::vector<std::array<double, 2>> rings;  // x, y
   std::string ring_name;                     // in the legend
   std::vector<std::array<double, 2>> line;   // x, y of its ends
   std::string line_name;
-  std::vector<std::string> notes;  // phrases of the small print
+  std::vector<std::array<double, 2>> outline;  // x, y of thin lines, each ended by NaN
+  std::vector<std::string> notes;              // phrases of the small print
 };
 
 // Throws as draw_by_gnuplot().

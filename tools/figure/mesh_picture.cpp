@@ -161,6 +161,106 @@ Picture picture_of(const TriangleMesh& mesh, const PictureView& view) {
   return picture;
 }
 
+namespace {
+
+// Sides of filled samples towards empty ones, each from its start corner in one of four directions with the filled
+// sample at its left: bit d of a corner is a side in direction d.
+class OutlineSides {
+ public:
+  OutlineSides(const Canvas& canvas, int width, int height)
+      : columns_(width + 1), sides_(static_cast<std::size_t>(width + 1) * (height + 1)) {
+    const auto filled = [&](int x, int y) {
+      return x >= 0 && y >= 0 && x < width && y < height && !std::isinf(canvas.at(x, y).depth);
+    };
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        if (!filled(x, y)) continue;
+        if (!filled(x, y - 1)) at(x, y) |= 1;
+        if (!filled(x + 1, y)) at(x + 1, y) |= 2;
+        if (!filled(x, y + 1)) at(x + 1, y + 1) |= 4;
+        if (!filled(x - 1, y)) at(x, y + 1) |= 8;
+      }
+    }
+  }
+
+  std::size_t corners() const { return sides_.size(); }
+  bool has_side(std::size_t corner) const { return sides_[corner] != 0; }
+
+  // Middles of the sides of one closed line from this corner on, which are removed.
+  std::vector<std::array<double, 2>> take_line(std::size_t corner) {
+    constexpr std::array<std::array<int, 2>, 4> kStep{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
+    std::vector<std::array<double, 2>> line;
+    int x = static_cast<int>(corner % static_cast<std::size_t>(columns_)),
+        y = static_cast<int>(corner / static_cast<std::size_t>(columns_)), direction = 0;
+    while (at(x, y) != 0) {
+      // Where two lines touch, the one that turns left.
+      for (const int turn : {1, 0, 3, 2}) {
+        const int next = (direction + turn) % 4;
+        if (!(at(x, y) >> next & 1)) continue;
+        direction = next;
+        break;
+      }
+      at(x, y) = static_cast<std::uint8_t>(at(x, y) & ~(1 << direction));
+      const auto& [dx, dy] = kStep[static_cast<std::size_t>(direction)];
+      line.push_back({x + 0.5 * dx, y + 0.5 * dy});
+      x += dx;
+      y += dy;
+    }
+    return line;
+  }
+
+ private:
+  std::uint8_t& at(int x, int y) { return sides_[static_cast<std::size_t>(y) * columns_ + x]; }
+
+  int columns_;
+  std::vector<std::uint8_t> sides_;
+};
+
+}  // namespace
+
+std::vector<std::array<double, 2>> outline_of(const TriangleMesh& mesh, const Vec3& right, const Vec3& up,
+                                              double sample_m) {
+  constexpr double kLeastArea = 20;
+  Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
+  const auto projected = [&](std::uint32_t v) { return Vec2(right.dot(mesh.vertices[v]), up.dot(mesh.vertices[v])); };
+  for (const auto& triangle : mesh.triangles) {
+    for (const std::uint32_t v : triangle) {
+      low = low.cwiseMin(projected(v));
+      high = high.cwiseMax(projected(v));
+    }
+  }
+  if (mesh.triangles.empty()) return {};
+  const double scale = 1 / sample_m;
+  const auto samples = [&](double length) { return static_cast<int>(std::ceil(length * scale)) + 2; };
+  const int width = samples(high.x() - low.x()), height = samples(high.y() - low.y());
+  Canvas canvas(width, height);
+  for (const auto& triangle : mesh.triangles) {
+    std::array<Vec3, 3> corners;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec2 p = scale * (projected(triangle[i]) - low);
+      corners[i] = {p.x() + 1, p.y() + 1, 0};
+    }
+    canvas.fill(corners, 0, 0);
+  }
+  OutlineSides sides(canvas, width, height);
+  std::vector<std::array<double, 2>> outline;
+  for (std::size_t corner = 0; corner < sides.corners(); ++corner) {
+    while (sides.has_side(corner)) {
+      std::vector<std::array<double, 2>> line = sides.take_line(corner);
+      double area = 0;
+      for (std::size_t i = 0; i < line.size(); ++i) {
+        const auto &a = line[i], &b = line[(i + 1) % line.size()];
+        area += 0.5 * (a[0] * b[1] - b[0] * a[1]);
+      }
+      if (std::abs(area) < kLeastArea) continue;
+      line.push_back(line.front());
+      for (const auto& [x, y] : line) outline.push_back({low.x() + (x - 1) / scale, low.y() + (y - 1) / scale});
+      outline.push_back({std::nan(""), std::nan("")});
+    }
+  }
+  return outline;
+}
+
 std::string png_bytes(const Picture& picture) {
   png_image image{};
   image.version = PNG_IMAGE_VERSION;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Picture of a mesh: orthographic projection, flat Lambert shading, dark lines at discontinuities of depth or normal.
+// Picture of a mesh: orthographic projection, flat Lambert shading, dark lines at discontinuities of depth or normal;
+// its outline.
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -27,6 +29,11 @@ struct Picture {
 
 // The mesh fills the picture up to a margin of 3 %. Throws InputError for a size out of range or an empty mesh.
 Picture picture_of(const TriangleMesh& mesh, const PictureView& view);
+
+// Outline of the mesh's projection: closed lines over the components along two perpendicular unit vectors, m, each
+// ended by NaN; around holes too. From samples of sample_m; pieces of less than 20 samples are left out.
+std::vector<std::array<double, 2>> outline_of(const TriangleMesh& mesh, const Vec3& right, const Vec3& up,
+                                              double sample_m);
 
 std::string png_bytes(const Picture& picture);
 

@@ -282,6 +282,14 @@ ParsedCommandLine ProgramOptions::parse(int argc, const char* const* argv) {
   return {};
 }
 
+CommandOption add_style_option(CommandOptions& command, std::string& style) {
+  return command
+      .add_option("--style", style,
+                  "Of figures: screen, or for print, .png with 300 dots per inch: paper 88 mm wide, paper-wide 180 mm")
+      .one_of({"screen", "paper", "paper-wide"})
+      .show_default();
+}
+
 void add_time_options(CommandOptions& command, double& duration_s, double& step_s) {
   command.add_option("--duration-s", duration_s, "Length of the series").show_default().number_within(0, 1e6);
   command.add_option("--step-s", step_s, "Time between its rows").show_default().number_within(1e-4, 1e4);

@@ -77,6 +77,9 @@ class CommandOptions {
   CLI::App* command_;
 };
 
+// --style of a command's figures, a name of figure_style().
+CommandOption add_style_option(CommandOptions& command, std::string& style);
+
 // A command line that was parsed: at most one of the two members is set.
 struct ParsedCommandLine {
   std::optional<std::string> information;  // what --help or --version asks for; no command is to be run

@@ -284,6 +284,28 @@ void add_selection_options(CommandOptions& command, EchoSelection& selection) {
   selectors("--without", selection.without, "Exclude the contributions of any of these (repeatable)");
 }
 
+void add_figure_options(CommandOptions& command, RcsArguments& arguments) {
+  constexpr const char* kGroup = "Figures";
+  command
+      .add_flag("--polar", arguments.polar,
+                "The figure of the levels over azimuth as a polar diagram, the bow up, counter-clockwise")
+      .group(kGroup);
+  command
+      .add_option("--isar", arguments.isar,
+                  "Turntable image of the sweep over frequency and azimuth (.png, .svg or .pdf): range and cross "
+                  "range seen from above, level in dBsm, outline of the mesh")
+      .group(kGroup);
+  command
+      .add_option("--profiles", arguments.profiles,
+                  "Range profiles over azimuth of such a sweep, with the parts at the peaks of the middle one")
+      .group(kGroup);
+  command.add_option("--polarisation", arguments.polarisation, "Of --isar and --profiles: received, transmitted")
+      .one_of({std::begin(kPolarisationNames), std::end(kPolarisationNames)})
+      .show_default()
+      .group(kGroup);
+  add_style_option(command, arguments.style).group(kGroup);
+}
+
 void add_export_options(CommandOptions& command, ViewExport& exports) {
   command
       .add_option("--export-scattering-centres", exports.centres,
@@ -437,6 +459,7 @@ void RcsArguments::add_to(CommandOptions& command) {
   add_export_as_to(command).group("Selection and export");
   add_selection_options(command, request.selection);
   add_export_options(command, request.exports);
+  add_figure_options(command, *this);
   reference.add_to(command);
 }
 

@@ -49,8 +49,10 @@ struct RcsArguments {
                                           like, output;
   std::optional<double> transmit_azimuth_deg, transmit_elevation_deg, converge_db;
   bool cross_check = false;
-  std::vector<std::string> materials;  // NAME or PART=NAME
-  std::vector<std::string> export_as;  // of kExportFormats
+  bool polar = false;                                                 // the figure of the levels
+  std::string isar, profiles, polarisation = "vv", style = "screen";  // figures; isar, profiles: empty for none
+  std::vector<std::string> materials;                                 // NAME or PART=NAME
+  std::vector<std::string> export_as;                                 // of kExportFormats
   std::string sea_surface = "sea_water", sea_paths = "all";
   ReferenceArguments reference;
 

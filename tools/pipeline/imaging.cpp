@@ -297,40 +297,62 @@ IsarPlan isar_plan(const Pipeline& pipeline, std::size_t sample) {
   return plan;
 }
 
-std::vector<NamedPeak> named_peaks(const Pipeline& pipeline, std::size_t sample, const RangeProfiles& profiles,
-                                   std::size_t most) {
+std::vector<NamedPeak> strongest_peaks(std::span<const double> range_m, std::span<const double> magnitude_m,
+                                       double range_cell_m, std::size_t most) {
   constexpr double kBelow = 0.0562;  // -25 dB
-  const Observed seen = observed(pipeline, sample, 0);
-  const std::size_t cells = profiles.range_m.size();
-  const std::span<const double> first(profiles.magnitude_m.data(), cells);
-  const double strongest = std::ranges::max(first);
   std::vector<NamedPeak> maxima, peaks;
-  for (std::size_t i = 1; i + 1 < cells; ++i) {
-    if (first[i] > first[i - 1] && first[i] >= first[i + 1] && first[i] > kBelow * strongest)
-      maxima.push_back({profiles.range_m[i], first[i], {}});
+  if (magnitude_m.empty()) return peaks;
+  const double strongest = std::ranges::max(magnitude_m);
+  for (std::size_t i = 1; i + 1 < magnitude_m.size(); ++i) {
+    const double here = magnitude_m[i];
+    if (here > magnitude_m[i - 1] && here >= magnitude_m[i + 1] && here > kBelow * strongest)
+      maxima.push_back({range_m[i], here, {}});
   }
   std::ranges::sort(maxima, std::greater{}, &NamedPeak::magnitude_m);
   for (const NamedPeak& maximum : maxima) {
     const auto near = [&](const NamedPeak& peak) {
-      return std::abs(peak.range_m - maximum.range_m) < 2 * seen.range_cell_m;
+      return std::abs(peak.range_m - maximum.range_m) < 2 * range_cell_m;
     };
     if (peaks.size() < most && std::ranges::none_of(peaks, near)) peaks.push_back(maximum);
   }
+  return peaks;
+}
 
-  // Of each peak the sum of the contributions within half a range cell, by name.
-  std::vector<std::map<std::string, Complex>> sums(peaks.size());
-  const auto add = [&](double range_m, const std::string& name, Complex value) {
-    for (std::size_t i = 0; i < peaks.size(); ++i) {
-      if (std::abs(range_m - peaks[i].range_m) <= 0.5 * seen.range_cell_m) sums[i][name] += value;
+void name_peaks(std::vector<NamedPeak>& peaks, std::span<const RangeContribution> contributions, double range_cell_m) {
+  for (NamedPeak& peak : peaks) {
+    std::map<std::string, Complex> sums;
+    for (const RangeContribution& one : contributions) {
+      if (std::abs(one.range_m - peak.range_m) <= 0.5 * range_cell_m) sums[one.name] += one.amplitude_m;
     }
-  };
+    double largest = 0;
+    for (const auto& [name, sum] : sums) {
+      if (std::abs(sum) <= largest) continue;
+      largest = std::abs(sum);
+      peak.name = name;
+    }
+  }
+}
+
+void append_contributions(const PointContributions& of, std::vector<RangeContribution>& contributions) {
+  for (const Point& point : of.points) {
+    std::string name = of.name.empty() ? of.mesh.part_names[point.source.part] : of.name;
+    std::ranges::replace(name, '_', ' ');
+    contributions.push_back({of.origin_m - 0.5 * point.psi, std::move(name),
+                             point.matrix(0)[of.element] * std::polar(1.0, of.k * point.psi)});
+  }
+}
+
+std::vector<NamedPeak> named_peaks(const Pipeline& pipeline, std::size_t sample, const RangeProfiles& profiles,
+                                   std::size_t most) {
+  const Observed seen = observed(pipeline, sample, 0);
+  std::vector<NamedPeak> peaks = strongest_peaks(
+      profiles.range_m, {profiles.magnitude_m.data(), profiles.range_m.size()}, seen.range_cell_m, most);
+  std::vector<RangeContribution> contributions;
   const double k = 2 * kPi / seen.wavelength_m;
-  const auto element = static_cast<std::size_t>(seen.scenario.radar.polarisation);
   const bool parts = seen.bodies.size() == 1;
   for (const MovingBody& body : seen.bodies) {
-    const double origin_m = seen.range_m(body, Vec3::Zero(), 0);
     if (body.prepared == nullptr) {
-      add(seen.range_m(body, body.corners.front(), 0), body.name, body.amplitude_m);
+      contributions.push_back({seen.range_m(body, body.corners.front(), 0), body.name, body.amplitude_m});
       continue;
     }
     const Scatterer& scatterer = *body.prepared->scatterer;
@@ -341,20 +363,15 @@ std::vector<NamedPeak> named_peaks(const Pipeline& pipeline, std::size_t sample,
                                       .wavenumbers = {k},
                                       .settings = tracing_settings((*seen.scene->targets)[target].spec.solver),
                                       .points_for_rad = default_aspect_change(scatterer, seen.wavelength_m)});
-    for (const Point& point : solved.views[0].points) {
-      std::string name = parts ? body.prepared->mesh.part_names[point.source.part] : body.name;
-      std::ranges::replace(name, '_', ' ');
-      add(origin_m - 0.5 * point.psi, name, point.matrix(0)[element] * std::polar(1.0, k * point.psi));
-    }
+    append_contributions({.points = solved.views[0].points,
+                          .mesh = body.prepared->mesh,
+                          .k = k,
+                          .origin_m = seen.range_m(body, Vec3::Zero(), 0),
+                          .element = static_cast<std::size_t>(seen.scenario.radar.polarisation),
+                          .name = parts ? "" : body.name},
+                         contributions);
   }
-  for (std::size_t i = 0; i < peaks.size(); ++i) {
-    double largest = 0;
-    for (const auto& [name, sum] : sums[i]) {
-      if (std::abs(sum) <= largest) continue;
-      largest = std::abs(sum);
-      peaks[i].name = name;
-    }
-  }
+  name_peaks(peaks, contributions, seen.range_cell_m);
   return peaks;
 }
 

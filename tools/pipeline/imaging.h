@@ -2,15 +2,19 @@
 #pragma once
 
 // ISAR image and range profiles of a sample's target alone, as a radar forms them that transmits the whole synthetic
-// bandwidth with every pulse; the interval and the axes that the target's own motion suggests.
+// bandwidth with every pulse; the interval and the axes that the target's own motion suggests; names at the peaks of
+// range profiles.
 
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "radar/rvmap/rv_map.h"
 #include "radar/waveform/pulse_train.h"
+#include "sim/geometry/mesh/triangle_mesh.h"
+#include "sim/scattering/solver/solve.h"
 #include "tools/pipeline/pipeline.h"
 
 namespace seaglint {
@@ -74,13 +78,40 @@ struct IsarPlan {
 };
 IsarPlan isar_plan(const Pipeline& pipeline, std::size_t sample);
 
-// Strongest peaks of a sample's range profile at the start of its interval, each with what scatters most there: a part
-// of the mesh, a body of several or a point. Of peaks at least two range cells apart and within 25 dB of the strongest
-// at most `most`, strongest first.
+// A peak of a range profile with what scatters most there.
 struct NamedPeak {
   double range_m = 0, magnitude_m = 0;
   std::string name;
 };
+
+// Of peaks at least two range cells apart and within 25 dB of the strongest at most `most`, strongest first, without
+// names.
+std::vector<NamedPeak> strongest_peaks(std::span<const double> range_m, std::span<const double> magnitude_m,
+                                       double range_cell_m, std::size_t most);
+
+// Contribution to an echo by something of this name, m.
+struct RangeContribution {
+  double range_m = 0;
+  std::string name;
+  Complex amplitude_m;
+};
+
+// Names each peak after the largest sum of contributions of one name within half a range cell of it.
+void name_peaks(std::vector<NamedPeak>& peaks, std::span<const RangeContribution> contributions, double range_cell_m);
+
+// Contributions of an aspect's points, at range -psi / 2 from origin_m on, by the names of the mesh's parts, or all by
+// one name; k: wavenumber, rad/m; element of hh, hv, vh, vv.
+struct PointContributions {
+  std::span<const Point> points;
+  const TriangleMesh& mesh;
+  double k = 0, origin_m = 0;
+  std::size_t element = 0;
+  std::string name = {};  // empty: parts
+};
+void append_contributions(const PointContributions& of, std::vector<RangeContribution>& contributions);
+
+// Strongest peaks of a sample's range profile at the start of its interval, named after a part of the mesh, a body of
+// several or a point.
 std::vector<NamedPeak> named_peaks(const Pipeline& pipeline, std::size_t sample, const RangeProfiles& profiles,
                                    std::size_t most);
 

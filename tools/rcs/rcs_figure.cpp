@@ -2,6 +2,7 @@
 #include "tools/rcs/rcs_figure.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -9,6 +10,7 @@
 #include <deque>
 #include <functional>
 
+#include "seaglint_version.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/real_functions.h"
 #include "sim/geometry/mesh/triangle_mesh.h"
@@ -87,7 +89,7 @@ std::vector<double> moving_median(const std::vector<double>& x, const std::vecto
   return medians;
 }
 
-LinePlot plot_of_levels(const LevelCurve& curve, DrawnAxis axis) {
+LinePlot plot_of_levels(const LevelCurve& curve, DrawnAxis axis, bool polar) {
   constexpr std::array kLabels{"azimuth (deg)", "frequency (GHz)", "elevation (deg)"};
   LinePlot plot;
   plot.title = curve.title;
@@ -100,6 +102,8 @@ LinePlot plot_of_levels(const LevelCurve& curve, DrawnAxis axis) {
   plot.y = {"radar cross section (dBsm)", AxisRange{5 * std::floor(lowest / 5), 5 * std::ceil(highest / 5 + 0.2)},
             false};
   plot.legend_above = true;
+  plot.polar = polar;
+  if (polar) plot.title += ": radar cross section (dBsm)";
   const bool has_medians = axis == DrawnAxis::kAzimuth && std::ranges::is_sorted(curve.x) &&
                            curve.x.back() - curve.x.front() >= 4 * kMedianWindow_deg;
   constexpr std::array kPale{"#9ecae1", "#fdc086"}, kStrong{"#0072b2", "#d55e00"};
@@ -154,21 +158,61 @@ std::string statistics_text(const std::vector<LevelStatistics>& statistics) {
   return text;
 }
 
-PlotPanels level_plots(const RcsSweep& sweep) {
+std::vector<std::string> solver_notes(const RcsRequest& request) {
+  std::vector<std::string> notes;
+  if (!request.selection.only.empty() || !request.selection.without.empty())
+    notes.push_back("contributions: " + text_of(request.selection));
+  if (request.sea.reflection)
+    notes.push_back(
+        fmt::format("above the sea, origin at {:g} m, Hs {:g} m", request.sea.height_m, request.sea.wave_height_m));
+  if (request.range_m > 0) notes.push_back(fmt::format("wavefront of {:g} m", request.range_m));
+  if (!request.cavities.parts.empty())
+    notes.push_back(
+        fmt::format("cavities {} by the magnetic-field integral equation", fmt::join(request.cavities.parts, ", ")));
+  notes.push_back(fmt::format("{}, edges {}, {} bounces{}", kSolverMethodNames[static_cast<int>(request.method)],
+                              request.edges ? "on" : "off", request.max_bounces,
+                              !request.crease_deg        ? ""
+                              : *request.crease_deg == 0 ? ", flat facets"
+                                                         : fmt::format(", crease {:g} deg", *request.crease_deg)));
+  notes.push_back(fmt::format("seaglint {}", kVersion));
+  return notes;
+}
+
+std::vector<std::string> sweep_notes(const RcsRequest& request) {
+  const auto axis = [](const char* name, const std::vector<double>& values, double unit, const char* unit_name) {
+    if (values.size() == 1) return fmt::format("{}{:.9g} {}", name, unit * values[0], unit_name);
+    return fmt::format("{}{:.9g} to {:.9g} {} in steps of {:.4g}", name, unit * values.front(), unit * values.back(),
+                       unit_name, unit * (values[1] - values[0]));
+  };
+  std::vector<std::string> notes{axis("", request.frequency_hz, 1e-9, "GHz"),
+                                 axis("azimuth ", request.azimuth_deg, 1, "deg"),
+                                 axis("elevation ", request.elevation_deg, 1, "deg")};
+  if (request.transmitter)
+    notes.push_back(fmt::format("transmitter at azimuth {:g} deg, elevation {:g} deg", request.transmitter->azimuth_deg,
+                                request.transmitter->elevation_deg));
+  const std::vector<std::string> solver = solver_notes(request);
+  notes.insert(notes.end(), solver.begin(), solver.end());
+  return notes;
+}
+
+PlotPanels level_plots(const RcsSweep& sweep, bool polar) {
   constexpr std::size_t kMostPanels = 4;
   const std::size_t azimuths = sweep.azimuth_deg.size(), frequencies = sweep.frequency_hz.size(),
                     elevations = sweep.elevation_deg.size();
   DrawnAxis axis = DrawnAxis::kAzimuth;
+  if (polar && azimuths < kFewestDrawn) return {};
   if (azimuths < kFewestDrawn) axis = frequencies >= kFewestDrawn ? DrawnAxis::kFrequency : DrawnAxis::kElevation;
   if (axis == DrawnAxis::kElevation && elevations < kFewestDrawn) return {};
   const std::size_t firsts = axis == DrawnAxis::kElevation ? azimuths : elevations;
   const std::size_t seconds = axis == DrawnAxis::kFrequency ? azimuths : frequencies;
   PlotPanels panels;
   for (const std::size_t place : evenly(firsts * seconds, kMostPanels))
-    panels.plots.push_back(plot_of_levels(curve_along(sweep, axis, place / seconds, place % seconds), axis));
+    panels.plots.push_back(plot_of_levels(curve_along(sweep, axis, place / seconds, place % seconds), axis, polar));
   const bool is_one = panels.plots.size() == 1;
   panels.columns = is_one ? 1 : 2;
-  panels.size = {is_one ? 1100 : 1500, panels.plots.size() > 2 ? 1000 : 520};
+  const int rows = panels.plots.size() > 2 ? 2 : 1;
+  panels.size = polar ? FigureSize{is_one ? 820 : 1500, (is_one ? 900 : 820) * rows}
+                      : FigureSize{is_one ? 1100 : 1500, rows == 2 ? 1000 : 520};
   return panels;
 }
 

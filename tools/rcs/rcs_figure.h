@@ -32,10 +32,17 @@ std::string statistics_text(const std::vector<LevelStatistics>& statistics);
 inline constexpr std::size_t kFewestDrawn = 8;
 inline constexpr double kMedianWindow_deg = 10;
 
+// Phrases of the small print below every figure of a request: band, aspect, antennas, contributions and sea where they
+// are not the usual ones, solver, version.
+std::vector<std::string> sweep_notes(const RcsRequest& request);
+// Of the solver and what follows it alone.
+std::vector<std::string> solver_notes(const RcsRequest& request);
+
 // hh and vv of the last model over the longest axis of the sweep (azimuth, else frequency, else elevation), a panel for
 // each of at most four other values, evenly chosen; over azimuths of a sector of four windows and more also their
-// medians in a window of kMedianWindow_deg. No panels below kFewestDrawn values.
-PlotPanels level_plots(const RcsSweep& sweep);
+// medians in a window of kMedianWindow_deg. No panels below kFewestDrawn values. Polar:
+// over azimuth about the target, else none.
+PlotPanels level_plots(const RcsSweep& sweep, bool polar = false);
 
 // The narrowest lobe over azimuth against the step: a sentence with the step that has two values per lobe, if the step
 // of a sweep is wider than the lobe. Two scatterers D apart across the line of sight differ by the two-way phase 2 k D

@@ -223,18 +223,10 @@ LinePlot plot_of(const RcsSweep& sweep, const Cut& cut, std::size_t element) {
 
 }  // namespace
 
-bool draw_uncertainty(const RcsSweep& sweep, const std::string& title, const std::filesystem::path& file) {
+PlotPanels uncertainty_plots(const RcsSweep& sweep) {
   const std::optional<Cut> cut = cut_of(sweep);
-  if (!cut) return false;
-  write_figure(
-      {
-          .plots = {plot_of(sweep, *cut, 0), plot_of(sweep, *cut, 1)},
-          .columns = 2,
-          .size = {1500, 480},
-          .title = title,
-      },
-      file);
-  return true;
+  if (!cut) return {};
+  return {.plots = {plot_of(sweep, *cut, 0), plot_of(sweep, *cut, 1)}, .columns = 2, .size = {1500, 480}};
 }
 
 namespace {

@@ -4,13 +4,13 @@
 // How sure the echo of a view is: from its own trace, by halving the smallest patch, by changes of the mesh.
 
 #include <array>
-#include <filesystem>
 #include <functional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "sim/core/process/parallel.h"
+#include "tools/figure/figure.h"
 #include "tools/rcs/rcs_request.h"
 #include "tools/rcs/rcs_target.h"
 #include "tools/rcs/rcs_views.h"
@@ -48,9 +48,9 @@ std::vector<std::string> uncertainty_warnings(const RcsSweep& sweep, std::span<c
 std::string uncertainty_header();
 std::string uncertainty_cells(const RcsSweep& sweep, std::size_t view, std::size_t frequency);
 
-// Draws hh and vv along the only axis of the sweep that has several values, at the frequency of the estimates if that
-// is not the axis, as a band between flat facets and smooth surfaces. False where several axes vary, or none.
-bool draw_uncertainty(const RcsSweep& sweep, const std::string& title, const std::filesystem::path& file);
+// hh and vv along the only axis of the sweep that has several values, at the frequency of the estimates if that is not
+// the axis, as a band between flat facets and smooth surfaces. No panels where several axes vary, or none.
+PlotPanels uncertainty_plots(const RcsSweep& sweep);
 
 // A sweep whose smallest patch, or distance between rays, is halved until its levels no longer change.
 

@@ -138,14 +138,12 @@ TEST_F(UncertainCylinder, HasTheEchoOfFlatFacetsAfterThePromisedColumns) {
 
 TEST_F(UncertainCylinder, IsDrawn) {
   const RcsSweep sweep = compute_rcs(request_, prepare_rcs_target(request_), 1).sweep;
-  EXPECT_TRUE(draw_uncertainty(sweep, "cylinder", folder_ / "azimuth.svg"));
+  write_figure(uncertainty_plots(sweep), folder_ / "azimuth.svg");
   EXPECT_THAT(read_file(folder_ / "azimuth.svg"), HasSubstr("to flat facets"));
   request_.azimuth_deg = {20};
-  EXPECT_TRUE(draw_uncertainty(compute_rcs(request_, prepare_rcs_target(request_), 1).sweep, "cylinder",
-                               folder_ / "frequency.svg"));
+  EXPECT_EQ(uncertainty_plots(compute_rcs(request_, prepare_rcs_target(request_), 1).sweep).plots.size(), 2u);
   request_.frequency_hz = {10e9};
-  EXPECT_FALSE(
-      draw_uncertainty(compute_rcs(request_, prepare_rcs_target(request_), 1).sweep, "cylinder", folder_ / "none.svg"));
+  EXPECT_TRUE(uncertainty_plots(compute_rcs(request_, prepare_rcs_target(request_), 1).sweep).plots.empty());
 }
 
 TEST_F(UncertainCylinder, IsRefusedWhereAllFacetsAreFlat) {
