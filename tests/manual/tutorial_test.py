@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""tutorial_test.py SEAGLINT SOURCE TUTORIAL...: runs tutorials as they stand, each in an empty folder, with the program on PATH and tools/slurm
-below the folder."""
+"""tutorial_test.py SEAGLINT SOURCE TUTORIAL...: runs tutorials as they stand, each in an empty folder, with the program on PATH, the Python package
+beside it and tools/slurm below the folder. Exit code 77: scripts were left out for lack of a package of Debian."""
 import os
 import pathlib
 import sys
@@ -15,14 +15,20 @@ def main(seaglint, source, *names):
     sys.path.insert(0, str(source / "tools/python"))
     import tutorial
     check_patterns(tutorial)
-    environment = dict(os.environ, PATH=f"{pathlib.Path(seaglint).resolve().parent}:{os.environ['PATH']}")
+    build = pathlib.Path(seaglint).resolve().parent
+    sys.path.insert(0, str(build / "python"))
+    environment = dict(os.environ, PATH=f"{build}:/usr/bin:{os.environ['PATH']}", PYTHONPATH=str(build / "python"), PYTHONDONTWRITEBYTECODE="1")
+    lacking = set()
     for name in names:
         with tempfile.TemporaryDirectory(dir=os.environ.get("SEAGLINT_TUTORIAL_FOLDER")) as folder:
             folder = pathlib.Path(folder)
             folder.chmod(0o755)
             (folder / "tools").mkdir()
             (folder / "tools/slurm").symlink_to(source / "tools/slurm")
-            tutorial.run(source / f"tools/tutorials/{name}.md", source, folder, environment)
+            lacking |= tutorial.run(source / f"tools/tutorials/{name}.md", source, folder, environment)
+    if lacking:
+        print(f"skipped: no modules {', '.join(sorted(lacking))} (packages python3-NAME)")
+        sys.exit(77)
 
 
 def check_patterns(tutorial):
@@ -40,6 +46,14 @@ def check_patterns(tutorial):
             except AssertionError:
                 continue
             raise SystemExit(f"{block!r} was not found to fail")
+        file.write_text("```python a.py\nimport os, no_such_module.x\n```\n```python b.py\nimport a\n```\n```console\n$ python3 b.py\n$ echo whole\nwhole\n```\n", encoding="utf-8")
+        assert tutorial.run(file, None, pathlib.Path(folder), os.environ) == {"no_such_module"}
+        file.write_text("```python a.py\nfor\n```\n", encoding="utf-8")
+        try:
+            tutorial.run(file, None, pathlib.Path(folder), os.environ)
+        except SyntaxError:
+            return
+        raise SystemExit("a script that is no Python was not found")
 
 
 main(*sys.argv[1:])

@@ -183,7 +183,7 @@ def columns_by_hdf5(data):
     parts = []
     for shard in data.manifest["shards"]:
         with h5py.File(data.folder / shard["file"]) as file:
-            parts.append({name: array[...] for name, array in file["samples"].items()})
+            parts.append({name: array[...] for name, array in [*file["samples"].items(), *file.get("drawn", {}).items()]})
     columns = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
     return {name: np.char.decode(values, "utf-8") if values.dtype.kind == "S" else values for name, values in columns.items()}
 
@@ -211,6 +211,16 @@ def test_columns_are_those_that_hdf5_reads(data_set, tmp_path):
     columns = seaglint.Dataset(copy).columns
     assert_equal_columns(columns, columns_by_hdf5(seaglint.Dataset(copy)))
     assert np.array_equal(columns["sample"][14:21], np.arange(20, 13, -1))
+
+
+def test_drawn_keys_are_columns(tmp_path):
+    made = program("generate", "points.yaml", "-o", tmp_path / "set", "--set", "dataset.maps_per_shard=7", "--set", "clutter.scr_db=uniform(5 20)",
+                   "--set", "radar.hop_code=choice(random, balanced)")
+    assert made.returncode == 0, made.stderr
+    data = seaglint.Dataset(tmp_path / "set")
+    assert_equal_columns(data.columns, columns_by_hdf5(data))
+    assert np.allclose(data.columns["clutter.scr_db"], data.columns["scr_per_pulse_db"], atol=1e-9)
+    assert sorted([*data.where(**{"radar.hop_code": "random"}), *data.where(**{"radar.hop_code": "balanced"})]) == list(range(40))
 
 
 @pytest.mark.parametrize("number", [0, 1, 5])

@@ -17,10 +17,14 @@
 
 #include "classify/dataset/directory/dataset_writer.h"
 #include "classify/dataset/format/hdf5_file.h"
+#include "radar/echo/echo.h"
 #include "radar/rvmap/rv_map.h"
+#include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/printable.h"
+#include "sim/scattering/geometry/look_basis.h"
 #include "sim/scenario/scenario.h"
+#include "sim/sea/realisation.h"
 #include "tools/pipeline/warnings.h"
 
 namespace seaglint {
@@ -454,6 +458,70 @@ std::string motion_lines(const Pipeline& pipeline) {
   return text;
 }
 
+double hundredths(double value) { return std::round(100 * value) / 100 + 0.0; }  // no negative zero
+
+// Level, texture and velocity of the clutter and level of the noise, of the first view in the highest waves, with drawn
+// keys at the middles of their distributions.
+std::string clutter_line(const Pipeline& pipeline) {
+  const Scenario& scenario = pipeline.scenario();
+  const ClutterSpec& spec = scenario.clutter;
+  const std::vector<SeaState>& states = pipeline.plan().sea_states();
+  const auto highest = std::ranges::max_element(states, {}, total_wave_height);
+  const View& view = pipeline.plan().views().front();
+  const PulseTrain train = pipeline.nominal_train();
+  const double height_m = total_wave_height(*highest);
+  ClutterScene scene{.radar = scenario.radar,
+                     .r_hat = direction_to_radar(view.azimuth_rad, view.elevation_rad),
+                     .significant_wave_height_m = height_m};
+  constexpr const char* kRatios[] = {"per pulse", "in the map's peak cell", "within the target's extent in the map"};
+  constexpr const char* kPolarisations[] = {"hh", "hv", "vh", "vv"};
+
+  const auto against = [](double ratio_db) {
+    return fmt::format("{:g} dB {}", std::abs(ratio_db), ratio_db < 0 ? "above" : "below");
+  };
+  std::string text;
+  if (spec.enabled) {
+    if (spec.level == ClutterLevel::kScr) {
+      text = against(spec.scr_db) + " the target " + kRatios[static_cast<std::size_t>(spec.scr_definition)];
+    } else {
+      const double state = spec.sea_state.value_or(douglas_sea_state(height_m));
+      const double sigma0_db =
+          nrl_reflectivity_db(scenario.radar.polarisation, view.elevation_rad, train.band_centre_hz(), state);
+      const double extent_m = train.unambiguous_range_m(),
+                   area_m2 = clutter_patch_area_m2(scenario.radar, view.elevation_rad, extent_m);
+      text = fmt::format(
+          "sigma0 {:.2f} dB ({}, elevation {:g} deg, Douglas sea state {:.2f}) on {:.4g} m x {:.4g} m: mean |Y|^2 "
+          "{:.4g} m^2",
+          sigma0_db, kPolarisations[static_cast<std::size_t>(scenario.radar.polarisation)], view.elevation_deg, state,
+          extent_m, area_m2 / extent_m, std::pow(10, sigma0_db / 10) * area_m2 / (4 * kPi));
+    }
+    VelocityMoments moments;
+    if (spec.doppler != ClutterDoppler::kPrescribed) {
+      const WaveField waves =
+          realise_sea(*highest, scenario.seed, sea_key(static_cast<std::size_t>(highest - states.begin()), 0));
+      scene.waves = &waves;
+      moments = clutter_velocity_moments(spec, scene, kSpeedOfLight / train.band_centre_hz());
+    }
+    text += fmt::format(
+        "; texture of shape {:.3g}; velocity {:g} m/s, spread {:g} m/s{}", spec.texture_shape,
+        hundredths(spec.doppler_mean_mps + moments.mean_mps),
+        hundredths(std::hypot(spec.doppler_spread_mps, platform_doppler_spread_mps(scene), moments.spread_mps)),
+        spec.doppler == ClutterDoppler::kPrescribed
+            ? " in any sea"
+            : fmt::format(" at Hs {:.3g} m, azimuth {:g} deg", height_m, view.azimuth_deg));
+  }
+  if (spec.noise_level == NoiseLevel::kCnr && !spec.enabled) return line("clutter", "none, and no noise");
+  if (text.empty()) text = "none";
+  switch (spec.noise_level) {
+    case NoiseLevel::kCnr: text += "; noise " + against(spec.cnr_db) + " it"; break;
+    case NoiseLevel::kSnr: text += "; noise " + against(spec.snr_db) + " the target per pulse"; break;
+    case NoiseLevel::kThermal:
+      text += fmt::format("; thermal noise, mean |Y|^2 {:.3g} m^2", thermal_noise_m2(train, scenario.radar));
+      break;
+  }
+  return line("clutter", text);
+}
+
 }  // namespace
 
 double stored_bytes(const Pipeline& pipeline) {
@@ -512,7 +580,8 @@ std::string scenario_summary(const Pipeline& pipeline, const WorkEstimate& work,
                                          duration_text(work.processor_s / together), threads, threads == 1 ? "" : "s")
                            : "";
   return sea_line(scenario, pipeline.plan()) + key_lines(scenario, false) + key_lines(scenario, true) +
-         motion_lines(pipeline) + line("work", fmt::format("{}{} of maps", time, size_text(work.bytes)));
+         motion_lines(pipeline) + clutter_line(pipeline) +
+         line("work", fmt::format("{}{} of maps", time, size_text(work.bytes)));
 }
 
 }  // namespace seaglint

@@ -59,8 +59,8 @@ WorkEstimate estimate_work(const Pipeline& pipeline, const TrialLimit& limit = {
 // Size of the shards, bytes.
 double stored_bytes(const Pipeline& pipeline);
 
-// Lines "seas ...", "swept ...", "drawn ...", "moves ..." and "work ...", the last on this number of threads; without
-// the time if a map cannot be made.
+// Lines "seas ...", "swept ...", "drawn ...", "moves ...", "clutter ..." and "work ...", the last on this number of
+// threads; without the time if a map cannot be made.
 std::string scenario_summary(const Pipeline& pipeline, const WorkEstimate& work, int threads);
 
 }  // namespace seaglint

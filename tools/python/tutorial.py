@@ -4,9 +4,12 @@
 A block ```console has commands behind `$ ` with what they print; `...` stands for any text, or, alone on a line, for any
 lines, none included. A line `[exit code N]` ends the output of a command that fails. A block ```yaml NAME is the file
 NAME; a comment <!-- copy FILE... --> copies files of the source tree. Standard output and standard error are checked
-together, in the order of lines within each.
+together, in the order of lines within each. A script ```python NAME.py is compiled; commands that run it are left out where
+a module that it imports is not installed.
 """
+import ast
 import dataclasses
+import importlib.util
 import pathlib
 import re
 import shutil
@@ -60,15 +63,35 @@ def as_printed(lines, printed):
     return pattern([line.rstrip() for line in lines]).fullmatch(text) is not None
 
 
+def missing_modules(script, folder, scripts):
+    """Modules that a script imports, itself or by an earlier one of `scripts`, and that are not installed."""
+    missing = set()
+    for node in ast.walk(ast.parse((folder / script).read_text(encoding="utf-8"), script)):
+        names = [alias.name for alias in node.names] if isinstance(node, ast.Import) else [node.module] if isinstance(node, ast.ImportFrom) else []
+        for name in (name.split(".")[0] for name in names):
+            if f"{name}.py" in scripts:
+                missing |= scripts[f"{name}.py"]
+            elif importlib.util.find_spec(name) is None:
+                missing.add(name)
+    return missing
+
+
 def run(tutorial, source, folder, environment):
-    """Runs a tutorial in an empty folder; raises AssertionError with file, line, and both outputs."""
+    """Runs a tutorial in an empty folder; returns the modules for lack of which commands were left out. Raises AssertionError
+    with file, line, and both outputs, SyntaxError of a script. `environment` has the search path of this process's modules."""
+    scripts, lacking = {}, set()  # name -> missing modules; of scripts that commands would have run
     for step in steps(tutorial.read_text(encoding="utf-8")):
         where = f"{tutorial.name}:{step.line}"
         if step.kind == "file":
             (folder / step.name).write_text("\n".join(step.lines) + "\n", encoding="utf-8")
+            if step.name.endswith(".py"):
+                scripts[step.name] = missing_modules(step.name, folder, scripts)
         elif step.kind == "copy":
             for name in step.name.split():
                 shutil.copy(source / name, folder / pathlib.Path(name).name)
+        elif missing := set().union(*(scripts.get(word, ()) for word in step.name.split())):
+            print(f"{where}: {step.name}: left out without {', '.join(sorted(missing))}", flush=True)
+            lacking |= missing
         else:
             print(f"{where}: {step.name}", flush=True)
             result = subprocess.run(["bash", "-c", step.name], cwd=folder, env=environment, capture_output=True, text=True, stdin=subprocess.DEVNULL)
@@ -76,3 +99,4 @@ def run(tutorial, source, folder, environment):
             outputs = (result.stdout, result.stderr, result.stdout + result.stderr, result.stderr + result.stdout)
             assert any(as_printed(step.lines, printed) for printed in outputs), (
                 f"{where}: {step.name}\nexpected\n" + "\n".join(step.lines) + f"\nprinted\n{result.stdout}\non standard error\n{result.stderr}")
+    return lacking

@@ -420,7 +420,43 @@ dataset: {maps_per_case: 24, realisations_per_case: 4, maps_per_interval: 2, int
       "                    view.elevation_deg uniform(1, 5), once per observation\n"
       "moves               still: does not move: targets.still.motion.model is fixed\n"
       "                    pair: 2 points with velocities of their own in any sea\n"
+      "clutter             20 dB below the target per pulse; texture of shape 2; velocity 0 m/s, spread 0.5 m/s in any "
+      "sea; noise 30 dB below it\n"
       "work                about 2 h of processor, 30 min on 4 threads, 3.2 MB of maps\n");
+}
+
+TEST(ScenarioSummary, HasTheMeanPowerOfClutterAndNoiseThatEchoesHave) {
+  const Pipeline pipeline(parse_scenario(R"(
+seaglint: 1
+radar: {pulses: 16}
+view: {azimuth_deg: 0, elevation_deg: 3}
+sea: {significant_wave_height_m: 1.5, peak_period_s: 7, propagation_deg: 0, components: 64}
+targets:
+  buoy: {label: 0, points: [{position_m: [0, 0, 0]}]}
+  pair: {label: 1, points: [{position_m: [9, 0, 0]}, {position_m: [-9, 0, 0]}]}
+clutter: {level: nrl, noise_level: thermal, doppler: sea_state, texture_shape: 1000}
+dataset: {maps_per_case: 40, realisations_per_case: 40}
+)",
+                                         "level.yaml"));
+  const std::string text = scenario_summary(pipeline, {}, 1);
+  const auto number_after = [&](const std::string& words) {
+    return std::stod(text.substr(text.find(words) + words.size()));
+  };
+  double clutter = 0, noise = 0;
+  const std::size_t samples = pipeline.plan().size();
+  for (std::size_t i = 0; i < samples; ++i) {
+    const PulseTrain train = pipeline.pulse_train(i);
+    const SampleAddress at = pipeline.plan().address(i);
+    const Echo echo = pipeline.echo(i, train, pipeline.response(at, train), pipeline.scenario().clutter);
+    clutter += mean_power(echo.clutter) / static_cast<double>(samples);
+    noise += mean_power(echo.noise) / static_cast<double>(samples);
+  }
+  // Speckle of 528 scatterers in 80 maps: 0.5 %; the mean of |P|^2 over the band is 1 within 1 %.
+  EXPECT_HAS(text, "(vv, elevation 3 deg, Douglas sea state 3.70) on 197.9 m x 39");
+  EXPECT_NEAR(number_after(": mean |Y|^2 ") / clutter, 1, 0.03);
+  EXPECT_NEAR(number_after("thermal noise, mean |Y|^2 ") / noise, 1, 0.02);
+  EXPECT_HAS(text, "; velocity -");
+  EXPECT_HAS(text, " at Hs 1.5 m, azimuth 0 deg; ");
 }
 
 }  // namespace

@@ -45,6 +45,11 @@ def fletcher32(blocks: NDArray[np.uint8]) -> NDArray[np.uint64]:
     return second << 16 | first
 
 
+def _arrays(data):
+    """For the columns and for the drawn keys, which lie apart in a shard: [(name, array)]."""
+    return [list(group.items()) for group in (data["samples"], data.get("drawn", {})) if len(group) > 0]
+
+
 class _Content:
     """The bytes of a file; a slice of them is read when it is asked for."""
 
@@ -64,37 +69,42 @@ class _Structure:
 
         arrays = []
         data.visititems(lambda _, item: arrays.append(item) if isinstance(item, h5py.Dataset) else None)
-        self._columns = {}  # name: (begin, end without the checksum, type)
+        self._columns = {}  # name: (begin, end without the checksum, type), in the bytes of the ranges one after another
+        self._ranges = []
         self._known = all(array.chunks for array in arrays)  # whether all is stored as the program does
         if not self._known:
             return
         self._size = content.size
         self._parts = [(begin, end, content[begin:end]) for begin, end in _complement([chunk for array in arrays for chunk in _chunks(array)], self._size)]
-        for name, array in data["samples"].items():
-            chunks = list(_chunks(array))
-            checked = array.fletcher32 and array.id.get_create_plist().get_nfilters() == 1 and array.nbytes % 2 == 0
-            if not checked or len(chunks) != 1 or array.chunks != array.shape or chunks[0][1] - chunks[0][0] != array.nbytes + 4:
-                self._known = False
-                return
-            self._columns[name] = (chunks[0][0], chunks[0][1] - 4, array.dtype)
-        self._first = min(begin for begin, _, _ in self._columns.values())
-        self._last = max(end for _, end, _ in self._columns.values()) + 4
+        for group in _arrays(data):
+            places = {}
+            for name, array in group:
+                chunks = list(_chunks(array))
+                checked = array.fletcher32 and array.id.get_create_plist().get_nfilters() == 1 and array.nbytes % 2 == 0
+                if not checked or len(chunks) != 1 or array.chunks != array.shape or chunks[0][1] - chunks[0][0] != array.nbytes + 4:
+                    self._known = False
+                    return
+                places[name] = (*chunks[0], array.dtype)
+            first = min(begin for begin, _, _ in places.values())
+            before = sum(end - begin for begin, end in self._ranges)
+            self._columns |= {name: (before + begin - first, before + end - 4 - first, dtype) for name, (begin, end, dtype) in places.items()}
+            self._ranges.append((first, max(end for _, end, _ in places.values())))
 
     def is_of(self, content):
         return self._known and content.size == self._size and all(content[begin:end] == part for begin, end, part in self._parts)
 
     def bytes_of_columns(self, content):
-        return content[self._first:self._last]
+        return b"".join(content[begin:end] for begin, end in self._ranges)
 
     def values(self, files, bytes_of_columns):
         """The columns of some files of this structure."""
         rows = np.frombuffer(b"".join(bytes_of_columns), np.uint8).reshape(len(files), -1)
         columns = {}
         for name, (begin, end, dtype) in self._columns.items():
-            values = np.ascontiguousarray(rows[:, begin - self._first:end - self._first])
-            stored = np.ascontiguousarray(rows[:, end - self._first:end - self._first + 4]).view("<u4")[:, 0]
+            values = np.ascontiguousarray(rows[:, begin:end])
+            stored = np.ascontiguousarray(rows[:, end:end + 4]).view("<u4")[:, 0]
             for k in np.flatnonzero(fletcher32(values) != stored):
-                raise InputError(f"{files[k]}: samples/{name}: the values do not have their checksum")
+                raise InputError(f"{files[k]}: {name}: the values do not have their checksum")
             columns[name] = values.view(dtype).reshape(-1)
         return columns
 
@@ -104,7 +114,7 @@ def _read_by_hdf5(file, content):
 
     try:
         with h5py.File(file) as data:
-            return {name: array[...] for name, array in data["samples"].items()}, _Structure(data, content)
+            return {name: array[...] for group in _arrays(data) for name, array in group}, _Structure(data, content)
     except (OSError, KeyError, RuntimeError) as error:
         raise InputError(f"{file}: not a shard: {error}") from None
 

@@ -110,7 +110,8 @@ class Dataset:
 
     @property
     def columns(self) -> dict[str, NDArray]:
-        """{name: array over the samples}: label, target_name, azimuth_deg, features, ...; units in manifest["columns"]."""
+        """{name: array over the samples}: label, target_name, azimuth_deg, features, ... (units in manifest["columns"]), and
+        the drawn keys by their paths, "sea.peak_period_s"."""
         if self._columns is None:
             self._require_open()
             self._columns = read_columns(self._files)
