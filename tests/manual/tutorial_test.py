@@ -15,9 +15,7 @@ def main(seaglint, source, *names):
     sys.path.insert(0, str(source / "tools/python"))
     import tutorial
     check_patterns(tutorial)
-    build = pathlib.Path(seaglint).resolve().parent
-    sys.path.insert(0, str(build / "python"))
-    environment = dict(os.environ, PATH=f"{build}:/usr/bin:{os.environ['PATH']}", PYTHONPATH=str(build / "python"), PYTHONDONTWRITEBYTECODE="1")
+    environment = tutorial.environment_with(pathlib.Path(seaglint).resolve())
     lacking = set()
     for name in names:
         with tempfile.TemporaryDirectory(dir=os.environ.get("SEAGLINT_TUTORIAL_FOLDER")) as folder:

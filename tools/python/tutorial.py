@@ -10,10 +10,13 @@ a module that it imports is not installed.
 import ast
 import dataclasses
 import importlib.util
+import os
 import pathlib
 import re
 import shutil
 import subprocess
+import sys
+import time
 
 
 @dataclasses.dataclass
@@ -76,9 +79,24 @@ def missing_modules(script, folder, scripts):
     return missing
 
 
-def run(tutorial, source, folder, environment):
+def environment_with(program):
+    """The environment of commands that find a program and the Python package beside it, which this process then finds, too."""
+    python = str(program.parent / "python")
+    sys.path.insert(0, python)
+    return dict(os.environ, PATH=f"{program.parent}:/usr/bin:{os.environ['PATH']}", PYTHONPATH=python, PYTHONDONTWRITEBYTECODE="1")
+
+
+def pictures(tutorial, folder):
+    """The pictures of a tutorial that its commands have written: (file in the source tree, file in the folder)."""
+    names = re.findall(r"!\[[^]]*\]\(([^)]+)\)", tutorial.read_text(encoding="utf-8"))
+    files = [(tutorial.parent / name).resolve() for name in names]
+    return [(file, folder / file.name) for file in files if (folder / file.name).exists()]
+
+
+def run(tutorial, source, folder, environment, seconds=None):
     """Runs a tutorial in an empty folder; returns the modules for lack of which commands were left out. Raises AssertionError
-    with file, line, and both outputs, SyntaxError of a script. `environment` has the search path of this process's modules."""
+    with file, line, and both outputs, SyntaxError of a script. `environment` has the search path of this process's modules. `seconds`, if given, gets
+    those of every command, by its line."""
     scripts, lacking = {}, set()  # name -> missing modules; of scripts that commands would have run
     for step in steps(tutorial.read_text(encoding="utf-8")):
         where = f"{tutorial.name}:{step.line}"
@@ -94,7 +112,10 @@ def run(tutorial, source, folder, environment):
             lacking |= missing
         else:
             print(f"{where}: {step.name}", flush=True)
+            start = time.monotonic()
             result = subprocess.run(["bash", "-c", step.name], cwd=folder, env=environment, capture_output=True, text=True, stdin=subprocess.DEVNULL)
+            if seconds is not None:
+                seconds[step.line] = time.monotonic() - start
             assert result.returncode == step.code, f"{where}: {step.name}\nexit code {result.returncode} in place of {step.code}\n{result.stdout}{result.stderr}"
             outputs = (result.stdout, result.stderr, result.stdout + result.stderr, result.stderr + result.stdout)
             assert any(as_printed(step.lines, printed) for printed in outputs), (
