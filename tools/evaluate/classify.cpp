@@ -343,7 +343,7 @@ std::string sample_text(const SavedModel& model, const Classified& maps) {
     text += fmt::format("  {}\n", decided(model.card, applied.outputs(i, 0)));
   }
   text += fmt::format("\n  {:<28}{:>12}{:>24}", "quantity", "value", "training range");
-  for (const std::string& name : model.card.classes) text += fmt::format("{:>32}", name + ", 5 / 50 / 95 %");
+  for (const std::string& name : model.card.classes) text += fmt::format("{:>38}", name + ", 5 / 50 / 95 %");
   text += "\n";
   const auto add = [&](const ValueRange& range) {
     const bool known = maps.has(range.name);
@@ -351,7 +351,7 @@ std::string sample_text(const SavedModel& model, const Classified& maps) {
     text += fmt::format("  {:<28}{:>12}{:>24}", range.name, known ? digits(value) : "not given",
                         fmt::format("{} to {}", digits(range.lowest), digits(range.highest)));
     for (const ClassQuantiles& q : range.by_label)
-      text += fmt::format("{:>32}", fmt::format("{} / {} / {}", digits(q[0]), digits(q[1]), digits(q[2])));
+      text += fmt::format("{:>38}", fmt::format("{} / {} / {}", digits(q[0]), digits(q[1]), digits(q[2])));
     text += known && range.excludes(value) ? "  outside\n" : "\n";
   };
   for (const ValueRange& range : model.card.feature_ranges) add(range);

@@ -3,7 +3,7 @@
 
 A block ```console has commands behind `$ ` with what they print; `...` stands for any text, or, alone on a line, for any
 lines, none included. A line `[exit code N]` ends the output of a command that fails. A block ```yaml NAME is the file
-NAME; a comment <!-- copy FILE... --> copies files of the source tree. Standard output and standard error are checked
+NAME; a comment <!-- copy FILE... --> copies files of the source tree (names with spaces in quotes). Standard output and standard error are checked
 together, in the order of lines within each. A script ```python NAME.py is compiled; commands that run it are left out where
 a module that it imports is not installed.
 """
@@ -13,6 +13,7 @@ import importlib.util
 import os
 import pathlib
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -105,7 +106,7 @@ def run(tutorial, source, folder, environment, seconds=None):
             if step.name.endswith(".py"):
                 scripts[step.name] = missing_modules(step.name, folder, scripts)
         elif step.kind == "copy":
-            for name in step.name.split():
+            for name in shlex.split(step.name):
                 shutil.copy(source / name, folder / pathlib.Path(name).name)
         elif missing := set().union(*(scripts.get(word, ()) for word in step.name.split())):
             print(f"{where}: {step.name}: left out without {', '.join(sorted(missing))}", flush=True)
