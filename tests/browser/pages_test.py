@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""pages_test.py SEAGLINT SOURCE: the report of a small run and a comparison in headless Chromium, from files and without a
+"""pages_test.py SEAGLINT SOURCE: the report of a small run, a comparison and hot spots in headless Chromium, from files and without a
 network, by what they show after clicks and keys. Exit code 77: a package of Debian is missing."""
 import pathlib
 import subprocess
@@ -117,6 +117,46 @@ learning: {{epochs: 1}}
         assert not errors, errors
 
 
+def check_hot_spot_page(seaglint, source, folder):
+    """The page of one aspect: what a keyboard chooses and turns, in a narrow window and on paper."""
+    import json
+    from selenium.webdriver.common.by import By
+    from selenium.webdriver.common.keys import Keys
+    page = folder / "spots.html"
+    subprocess.run([seaglint, "rcs", "--target", f"{source}/assets/icosahedral_reflector.glb", "--frequency-ghz", "16", "--azimuth-deg", "30", "--elevation-deg", "3", "-o", folder / "spots.csv",
+                    "--export-hot-spots", page], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    assert page.stat().st_size < 5e6
+    with browser() as driver:
+        driver.get(page.as_uri())
+        find = lambda css: driver.find_elements(By.CSS_SELECTOR, css)
+        plot = lambda name: (find("#hot-spots [data-shown]") or [find("body")[0]])[0].get_attribute("data-" + name)
+        wait(lambda: plot("shown") == "0,0,0", "the largest of the elements")
+        centres = json.loads(plot("centres"))
+        assert len(centres) == 5 and centres[0][:2] == ["cell_03", 3] and abs(centres[0][2] - 21.0) < 0.3, centres
+        scene = lambda: driver.execute_script("const p = document.querySelector('#hot-spots .js-plotly-plot'); return [p.layout.scene.camera.eye, p.layout.scene.annotations, p.data.map((t) => t.name)]")
+        wait(lambda: len(scene()[1]) == 5, "names of the five strongest")
+        eye, names, traces = scene()
+        direction = [(12 * v) for v in (0.864832, 0.499312, 0.052336)]  # of azimuth 30 deg, elevation 3 deg
+        assert all(abs(eye[c] - v) < 1e-3 for c, v in zip("xyz", direction)), eye
+        assert any("cell_03" in name["text"] and "3 bounces, 21.0 dBsm" in name["text"] for name in names), names
+        assert traces[1:4] == ["reflections", "edge diffraction", "z = 0"], traces
+        # No name covers another.
+        boxes = sorted([b["x"], b["x"] + b["width"]] for b in driver.execute_script("return [...document.querySelectorAll('#hot-spots .annotation-text-g .bg')].map((e) => e.getBoundingClientRect().toJSON())"))
+        assert len(boxes) == 5 and all(a[1] <= b[0] + 1 for a, b in zip(boxes, boxes[1:])), boxes
+        find("#hot-spot-element")[0].send_keys(Keys.ARROW_DOWN)
+        wait(lambda: plot("shown") == "0,0,1", "hh")
+        find("#hot-spot-azimuth")[0].send_keys(Keys.ARROW_RIGHT)
+        wait(lambda: scene()[0]["y"] > direction[1] + 0.05, "turned by a key")
+        find("#hot-spot-radar")[0].send_keys(Keys.ENTER)
+        wait(lambda: abs(scene()[0]["y"] - direction[1]) < 1e-3, "seen from the radar again")
+        driver.set_window_size(500, 1200)
+        time.sleep(0.5)
+        assert driver.execute_script("return document.documentElement.scrollWidth <= document.documentElement.clientWidth"), "nothing is wider than a narrow window"
+        driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
+        assert [e.is_displayed() for e in find(".static img")] == [True] and not any(e.is_displayed() for e in find(".interactive")), "paper has the picture"
+        assert not [entry for entry in driver.get_log("browser") if entry["level"] == "SEVERE"]
+
+
 def check_without_scripts(page):
     from selenium.webdriver.common.by import By
     with browser(("prefs", {"profile.managed_default_content_settings.javascript": 2})) as driver:
@@ -200,6 +240,7 @@ def main(seaglint, source, picture=None):
         check_comparison(seaglint, source, pathlib.Path(folder))
         check_choices(seaglint, source, pathlib.Path(folder))
         check_hot_spots(seaglint, source, pathlib.Path(folder))
+        check_hot_spot_page(seaglint, source, pathlib.Path(folder))
     return 0
 
 

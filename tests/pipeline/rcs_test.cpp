@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -246,7 +247,54 @@ TEST_F(RcsCommand, ExportsSelectedCentresAndHotSpotsOfOneAspect) {
           "--export-dynamic-range-db requires --export-scattering-centres or --export-hot-spots");
   refused({"--export-scattering-centres", centres, "--elevation-deg", "0:1:1"},
           "one frequency, azimuth and elevation; there are 2 rows");
-  refused({"--export-hot-spots", folder_.path() / "spots.stl"}, "colours need the ending .glb or .gltf");
+  refused({"--export-hot-spots", folder_.path() / "spots.stl"},
+          "spots.stl: hot spots need the ending .html (page), .png, .svg or .pdf (picture), .glb or .gltf (mesh)");
+  refused({"--export-hot-spots", folder_.path() / "rcs.csv"}, "would be written twice");
+}
+
+// The scattering centres of a page are those of the table; the picture may have the name of the table.
+TEST_F(RcsCommand, ShowsHotSpotsAsAPageAndAsAPicture) {
+  const std::string centres = folder_.path() / "centres.csv", page = folder_.path() / "spots.html",
+                    picture = folder_.path() / "rcs.png";
+  const auto reflector = [&](Words more) {
+    return completed({"rcs", "--target", "assets/icosahedral_reflector.glb", "-o", table(), "--frequency-ghz", "16",
+                      "--azimuth-deg", "30", "--elevation-deg", "3", "--centre-cell-m", "0.05"},
+                     more);
+  };
+  const ProgramResult result = reflector({"--export-scattering-centres", centres, "--export-hot-spots", page});
+  EXPECT_HAS(result.out, "spots.html: page of the hot spots, the strongest cell_03, 3 bounces, ");
+  const std::string html = read_file(page);
+  EXPECT_LT(html.size(), 5'000'000u);
+  EXPECT_HAS(html, "<h1>icosahedral_reflector.glb: hot spots</h1>");
+  EXPECT_HAS(html, "16 GHz, azimuth 30 deg, elevation 3 deg. The whole echo: hh ");
+  EXPECT_HAS(html, "cells of 0.05 m");
+  const std::string before = "<div id=\"hot-spots\"><script type=\"application/json\">";
+  const std::size_t from = html.find(before) + before.size();
+  const auto json = nlohmann::json::parse(html.substr(from, html.find("</script>", from) - from));
+  const auto& target = json.at("targets").at(0);
+  const auto& view = target.at("views").at(0);
+  EXPECT_EQ(view.at("azimuth_deg"), 30);
+  std::istringstream lines(read_file(centres));
+  std::string line;
+  while (std::getline(lines, line) && line.starts_with("#")) continue;
+  const auto number = [](const nlohmann::json& value) { return value.get<double>(); };
+  for (std::size_t i = 0; i < 5; ++i) {
+    ASSERT_TRUE(std::getline(lines, line));
+    std::vector<std::string> cells;
+    std::istringstream row(line);
+    for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);
+    ASSERT_EQ(cells.size(), 16u);
+    const auto& centre = view.at("centres").at(i);
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(number(centre[c]), std::stod(cells[c]), 6e-4);
+    EXPECT_NEAR(number(centre[6]), std::stod(cells[12]), 0.051) << "dBsm, one digit";
+    EXPECT_EQ(target.at("parts").at(centre[3].get<std::size_t>()), cells[13]);
+    EXPECT_EQ(std::to_string(centre[4].get<int>()), cells[14]);
+    // The same in the table of the page.
+    EXPECT_HAS(html, fmt::format("<td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{:.3f}</td>", i + 1, cells[13],
+                                 "physical optics", cells[14], std::stod(cells[0])));
+  }
+  EXPECT_HAS(reflector({"--export-hot-spots", picture}).out, "rcs.png: picture of the hot spots");
+  EXPECT_EQ(read_file(picture).substr(1, 3), "PNG");
 }
 
 TEST_F(RcsCommand, SweepsAReceiverAboutAFixedTransmitter) {

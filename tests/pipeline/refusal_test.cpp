@@ -271,7 +271,7 @@ TEST_F(InputErrors, OfAnEndingOfAnotherFormat) {
   expect_failures({{"regenerate", folder(), "--sample", "0", "-o", folder() / "sample"}},
                   "sample: NumPy's archives end in .npz");
   expect_failures({rcs({"-o", folder() / "rcs.csv", "--export-hot-spots", folder() / "spots.obj"})},
-                  "spots.obj: colours need the ending .glb or .gltf");
+                  "spots.obj: hot spots need the ending .html (page)");
 }
 
 // The shell's limit is in units of 1024 bytes; by default the system kills a program that exceeds it.

@@ -12,7 +12,6 @@
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/core/process/printable.h"
-#include "sim/geometry/files/mesh_io.h"
 #include "tools/cli/command_line.h"
 #include "tools/compare/cross_check.h"
 #include "tools/compare/differences.h"
@@ -20,6 +19,7 @@
 #include "tools/options/rcs_arguments.h"
 #include "tools/page/html.h"
 #include "tools/pipeline/warnings.h"
+#include "tools/rcs/hot_spots.h"
 #include "tools/rcs/rcs_figure.h"
 #include "tools/rcs/rcs_table.h"
 #include "tools/rcs/rcs_uncertainty.h"
@@ -80,12 +80,13 @@ bool is_figure_asked(const RcsArguments& arguments) {
   return arguments.reference.figure_given() || !arguments.reference.files.empty() || arguments.request.uncertainty;
 }
 
-// Levels are drawn beside a table that is a file, not a device.
+// Levels are drawn beside a table that is a file, not a device, except those of the one row of an export of a view.
 bool is_drawn(const RcsArguments& arguments) {
   std::error_code error;
   const std::filesystem::file_status output = std::filesystem::status(arguments.output, error);
   const bool is_file = !std::filesystem::exists(output) || std::filesystem::is_regular_file(output);
-  return arguments.reference.draws() && (is_figure_asked(arguments) || is_file);
+  return arguments.reference.draws() &&
+         (is_figure_asked(arguments) || (is_file && !arguments.request.exports.wanted()));
 }
 
 bool has_images(const RcsArguments& arguments) { return !arguments.isar.empty() || !arguments.profiles.empty(); }
@@ -116,7 +117,7 @@ void require_files(const RcsArguments& arguments) {
   require_outputs(outputs, inputs);
   require_figure(arguments.isar);
   require_figure(arguments.profiles);
-  if (!exports.hot_spots.empty()) require_coloured_mesh(exports.hot_spots);
+  if (!exports.hot_spots.empty()) require_hot_spots(exports.hot_spots);
 }
 
 // Draws the comparison; without references the uncertainty where it is asked for, else the levels. A figure that was
@@ -217,6 +218,7 @@ void run_rcs(const RcsArguments& arguments, const CommandContext& context) {
   warn(prepared.warnings);
   require_images(arguments, request, prepared.mesh);
   const RcsTarget target = select_echoes(request, std::move(prepared));
+  require_hot_spots(request.exports.hot_spots, target);
   if (const auto lobes = lobe_warning(request, target.prepared.mesh)) warn(std::array{*lobes});
   for (const NamedCavity& cavity : target.cavities) {
     print_error(fmt::format("cavity {}: aperture of {:.4g} m^2, walls of {:.4g} m^2, {} patches at {:.6g} GHz\n",
@@ -275,7 +277,8 @@ void add_rcs(CommandOptions& program, CommandContext& context) {
       "29.1:30.9:0.009 -o ship.csv --isar ship_isar.png --profiles ship_profiles.png");
   command.callback([arguments, command, &context] {
     command.require_any_of("--transmit-elevation-deg", {"--transmit-azimuth-deg"});
-    command.require_any_of("--centre-cell-m", {"--export-scattering-centres"});
+    if (!shows_centres(arguments->request.exports.hot_spots))
+      command.require_any_of("--centre-cell-m", {"--export-scattering-centres"});
     command.require_any_of("--export-dynamic-range-db", {"--export-scattering-centres", "--export-hot-spots"});
     command.require_any_of("--polarisation", {"--isar", "--profiles"});
     command.require_one_of({"--output", "--cross-check"});

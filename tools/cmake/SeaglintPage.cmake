@@ -8,7 +8,8 @@ set(page_files
   report_template=${CMAKE_SOURCE_DIR}/tools/report/report.html
   benchmark_template=${CMAKE_SOURCE_DIR}/tools/report/benchmark.html
   report_script=${CMAKE_SOURCE_DIR}/tools/report/report.js
-  hot_spots_script=${CMAKE_SOURCE_DIR}/tools/report/hot_spots.js
+  hot_spots_template=${CMAKE_SOURCE_DIR}/tools/rcs/hot_spots.html
+  hot_spots_script=${CMAKE_SOURCE_DIR}/tools/rcs/hot_spots.js
   comparison_template=${CMAKE_SOURCE_DIR}/tools/compare/comparison.html
   comparison_script=${CMAKE_SOURCE_DIR}/tools/compare/comparison.js)
 list(TRANSFORM page_files REPLACE "^[a-z_]+=" "" OUTPUT_VARIABLE page_inputs)

@@ -317,13 +317,6 @@ std::string text_of(const PairedCut::Place& p) {
 // "part hull contributes most (2 bounces, physical optics)", where at least half of the worst places share that; else
 // empty.
 std::string common_contribution(const ElementStatistics& s) {
-  constexpr std::array<const char*, kMechanismNames.size()> kWords{"physical optics",
-                                                                   "single edge diffraction",
-                                                                   "multiple edge diffraction",
-                                                                   "edge diffraction via reflections",
-                                                                   "shadow boundary of an edge",
-                                                                   "wall in the penumbra of an edge",
-                                                                   "concave edge"};
   std::map<std::string, std::pair<std::size_t, const MainContribution*>> count;
   for (const ElementStatistics::Worst& worst : s.worst) {
     if (!worst.main) continue;
@@ -336,7 +329,7 @@ std::string common_contribution(const ElementStatistics& s) {
   const MainContribution& main = *most->second.second;
   const auto mechanism = std::ranges::find(kMechanismNames, main.mechanism) - kMechanismNames.begin();
   return fmt::format("part {} contributes most ({} bounce{}, {})", main.part, main.bounces,
-                     main.bounces == 1 ? "" : "s", kWords[static_cast<std::size_t>(mechanism)]);
+                     main.bounces == 1 ? "" : "s", kMechanismWords[static_cast<std::size_t>(mechanism)]);
 }
 
 // Where the differences are, and what contributes there.

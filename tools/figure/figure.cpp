@@ -2,6 +2,7 @@
 #include "tools/figure/figure.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +10,32 @@
 #include "sim/core/process/error.h"
 
 namespace seaglint {
+
+namespace {
+
+// Nine samples of matplotlib's viridis (Smith and van der Walt, CC0).
+constexpr double kViridis[9][3] = {{0x44, 0x01, 0x54}, {0x47, 0x2c, 0x7a}, {0x3b, 0x51, 0x8b},
+                                   {0x2c, 0x71, 0x8e}, {0x21, 0x90, 0x8d}, {0x27, 0xad, 0x81},
+                                   {0x5c, 0xc8, 0x63}, {0xaa, 0xdc, 0x32}, {0xfd, 0xe7, 0x25}};
+
+}  // namespace
+
+Rgb viridis(double at) {
+  const double x = std::clamp(at, 0.0, 1.0) * 8;
+  const int below = std::min(7, static_cast<int>(x));
+  Rgb colour{};
+  for (std::size_t c = 0; c < 3; ++c)
+    colour[c] = (kViridis[below][c] + (x - below) * (kViridis[below + 1][c] - kViridis[below][c])) / 255;
+  return colour;
+}
+
+std::string viridis_palette() {
+  std::string text = "set palette defined (";
+  for (int i = 0; i < 9; ++i)
+    text += fmt::format("{}{} '#{:02x}{:02x}{:02x}'", i > 0 ? ", " : "", i, static_cast<int>(kViridis[i][0]),
+                        static_cast<int>(kViridis[i][1]), static_cast<int>(kViridis[i][2]));
+  return text + ")\n";
+}
 
 std::string axis_commands(const char* name, const FigureAxis& axis) {
   std::string text = fmt::format("set {}label {}\n", name, gnuplot_text(axis.label));
@@ -18,6 +45,21 @@ std::string axis_commands(const char* name, const FigureAxis& axis) {
                         gnuplot_number(axis.range->second));
   }
   return text;
+}
+
+std::vector<double> apart(std::vector<double> places, double distance, const AxisRange& limits) {
+  if (places.size() > 1)
+    distance = std::min(distance, (limits.second - limits.first) / static_cast<double>(places.size() - 1));
+  double least = limits.first, most = limits.second;
+  for (double& place : places) {
+    place = std::max(place, least);
+    least = place + distance;
+  }
+  for (std::size_t i = places.size(); i-- > 0;) {
+    places[i] = std::min(places[i], most);
+    most = places[i] - distance;
+  }
+  return places;
 }
 
 namespace {

@@ -25,6 +25,10 @@ struct FigureAxis {
 // gnuplot's commands for the axis of this name, "x", "y", "cb": label, scale and range.
 std::string axis_commands(const char* name, const FigureAxis& axis);
 
+// Ascending places at least `distance` apart within `limits`, as near to the given ascending ones as that leaves from
+// the left; closer together where the limits have no room for all.
+std::vector<double> apart(std::vector<double> places, double distance, const AxisRange& limits);
+
 // kBand: the area between the interval's ends.
 enum class SeriesStyle { kLines, kPoints, kLinesPoints, kBand };
 
@@ -43,6 +47,13 @@ inline constexpr const char* kReferenceColour = "#000000";
 inline constexpr const char* kComputedColour = "#0072b2";
 inline constexpr const char* kKnownColour = "#009e73";       // exact and closed-form values
 inline constexpr const char* kDifferenceColour = "#d55e00";  // compared less reference
+
+// Colours of levels, sRGB in 0..1: viridis at 0..1, clamped; the same as gnuplot's palette; marks that stand out from
+// all.
+using Rgb = std::array<double, 3>;
+Rgb viridis(double at);
+std::string viridis_palette();
+inline constexpr const char* kMarks = "#ff4d4d";
 
 struct LinePlot {
   std::string title;

@@ -303,10 +303,9 @@ void require_figure(const fs::path& file) {
   require_gnuplot();
 }
 
-void draw_by_gnuplot(const fs::path& file, FigureSize size, const std::string& data, const std::string& commands) {
-  require_figure(file);
-  const std::string extension = file.extension();
-  const DeferredSignals held;  // released when the file is complete
+std::string figure_bytes(const fs::path& name, FigureSize size, const std::string& data, const std::string& commands) {
+  const std::string extension = name.extension();
+  const DeferredSignals held;
   std::string script = terminal_command(extension, size);
   script +=
       "set encoding utf8\nset datafile missing '?'\nset pointintervalbox 0\nset tics out nomirror\nset border lw "
@@ -314,10 +313,15 @@ void draw_by_gnuplot(const fs::path& file, FigureSize size, const std::string& d
   script += fmt::format("{} = '/proc/self/fd/{}'\n", kGnuplotData, kDataFile);
   script += commands + "set output\n";
   std::string figure = run_gnuplot(script, data);
-  require_whole(figure, file);
+  require_whole(figure, name);
   if (extension == ".png" && size.style != FigureStyle::kScreen) figure = with_dots_per_inch(figure, kPaperDots);
-  if (extension == ".pdf") figure = without_date(std::move(figure));
-  write_file(file, figure);
+  return extension == ".pdf" ? without_date(std::move(figure)) : figure;
+}
+
+void draw_by_gnuplot(const fs::path& file, FigureSize size, const std::string& data, const std::string& commands) {
+  require_figure(file);
+  const DeferredSignals held;  // released when the file is complete
+  write_file(file, figure_bytes(file, size, data, commands));
 }
 
 }  // namespace seaglint

@@ -58,4 +58,8 @@ std::string gnuplot_number(double value);
 void draw_by_gnuplot(const std::filesystem::path& file, FigureSize size, const std::string& data,
                      const std::string& commands);
 
+// The bytes of that figure, in the format by which the name ends; no file is written.
+std::string figure_bytes(const std::filesystem::path& name, FigureSize size, const std::string& data,
+                         const std::string& commands);
+
 }  // namespace seaglint

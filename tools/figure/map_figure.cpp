@@ -12,14 +12,8 @@ namespace seaglint {
 
 namespace {
 
-// Nine samples of matplotlib's viridis (Smith and van der Walt, CC0).
-constexpr const char* kViridis =
-    "set palette defined (0 '#440154', 1 '#472c7a', 2 '#3b518b', 3 '#2c718e', 4 '#21908d', 5 '#27ad81', 6 '#5cc863', 7 "
-    "'#aadc32', "
-    "8 '#fde725')\n";
 constexpr const char* kBlueWhiteRed =
     "set palette defined (-1 '#2166ac', -0.5 '#92c5de', 0 '#ffffff', 0.5 '#f4a582', 1 '#b2182b')\n";
-constexpr const char* kMarks = "#ff4d4d";  // rings, line and frame: on every colour of the palette
 
 // Equal cells along an axis; one cell is divided in two, which an image needs.
 struct CellAxis {
@@ -106,13 +100,8 @@ std::string profile_commands(const Heatmap& figure, const FigureLayout& at, cons
   std::ranges::sort(peaks, {}, &ProfileAbove::Peak::x);
   constexpr double kApart = 1.45;  // of neighbouring names
   std::vector<double> places;
-  for (const auto& peak : peaks)
-    places.push_back(places.empty() ? screen_x(peak.x) : std::max(screen_x(peak.x), places.back() + kApart));
-  double limit = across.second + 1;
-  for (std::size_t i = places.size(); i-- > 0; limit -= kApart) {
-    places[i] = std::min(places[i], limit);
-    limit = places[i];
-  }
+  for (const auto& peak : peaks) places.push_back(screen_x(peak.x));
+  places = apart(std::move(places), kApart, {across.first, across.second + 1});
   for (std::size_t i = 0; i < peaks.size(); ++i) {
     text += fmt::format("set label {} at screen {:.5f},{:.5f} left rotate by 45 font small\n",
                         gnuplot_text(peaks[i].name), at.x(places[i] + 0.1), at.y(up.second + 0.9));
@@ -180,7 +169,7 @@ void write_figure(const Heatmap& figure, const std::filesystem::path& file, Figu
   const double top = at.height() - title - names;
 
   std::string commands = "set multiplot\nunset key\n";
-  commands += figure.diverging ? kBlueWhiteRed : kViridis;
+  commands += figure.diverging ? kBlueWhiteRed : viridis_palette();
   commands += notes.commands(strip - legend_height - 0.6);
   commands += fmt::format("set label {} at screen {:.5f},{:.5f} center\n", gnuplot_text(figure.title),
                           at.x(0.5 * (across.first + across.second)), at.y(at.height() - 1.2));

@@ -316,8 +316,10 @@ void add_export_options(CommandOptions& command, ViewExport& exports) {
       .show_default()
       .group("Selection and export");
   command
-      .add_option("--export-hot-spots", exports.hot_spots,
-                  "Mesh (.glb or .gltf) with facets coloured by their RCS contribution at one aspect")
+      .add_option(
+          "--export-hot-spots", exports.hot_spots,
+          "Facets coloured by their RCS contribution at one aspect: with scattering centres as a page (.html) or a "
+          "picture (.png, .svg, .pdf), or the mesh alone (.glb, .gltf)")
       .group("Selection and export");
   command.add_option("--export-dynamic-range-db", exports.range_db, "Dynamic range of the exports below the strongest")
       .number_within(2.0, 300.0)

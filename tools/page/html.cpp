@@ -111,12 +111,25 @@ std::string html_table(const std::vector<std::vector<std::string>>& rows, bool n
   return out + "</tbody></table></div>\n";
 }
 
+namespace {
+
+std::string embedded(std::string_view bytes, const char* kind, std::string_view alternative) {
+  return fmt::format("<img src=\"data:{};base64,{}\" alt=\"{}\">", kind, base64(bytes), escape_html(alternative));
+}
+
+}  // namespace
+
 std::string html_figure(const std::filesystem::path& file, std::string_view caption, std::string_view alternative,
                         std::string_view plot) {
   const char* kind = file.extension() == ".svg" ? "image/svg+xml" : "image/png";
-  return fmt::format("<figure{}><img src=\"data:{};base64,{}\" alt=\"{}\">{}<figcaption>{}</figcaption></figure>\n",
-                     plot.empty() ? "" : " class=\"plot\"", kind, base64(read_file(file)), escape_html(alternative),
+  return fmt::format("<figure{}>{}{}<figcaption>{}</figcaption></figure>\n", plot.empty() ? "" : " class=\"plot\"",
+                     embedded(read_file(file), kind, alternative),
                      plot.empty() ? "" : fmt::format("<script type=\"application/json\">{}</script>", plot), caption);
+}
+
+std::string html_picture(std::string_view png, std::string_view caption, std::string_view alternative) {
+  return fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", embedded(png, "image/png", alternative),
+                     caption);
 }
 
 std::string html_page(std::string_view title, std::string_view body, std::string_view script) {

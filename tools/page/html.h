@@ -36,6 +36,9 @@ std::string html_table(const std::vector<std::vector<std::string>>& rows, bool n
 std::string html_figure(const std::filesystem::path& file, std::string_view caption, std::string_view alternative,
                         std::string_view plot = {});
 
+// The bytes of a PNG as an embedded picture.
+std::string html_picture(std::string_view png, std::string_view caption, std::string_view alternative);
+
 // The whole page around its body. A body with JSON for scripts gets plotly and page.js, then `script`; the page needs
 // no network.
 std::string html_page(std::string_view title, std::string_view body, std::string_view script = {});
@@ -47,7 +50,8 @@ std::string_view page_script();          // page.js: unpacks plotly, draws the p
 std::string_view report_template();      // report.html: body of a report
 std::string_view benchmark_template();   // benchmark.html: a benchmark within a report
 std::string_view report_script();        // report.js: maps and features of a report
-std::string_view hot_spots_script();     // hot_spots.js: targets of a report
+std::string_view hot_spots_template();   // hot_spots.html: body of a page of hot spots
+std::string_view hot_spots_script();     // hot_spots.js: targets in three dimensions, coloured by their echo
 std::string_view comparison_template();  // comparison.html: body of a comparison
 std::string_view comparison_script();    // comparison.js: curves and images of a comparison
 std::string_view plotly_gzip();          // plotly.js (MIT licence) of Debian's python3-plotly, minified, gzip in Base64

@@ -134,6 +134,14 @@ std::vector<std::string> request_warnings(const RcsRequest& request);
 // Names of the mechanisms in tables and selections, in the order of Mechanism. In selections `edge` is all but `po`.
 inline constexpr std::array<const char*, kMechanisms> kMechanismNames{
     "po", "single", "multiple", "reflected_edge", "shadow_boundary", "penumbra", "concave"};
+// The same in words.
+inline constexpr std::array<const char*, kMechanisms> kMechanismWords{"physical optics",
+                                                                      "single edge diffraction",
+                                                                      "multiple edge diffraction",
+                                                                      "edge diffraction via reflections",
+                                                                      "shadow boundary of an edge",
+                                                                      "wall in the penumbra of an edge",
+                                                                      "concave edge"};
 
 // Filter of a selection. Throws InputError for an invalid entry and for a selection that no contribution can satisfy
 // with the given bounce limit and edge diffraction.

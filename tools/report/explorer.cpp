@@ -18,7 +18,7 @@
 #include "sim/scattering/observation/observation.h"
 #include "sim/scattering/solver/solve.h"
 #include "tools/page/html.h"
-#include "tools/rcs/rcs_table.h"
+#include "tools/rcs/hot_spots.h"
 
 namespace seaglint {
 
@@ -178,10 +178,11 @@ std::string explorer_json(const ExplorerData& data) {
 
 namespace {
 
-constexpr double kRangeDb = 50;      // of the colours
-constexpr int kPositionDigits = 16;  // binary digits of a coordinate: 2 mm of a 144 m ship
-
 double centre_ghz(const RadarSpec& radar) { return (lowest_ghz(radar) + highest_ghz(radar)) / 2; }
+
+HotSpotSettings hot_spot_settings(const Scenario& scenario) {
+  return {.range_db = 50, .elements = {static_cast<std::size_t>(scenario.radar.polarisation)}, .most_centres = 100};
+}
 
 std::vector<View> views_shown(std::vector<View> views) {
   std::ranges::stable_sort(views, {}, [](const View& v) { return std::pair(v.azimuth_rad, v.elevation_rad); });
@@ -191,56 +192,29 @@ std::vector<View> views_shown(std::vector<View> views) {
   return shown;
 }
 
-// Vertex numbers, each as its difference from the one before, 32 bits little-endian: small numbers, which pack well.
-std::string packed_triangles(const TriangleMesh& mesh) {
-  std::vector<std::uint8_t> bytes;
-  bytes.reserve(12 * mesh.triangles.size());
-  std::uint32_t before = 0;
-  for (const auto& triangle : mesh.triangles) {
-    for (const std::uint32_t vertex : triangle) {
-      const std::uint32_t difference = vertex - before;
-      for (int i = 0; i < 4; ++i) bytes.push_back(static_cast<std::uint8_t>(difference >> 8 * i));
-      before = vertex;
-    }
-  }
-  return packed(bytes);
-}
-
-std::string json_of(const Target& target, const Scenario& scenario, const std::vector<View>& views, int threads,
-                    const StopFlag* stop) {
-  const Scatterer& scatterer = *target.models.front()->prepared->scatterer;
+// The target at every view in the radar's polarisation.
+HotSpotTarget hot_spots_of(const Target& target, const Scenario& scenario, const std::vector<View>& views, int threads,
+                           const StopFlag* stop) {
+  const PreparedTarget& prepared = *target.models.front()->prepared;
+  const Scatterer& scatterer = *prepared.scatterer;
   const double wavelength = kSpeedOfLight / (1e9 * centre_ghz(scenario.radar)), k = 2 * kPi / wavelength;
-  const SolverSpec& solver = target.spec.solver;
-  std::vector<FacetLevels> levels;
-  std::vector<double> total_dbsm;
-  const auto element = static_cast<std::size_t>(scenario.radar.polarisation);
+  HotSpotTarget spots{target.spec.name, scatterer, prepared.mesh.part_names, {}};
   for (const View& view : views) {
     const RadarBasis basis = radar_basis(direction_to_radar(view.azimuth_rad, view.elevation_rad));
     const SolveResult solved = solve({.scatterer = scatterer,
                                       .views = {monostatic(basis)},
                                       .wavenumbers = {k},
-                                      .settings = tracing_settings(solver),
+                                      .settings = tracing_settings(target.spec.solver),
                                       .points_for_rad = default_aspect_change(scatterer, wavelength),
                                       .threads = threads,
                                       .stop = stop});
-    levels.push_back(facet_levels(scatterer, solved.views[0].points, k, element));
-    total_dbsm.push_back(dbsm_of_area(4 * kPi * std::norm(solved.views[0].matrices[0][element])));
+    const std::vector<Point>& points = solved.views[0].points;
+    spots.views.push_back(hot_spot_view(scatterer, points, k, cluster_centres(points, k, ViewExport{}.cell_m),
+                                        hot_spot_settings(scenario)));
+    spots.views.back().azimuth_deg = view.azimuth_deg;
+    spots.views.back().elevation_deg = view.elevation_deg;
   }
-  const double top = std::ceil(std::ranges::max_element(levels, {}, &FacetLevels::highest_dbsm)->highest_dbsm);
-  const TriangleMesh mesh = welded(mesh_of_facets(scatterer));
-  std::vector<double> coordinates;
-  for (const Vec3& vertex : mesh.vertices) coordinates.insert(coordinates.end(), vertex.begin(), vertex.end());
-  std::vector<std::string> shown;
-  for (std::size_t v = 0; v < views.size(); ++v) {
-    std::vector<std::uint8_t> steps;  // 0: kRangeDb below the top, or less
-    for (const double level : levels[v].dbsm)
-      steps.push_back(static_cast<std::uint8_t>(std::lround(std::clamp(level - top + kRangeDb, 0.0, kRangeDb))));
-    shown.push_back(fmt::format(R"({{"azimuth_deg":{},"elevation_deg":{},"total_dbsm":{:.2f},"levels":"{}"}})",
-                                views[v].azimuth_deg, views[v].elevation_deg, total_dbsm[v], packed(steps)));
-  }
-  return fmt::format(R"({{"name":{},"vertices":"{}","triangles":"{}","top_dbsm":{},"views":[{}]}})",
-                     json_string(target.spec.name), packed_floats(coordinates, kPositionDigits), packed_triangles(mesh),
-                     top, fmt::join(shown, ","));
+  return spots;
 }
 
 }  // namespace
@@ -248,7 +222,7 @@ std::string json_of(const Target& target, const Scenario& scenario, const std::v
 HotSpots hot_spots(const Scenario& scenario, const SamplePlan& plan, const std::vector<Target>& targets, int threads,
                    const StopFlag* stop) {
   const std::vector<View> views = views_shown(plan.views());
-  std::vector<std::string> list;
+  std::vector<HotSpotTarget> list;
   std::string left_out;
   std::size_t facets = 0;
   for (std::size_t t = 0; t < std::min(targets.size(), scenario.targets.size()); ++t) {  // no companions
@@ -263,16 +237,16 @@ HotSpots hot_spots(const Scenario& scenario, const SamplePlan& plan, const std::
       continue;
     }
     facets += of_body;
-    list.push_back(json_of(target, scenario, views, threads, stop));
+    list.push_back(hot_spots_of(target, scenario, views, threads, stop));
   }
   if (list.empty()) return {"", left_out};
   const char* element = kPolarisationNames[static_cast<int>(scenario.radar.polarisation)];
   return {
-      fmt::format(R"({{"range_db":{},"step_db":1,"targets":[{}]}})", kRangeDb, fmt::join(list, ",")),
+      hot_spots_json(list, hot_spot_settings(scenario)),
       fmt::format("Level of each facet’s contribution at {:g} GHz, {}, for one body at rest without the sea; facets of "
                   "one plane have the level of their sum. Multiple bounces count for the facet that they leave "
-                  "last.{}{}",
-                  centre_ghz(scenario.radar), element,
+                  "last. Balls: the strongest scattering centres, of cells of {:g} m.{}{}",
+                  centre_ghz(scenario.radar), element, ViewExport{}.cell_m,
                   views.size() < plan.views().size()
                       ? fmt::format(" {} of the scenario’s {} views.", views.size(), plan.views().size())
                       : "",

@@ -73,7 +73,8 @@ struct HotSpots {
 };
 
 // Levels of each target's facets (facet_levels()) at the middle of the band in the radar's polarisation, for one body
-// at rest without the sea: whole dB, down to 50 dB below the target's strongest facet over all views. Views are those
+// at rest without the sea: whole dB, down to 50 dB below the target's strongest facet over all views; the 100 strongest
+// scattering centres of each view. Views are those
 // of the scenario, by azimuth, then elevation; of more than kHotSpotViews every n-th. Targets beyond kHotSpotFacets are
 // left out, which `about` states. The result is the same for any number of threads. Throws Interrupted when *stop
 // becomes true.

@@ -149,14 +149,10 @@ void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh) {
   write_file(path, bytes);
 }
 
-void require_coloured_mesh(const std::filesystem::path& path) {
-  if (!is_gltf(ending_of(path)))
-    throw InputError(fmt::format("{}: colours need the ending .glb or .gltf", path.string()));
-}
-
 void write_coloured_mesh(const std::filesystem::path& path, const TriangleMesh& mesh,
                          std::span<const std::array<double, 3>> material_colours) {
-  require_coloured_mesh(path);
+  if (!is_gltf(ending_of(path)))
+    throw InputError(fmt::format("{}: colours need the ending .glb or .gltf", path.string()));
   if (mesh.triangles.empty())
     throw InputError(fmt::format("{}: a mesh without triangles is not written", path.string()));
   write_file(path, gltf_bytes(mesh, ending_of(path) == ".glb", material_colours));

@@ -41,10 +41,8 @@ std::vector<std::filesystem::path> sidecar_files(const std::filesystem::path& pa
 // and a mesh that read_mesh() rejects, WorkError when writing fails.
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh);
 
-// Throws InputError unless write_coloured_mesh() supports the extension.
-void require_coloured_mesh(const std::filesystem::path& path);
-
 // Writes a glTF file with coloured materials: linear red, green, blue in 0..1, one colour per entry of mesh.materials.
+// Throws InputError for another extension than .glb and .gltf.
 void write_coloured_mesh(const std::filesystem::path& path, const TriangleMesh& mesh,
                          std::span<const std::array<double, 3>> material_colours);
 

@@ -13,6 +13,10 @@
 namespace seaglint {
 namespace {
 
+// Place of the origin in its cell, as a share of the cell: the golden section, so that neither planes of symmetry nor
+// round lengths of a target are sides of cells, where rounding would divide a centre.
+constexpr double kCellOrigin = 0.381966;
+
 ScatteringMatrix echo_of(const Point& point, double k) {
   ScatteringMatrix s = point.matrix(0);
   const Complex phase = std::polar(1.0, k * point.psi);
@@ -35,7 +39,7 @@ std::vector<ScatteringCentre3d> cluster_centres(std::span<const Point> points, d
     ScatteringCentre3d centre;
     double weight = 0;
   };
-  const auto cell = [&](double x) { return static_cast<std::int64_t>(std::floor(x / (2 * cell_m))); };
+  const auto cell = [&](double x) { return static_cast<std::int64_t>(std::floor(x / (2 * cell_m) + kCellOrigin)); };
   std::map<Key, Cell> cells;
   for (const Point& c : points) {
     const Vec3 g = c.gradient.sum();

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <filesystem>
 
-#include "sim/core/numbers/rotation.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/geometry/files/mesh_io.h"
@@ -12,7 +11,6 @@
 #include "tests/refusal.h"
 #include "tests/temporary_folder.h"
 #include "tools/cli/command_line.h"
-#include "tools/figure/mesh_picture.h"
 
 namespace seaglint {
 namespace {
@@ -85,38 +83,6 @@ TEST_F(MeshCommand, RefusesWrongInput) {
   EXPECT_THROW(run({"mesh", "make", "plate", "-o", (folder / "no" / "a.glb").string()}), WorkError);
   EXPECT_THROW(run({"mesh", "make", "ship"}), InputError);
   EXPECT_THROW(run({"mesh", "make", "boat", "-o", "a.glb"}), InputError);
-}
-
-TEST(MeshPicture, DrawsThePlateThatFacesTheViewerOnWhite) {
-  const Picture picture = picture_of(make_plate(2, 1), {.azimuth_deg = 0, .elevation_deg = 0, .width = 200});
-  // 2 m and twice 3 % of it across: 2.12 by 1.12 m.
-  EXPECT_NEAR(picture.height, 200 * 1.12 / 2.12, 1.0);
-  std::size_t white = 0;
-  for (std::size_t i = 0; i < picture.rgb.size(); i += 3) white += picture.rgb[i] == 255;
-  const double covered = 1.0 - static_cast<double>(3 * white) / static_cast<double>(picture.rgb.size());
-  EXPECT_NEAR(covered, 2.0 / (2.12 * 1.12), 0.03);  // pixels at the boundary are partly covered
-}
-
-TEST(MeshPicture, HasTheBowOnTheLeftSeenFromPort) {
-  // A plate at x = 10 and a smaller one at x = -10, both seen from port.
-  const Mat3 rotation = axis_rotation(0.5 * 3.14159265358979, Vec3::UnitZ());
-  TriangleMesh mesh = transformed(make_plate(4, 4), rotation, Vec3(10, 0, 0));
-  mesh.append(transformed(make_plate(1, 1), rotation, Vec3(-10, 0, 0)));
-  const Picture picture = picture_of(mesh, {.azimuth_deg = 90, .elevation_deg = 0, .width = 300});
-  std::size_t left = 0, right = 0;
-  for (int y = 0; y < picture.height; ++y) {
-    for (int x = 0; x < picture.width; ++x) {
-      const bool ink = picture.rgb[3 * (static_cast<std::size_t>(y) * picture.width + x)] != 255;
-      (x < picture.width / 2 ? left : right) += ink;
-    }
-  }
-  EXPECT_GT(left, 8 * right);
-}
-
-TEST(MeshPicture, RefusesInvalidArguments) {
-  EXPECT_THROW(picture_of(TriangleMesh{}, {}), InputError);
-  EXPECT_THROW(picture_of(make_plate(1, 1), {.width = 1}), InputError);
-  EXPECT_THROW(picture_of(make_plate(1, 1), {.width = 100000}), InputError);
 }
 
 }  // namespace
