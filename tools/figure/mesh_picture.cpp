@@ -366,12 +366,20 @@ void add_scale(PixelFigure& out, const FigureAxis& colour, double x, double y0, 
     out.rectangle(x, y0 + i / kColourSteps * (y1 - y0), x + 16, y1,
                   fmt::format("fs solid noborder fc rgb '{}'", hex(viridis((i + 0.5) / kColourSteps))));
   out.rectangle(x, y0, x + 16, y1, "fs empty border lc rgb '#404040' lw 0.6");
-  const double step = 10;
+  const double step = round_length((range.second - range.first) / 4);
   for (double level = std::ceil(range.first / step) * step; level <= range.second + 1e-9; level += step) {
     out.line(x + 16, y(level), x + 20, y(level), "nohead lw 0.6");
     out.label(x + 24, y(level), fmt::format("{:g}", level), "left font small");
   }
   out.label(x + 62, 0.5 * (y0 + y1), colour.label, "center rotate font small");
+}
+
+// At most `most` bytes of a text in UTF-8, whole characters.
+std::string shortened(const std::string& text, std::size_t most) {
+  if (text.size() <= most) return text;
+  std::size_t end = most - 3;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0u) == 0x80u) --end;
+  return text.substr(0, end) + "...";
 }
 
 using PlacedName = std::pair<std::array<double, 2>, std::vector<std::string>>;
@@ -386,7 +394,7 @@ void add_names(PixelFigure& out, std::vector<PlacedName> names, double width, do
   for (auto& [place, lines] : names) {
     columns.push_back(place[0]);
     for (std::string& line : lines) {
-      if (line.size() > kMostCharacters) line.replace(kMostCharacters - 3, std::string::npos, "...");
+      line = shortened(line, kMostCharacters);
       longest = std::max(longest, line.size());
     }
   }
@@ -470,7 +478,7 @@ DrawnFigure drawn(const MeshFigure& figure) {
   out.label(130 + length / 2, y + 14, fmt::format("{:g} m", length_m), "center font small");
   double x = 330;
   for (const std::size_t kind : {0u, 1u}) {
-    if (figure.ball_names[kind].empty()) continue;
+    if (std::ranges::none_of(balls, [&](const MeshFigure::Ball& ball) { return ball.white == (kind == 1); })) continue;
     out.ball(x, y, 12, kind == 1);
     out.label(x + 12, y, figure.ball_names[kind], "left font small");
     x += 34 + 6.8 * static_cast<double>(figure.ball_names[kind].size());

@@ -112,6 +112,14 @@ std::string packed_triangles(const TriangleMesh& mesh) {
   return packed(bytes);
 }
 
+// Index of the part of each triangle, 16 bits little-endian.
+std::string packed_parts(const TriangleMesh& mesh) {
+  std::vector<std::uint8_t> bytes;
+  for (const std::uint16_t part : mesh.triangle_part)
+    for (const int shift : {0, 8}) bytes.push_back(static_cast<std::uint8_t>(part >> shift));
+  return packed(bytes);
+}
+
 double step_db(const HotSpotSettings& settings) { return std::ceil(settings.range_db / 250); }
 
 // [x, y, z, part, bounces, mechanism, level of each element].
@@ -145,7 +153,7 @@ std::string target_json(const HotSpotTarget& target, const HotSpotSettings& sett
   for (std::size_t e = 0; e < settings.elements.size(); ++e) {
     double top = dbsm_of_area(0);
     for (const HotSpotView& view : target.views) top = std::max(top, view.levels[e].highest_dbsm);
-    tops.push_back(std::ceil(top));
+    tops.push_back(top <= dbsm_of_area(0) ? 0 : std::ceil(top));
   }
   const TriangleMesh mesh = welded(mesh_of_facets(target.scatterer));
   std::vector<Vec3> waterline;
@@ -154,9 +162,9 @@ std::string target_json(const HotSpotTarget& target, const HotSpotSettings& sett
   for (const HotSpotView& view : target.views) views.push_back(view_json(view, tops, settings));
   for (const std::string& part : target.part_names) parts.push_back(json_string(part));
   return fmt::format(
-      R"({{"name":{},"parts":[{}],"vertices":"{}","triangles":"{}","waterline":"{}","top_dbsm":[{}],"views":[{}]}})",
+      R"({{"name":{},"parts":[{}],"vertices":"{}","triangles":"{}","triangle_parts":"{}","waterline":"{}","top_dbsm":[{}],"views":[{}]}})",
       json_string(target.name), fmt::join(parts, ","), packed_points(mesh.vertices), packed_triangles(mesh),
-      packed_points(waterline), fmt::join(tops, ","), fmt::join(views, ","));
+      packed_parts(mesh), packed_points(waterline), fmt::join(tops, ","), fmt::join(views, ","));
 }
 
 }  // namespace

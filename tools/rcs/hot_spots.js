@@ -43,6 +43,7 @@
     const extents = [geometry.x, geometry.y, geometry.z].map((values) => values.reduce(([low, high], v) => [Math.min(low, v), Math.max(high, v)], [Infinity, -Infinity]));
     const sides = extents.map(([low, high]) => high - low);
     const made = { geometry, sides, centre: extents.map(([low, high]) => (low + high) / 2), size: Math.max(...sides) };
+    made.part = new Uint16Array(await seaglint.inflate(of.triangle_parts));
     // Segments of the section, each followed by a gap.
     made.waterline = [0, 1, 2].map((c) => Array.from({ length: water.length / 2 }, (_, n) => (n % 3 === 2 ? null : water[6 * Math.floor(n / 3) + 3 * (n % 3) + c])));
     meshes.set(of, made);
@@ -89,6 +90,12 @@
   }
   const ballSize = (level, top) => (plot.clientWidth < NARROW ? 0.6 : 1) * (BALL[0] + (BALL[1] - BALL[0]) * Math.min(1, Math.max(0, 1 + (level - top) / set.ball_range_db)));
 
+  // Part, level and middle of every facet.
+  function facetTexts(intensity, bottom) {
+    const { of, made } = shown, { x, y, z, i, j, k } = made.geometry, middle = (values, n) => ((values[i[n]] + values[j[n]] + values[k[n]]) / 3).toFixed(2);
+    return intensity.map((level, n) => `${of.parts[made.part[n]]}, ${level > bottom ? level : "below " + bottom} dBsm<br>x ${middle(x, n)} m, y ${middle(y, n)} m, z ${middle(z, n)} m`);
+  }
+
   // Extents of the target in the view of the radar: half its width, its lowest point.
   function seenExtent(made, azimuth, elevation) {
     const right = across(azimuth), up = upOf(azimuth, elevation), { x, y, z } = made.geometry;
@@ -134,10 +141,10 @@
       const apart = narrow ? 36 : Math.min(170, width / strongest.length), columns = order.map((i) => at[i][0]);
       for (let i = 0; i < columns.length; ++i) columns[i] = Math.max(columns[i], i > 0 ? columns[i - 1] + apart : apart / 2);
       for (let i = columns.length; i-- > 0; ) columns[i] = Math.min(columns[i], i + 1 < columns.length ? columns[i + 1] - apart : width - apart / 2);
-      order.forEach((i, slot) => { offsets[i] = [columns[slot] - at[i][0], 26 - at[i][1]]; });
+      order.forEach((i, slot) => { offsets[i] = [columns[slot] - at[i][0], 34 - at[i][1]]; });
     }
-    const most = Math.floor(Math.min(170, plot.clientWidth / strongest.length) / 6.5) - 2, cut = (text) => (text.length > most ? text.slice(0, most - 1) + "…" : text);
-    return strongest.map((c, i) => ({ x: c[0], y: c[1], z: c[2], ax: offsets[i][0], ay: offsets[i][1], text: narrow ? String(i + 1) : `<b>${i + 1}</b> ${cut(of.parts[c[3]])}<br>${cut(`${brief(c)}, ${level(c).toFixed(1)} dBsm`)}`,
+    const most = Math.floor(Math.min(170, plot.clientWidth / strongest.length) / 6) - 2, cut = (text) => (text.length > most ? text.slice(0, most - 1) + "…" : text);
+    return strongest.map((c, i) => ({ x: c[0], y: c[1], z: c[2], ax: offsets[i][0], ay: offsets[i][1], text: narrow ? String(i + 1) : `<b>${i + 1}</b> ${cut(of.parts[c[3]])}<br>${cut(brief(c))}<br>${level(c).toFixed(1)} dBsm`,
       showarrow: true, arrowhead: 0, arrowwidth: 1, arrowcolor: INK, font: { size: 12, color: INK }, bgcolor: "rgba(255,255,255,0.85)", borderpad: 2 }));
   }
 
@@ -161,15 +168,16 @@
     const intensity = Array.from(steps, (step) => bottom + step * set.step_db);
     const viridis = ["#440154", "#472c7a", "#3b518b", "#2c718e", "#21908d", "#27ad81", "#5cc863", "#aadc32", "#fde725"];
     const surface = { type: "mesh3d", ...made.geometry, intensity, intensitymode: "cell", cmin: bottom, cmax: top, colorscale: [[0, "#cdd0d4"], [grey, "#cdd0d4"], ...viridis.map((colour, i) => [grey + ((1 - grey) * i) / 8, colour])], flatshading: true,
-      lighting: { ambient: 0.85, diffuse: 0.3, specular: 0.02 }, colorbar: { title: { text: "facets (dBsm)", side: "right" }, thickness: 12, len: 0.8 }, hovertemplate: "x %{x:.2f} m, y %{y:.2f} m, z %{z:.2f} m<extra></extra>" };
+      lighting: { ambient: 0.85, diffuse: 0.3, specular: 0.02 }, colorbar: { title: { text: "facets (dBsm)", side: "right" }, thickness: 12, len: 0.8 }, hovertext: facetTexts(intensity, bottom), hoverinfo: "text" };
     const [x, y, z] = made.waterline;
     const [reflections, diffraction] = ballKinds();
     const data = [surface, balls(reflections, "reflections", RED), balls(diffraction, "edge diffraction", "#ffffff"),
       { type: "scatter3d", mode: "lines", name: "z = 0", x, y, z, line: { color: WATER, width: 4 }, hoverinfo: "skip", showlegend: x.length > 0 }, axes(made, view.azimuth_deg, view.elevation_deg),
       ...incidence(made, view.azimuth_deg, view.elevation_deg)];
     const cube = 1.1 * made.size, ratio = 2 * cube * scale;  // with room for what stands beside the target
+    const total = view.total_dbsm[index] > -300 ? `${short(view.total_dbsm[index])} dBsm in all` : "no echo";
     const axis = (c) => ({ visible: false, range: [made.centre[c] - cube, made.centre[c] + cube] });
-    const layout = { template: "none", height, margin: { l: 0, r: 0, t: 32, b: 0 }, showlegend: !narrow, legend: { orientation: "h", x: 0, y: 0, font: { size: 11 } }, title: { text: narrow ? `${short(view.total_dbsm[index])} dBsm in all` : `${of.name}: ${short(view.total_dbsm[index])} dBsm in all (${set.elements[index]})`, font: { size: 13 }, x: 0.02 },
+    const layout = { template: "none", height, margin: { l: 0, r: 0, t: 32, b: 0 }, showlegend: !narrow, legend: { orientation: "h", x: 0, y: 0, font: { size: 11 } }, title: { text: narrow ? total : `${of.name}: ${total} (${set.elements[index]})`, font: { size: 13 }, x: 0.02 },
       scene: { aspectmode: "manual", aspectratio: { x: ratio, y: ratio, z: ratio }, dragmode: "turntable", xaxis: axis(0), yaxis: axis(1), zaxis: axis(2), camera: camera(), annotations: [] } };
     await plotly.react(plot, data, layout, seaglint.CONFIG);
     listen(plotly);

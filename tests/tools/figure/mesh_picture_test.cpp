@@ -93,7 +93,7 @@ TEST(MeshFigure, IsDrawnInEveryFormat) {
                     .colour = {"facets (dBsm)", AxisRange{-20, 30}},
                     .balls = {{Vec3(0.2, 0, 0), 10}, {Vec3(0, 0.3, 0), -15, true}},
                     .ball_range = {-20, 10}};
-  for (const char* name : {"a", "another of a name that is longer than its column leaves", "b's", "c", "d"})
+  for (const char* name : {"a", "another ein wenig längerer Näme mit Umläuten", "b's", "c", "d"})
     figure.names.push_back({Vec3(0.2, 0, 0), {name, "3 bounces"}});
   figure.notes = {"16 GHz"};
   for (const char* name : {"a.png", "a.svg", "a.pdf"}) {

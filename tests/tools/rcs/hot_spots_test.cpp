@@ -124,6 +124,7 @@ TEST_F(HotSpotsOfAReflector, AreWrittenWithTheSectionOfTheWaterline) {
   const auto& of = json.at("targets")[0];
   EXPECT_EQ(of.at("name"), "reflector <1>");
   EXPECT_NE(of.at("waterline"), "");
+  EXPECT_NE(of.at("triangle_parts"), "");
   const auto& first = of.at("views")[0].at("centres")[0];
   EXPECT_NEAR(first[0].get<double>(), centres_[0].position().x(), 6e-4);
   EXPECT_EQ(first[3], centres_[0].part);
