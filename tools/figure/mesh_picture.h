@@ -59,11 +59,11 @@ std::string png_bytes(const Picture& picture);
 // A mesh seen from a direction, its triangles coloured by their levels.
 struct MeshFigure {
   std::string title;
-  const TriangleMesh& mesh;
+  TriangleMesh mesh;
   double azimuth_deg = 0, elevation_deg = 0;  // of the view
-  std::span<const double> levels;             // one per triangle; below the range of `colour`: grey
+  std::vector<double> levels;                 // one per triangle; below the range of `colour`: grey
   FigureAxis colour;                          // with its range
-  std::span<const std::array<Vec3, 2>> lines = {};
+  std::vector<std::array<Vec3, 2>> lines = {};
   std::string line_name = {};  // in the key
   // Points of the frame of the mesh, drawn as balls whose diameter is in proportion to the level in dB above the
   // lowest.

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <map>
 #include <tuple>
+#include <utility>
 
 #include "seaglint_version.h"
 #include "sim/core/numbers/constants.h"
@@ -344,22 +345,20 @@ std::string settings_text(const ExportedView& view) {
                      text_of(request.selection));
 }
 
-// The target seen from the receiver: facets by the largest of the four elements, centres within kBallRange_db.
-// `use` is called with the figure.
-template <class Use>
-auto with_figure(const ExportedView& view, Use use) {
+// The target seen from the radar, by the largest of the four elements.
+MeshFigure figure_of(const ExportedView& view) {
   const RcsRequest& request = view.request;
   const HotSpotView shown = hot_spot_view(view.scatterer(), view.points, view.k, view.centres, {});
-  const TriangleMesh mesh = mesh_of_facets(view.scatterer());
-  const std::vector<Segment> waterline = waterline_of(welded(mesh));
+  TriangleMesh mesh = mesh_of_facets(view.scatterer());
+  std::vector<Segment> waterline = waterline_of(welded(mesh));
   const double highest = shown.levels[0].highest_dbsm, top = highest <= dbsm_of_area(0) ? 0 : std::ceil(highest);
   MeshFigure figure{.title = title_of(request) + ", seen from the radar",
-                    .mesh = mesh,
+                    .mesh = std::move(mesh),
                     .azimuth_deg = request.azimuth_deg[0],
                     .elevation_deg = request.elevation_deg[0],
                     .levels = shown.levels[0].dbsm,
                     .colour = {"facets (dBsm)", AxisRange{top - request.exports.range_db, top}},
-                    .lines = waterline,
+                    .lines = std::move(waterline),
                     .line_name = "z = 0"};
   const double strongest = shown.centres.empty() ? 0 : dbsm_of_area(shown.centres.front().peak_rcs());
   figure.ball_range = {strongest - kBallRange_db, strongest};
@@ -380,7 +379,7 @@ auto with_figure(const ExportedView& view, Use use) {
                   "strongest. Facets of one plane have the level of their sum.",
                   shown.centres.size(), request.exports.cell_m, kBallRange_db),
       fmt::format("seaglint {}: {}", kVersion, settings_text(view))};
-  return use(figure);
+  return figure;
 }
 
 std::string written_text(const ExportedView& view, const char* what) {
@@ -392,7 +391,7 @@ std::string written_text(const ExportedView& view, const char* what) {
 }
 
 std::string write_picture(const ExportedView& view) {
-  with_figure(view, [&](const MeshFigure& figure) { write_figure(figure, view.request.exports.hot_spots); });
+  write_figure(figure_of(view), view.request.exports.hot_spots);
   return written_text(view, "picture of the hot spots");
 }
 
@@ -461,7 +460,7 @@ std::string write_page(const ExportedView& view) {
                              {"view", view_text(request)},
                              {"total", total_text(view)},
                              {"hot_spots", hot_spots_json(std::span(&target, 1), settings)},
-                             {"picture", html_picture(with_figure(view, png_of), "", title + ", seen from the radar")},
+                             {"picture", html_picture(png_of(figure_of(view)), "", title + ", seen from the radar")},
                              {"cell_m", fmt::format("{:g}", request.exports.cell_m)},
                              {"ball_range_db", fmt::format("{:g}", kBallRange_db)},
                              {"range_db", fmt::format("{:g}", request.exports.range_db)},

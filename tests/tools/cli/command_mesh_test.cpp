@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gmock/gmock.h>
 
-#include <cmath>
 #include <filesystem>
 
 #include "sim/core/process/error.h"

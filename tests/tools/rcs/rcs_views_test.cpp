@@ -16,10 +16,8 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/shapes/generators.h"
-#include "sim/scattering/observation/observation.h"
 #include "sim/scattering/solver/solve.h"
 #include "tests/sim/scattering/solve_calls.h"
-#include "tests/sim/scattering/solver_fixtures.h"
 
 namespace seaglint {
 namespace {
