@@ -342,7 +342,9 @@ TEST_F(CompareCommand, ThePageBeginsWithThePrintedVerdict) {
   EXPECT_LT(page.find(summary), page.find("Largest differences"));
   EXPECT_THAT(page,
               HasSubstr("<th scope=\"col\">part</th><th scope=\"col\">bounces</th><th scope=\"col\">mechanism</th>"));
-  for (const char* name : {"image_export.png", "image_compared.png", "image_difference.png"})
+  EXPECT_THAT(page, HasSubstr("On a turntable"));
+  for (const char* name : {"image_export.png", "image_compared.png", "image_difference.png", "turntable_export.png",
+                           "turntable_compared.png", "profiles_export.png", "profiles_compared.png"})
     EXPECT_GT(read_file(path("compared") + "/" + name).size(), 1000u);
   EXPECT_LT(page.size(), 5'000'000u);
 }

@@ -126,6 +126,52 @@ TEST_F(RcsCommand, EqualsItsOwnTableAndDrawsIt) {
   EXPECT_TRUE(std::filesystem::exists(figure));
 }
 
+// Images in the style of paper, with what they are of in the small print; nothing is solved where they are refused.
+TEST_F(RcsCommand, DrawsATurntableImageProfilesAndAPolarDiagram) {
+  const std::string image = folder_.path() / "image.svg", profiles = folder_.path() / "profiles.svg",
+                    polar = folder_.path() / "polar.svg";
+  const ProgramResult result =
+      completed(rcs({"--frequency-ghz", "9:11:0.1", "--azimuth-deg", "-20:20:1", "--isar", image, "--profiles",
+                     profiles, "--polarisation", "hh", "--style", "paper", "--polar", "--figure", polar}));
+  EXPECT_HAS(result.out, "Turntable image: " + image);
+  EXPECT_HAS(result.out, "Range profiles: " + profiles);
+  EXPECT_HAS(read_file(image), "cross range (m)");
+  EXPECT_HAS(read_file(image), "plate.glb, hh");
+  EXPECT_HAS(read_file(image), "9 to 11 GHz in steps of 100 MHz");
+  EXPECT_HAS(read_file(profiles), "azimuth (deg)");
+  EXPECT_HAS(read_file(polar), "0 bow");
+  std::filesystem::remove(table());
+  const auto refused = [&](Words arguments, const std::string& message) {
+    expect_refused(rcs(with({"--isar", image}, arguments)), message);
+    EXPECT_FALSE(std::filesystem::exists(table()));
+  };
+  refused({"--frequency-ghz", "10", "--azimuth-deg", "0:10:1"}, "--frequency-ghz: 1 value: --isar needs at least 8");
+  refused({"--frequency-ghz", "9:11:0.1", "--azimuth-deg", "0:40:4"}, "--azimuth-deg: step 4: must be at most 1.");
+  refused({"--frequency-ghz", "9:11:0.1", "--azimuth-deg", "0:10:1", "--transmit-azimuth-deg", "5"},
+          "--isar does not support --transmit-azimuth-deg");
+  expect_refused(rcs({"--frequency-ghz", "10", "--azimuth-deg", "0:3:1", "--polar"}),
+                 "--azimuth-deg: 4 values: --polar needs at least 8");
+}
+
+// Rows 4 deg apart, each the mean of eight azimuths: that of the rows of a fine table half a degree apart.
+TEST_F(RcsCommand, AveragesTheCrossSectionOverEveryStep) {
+  completed(rcs({"--frequency-ghz", "10", "--azimuth-deg", "-9.75:9.75:0.5"}));
+  const auto fine = read_table(table()).rows;
+  ASSERT_EQ(fine.size(), 40u);
+  completed(rcs({"--frequency-ghz", "10", "--azimuth-deg", "-8:8:4", "--average", "8"}));
+  const CsvTable mean = read_table(table());
+  EXPECT_EQ(mean.header, "frequency_hz,azimuth_deg,elevation_deg,hh_dbsm,hv_dbsm,vh_dbsm,vv_dbsm");
+  ASSERT_EQ(mean.rows.size(), 5u);
+  for (std::size_t row = 0; row < 5; ++row) {
+    double area_m2 = 0;
+    for (std::size_t i = 0; i < 8; ++i) area_m2 += std::pow(10, fine[8 * row + i][12] / 10) / 8;
+    EXPECT_NEAR(mean.rows[row][6], 10 * std::log10(area_m2), 2e-4);  // four digits are printed
+  }
+  expect_refused(rcs({"--frequency-ghz", "10", "--azimuth-deg", "0", "--average", "8"}), "--average 8: --azimuth-deg");
+  expect_refused(rcs({"--frequency-ghz", "10", "--azimuth-deg", "-8:8:4", "--average", "8", "--uncertainty"}),
+                 "--average");
+}
+
 // The curves of the comparison's figure are the levels of the table, and their differences from the reference.
 TEST_F(RcsCommand, CurvesAreThoseOfTheTable) {
   const std::string curves = folder_.path() / "curves.json";

@@ -14,10 +14,12 @@
 #include "tools/compare/comparison_page.h"
 #include "tools/compare/comparison_text.h"
 #include "tools/compare/differences.h"
+#include "tools/compare/turntables.h"
 #include "tools/figure/figure.h"
 #include "tools/options/rcs_arguments.h"
 #include "tools/page/html.h"
 #include "tools/pipeline/warnings.h"
+#include "tools/rcs/rcs_figure.h"
 #include "tools/rcs/rcs_table.h"
 
 namespace seaglint {
@@ -82,33 +84,80 @@ Counterpart counterpart_of(const CompareArguments& arguments, const std::vector<
 }
 
 // Writes NAME.png and NAME.svg; empty without any plot.
-std::filesystem::path draw_panels(PlotPanels panels, const std::string& title, const std::filesystem::path& directory,
+std::filesystem::path draw_panels(const PlotPanels& panels, const std::filesystem::path& directory,
                                   const std::string& name) {
   if (panels.plots.empty()) return {};
-  panels.title = title;
   for (const char* kind : {".png", ".svg"}) write_figure(panels, directory / (name + kind));
   return directory / (name + ".png");
 }
 
 constexpr const char* kImages[] = {"image_export.png", "image_compared.png", "image_difference.png"};
+constexpr const char* kTurntables[] = {"turntable_export.png", "profiles_export.png", "turntable_compared.png",
+                                       "profiles_compared.png"};
+
+// Phrases of the small print: what both sides are of.
+std::vector<std::string> notes_of(const std::vector<PairedCut>& cuts, const Counterpart& counterpart) {
+  const auto span = [&](const char* name, double PairedCut::Place::*value, double unit, const char* unit_name) {
+    double low = 1e300, high = -1e300;
+    for (const PairedCut& cut : cuts) {
+      for (const PairedCut::Place& place : cut.places) {
+        low = std::min(low, unit * place.*value);
+        high = std::max(high, unit * place.*value);
+      }
+    }
+    return low == high ? fmt::format("{}{:.6g} {}", name, low, unit_name)
+                       : fmt::format("{}{:.6g} to {:.6g} {}", name, low, high, unit_name);
+  };
+  const bool monostatic = !cuts.empty() && !cuts.front().places.empty() && is_monostatic(cuts.front().places.front());
+  std::vector<std::string> notes{span("", &PairedCut::Place::frequency_hz, 1e-9, "GHz"),
+                                 span("azimuth ", &PairedCut::Place::azimuth_deg, 1, "deg"),
+                                 span("elevation ", &PairedCut::Place::elevation_deg, 1, "deg"),
+                                 monostatic ? "monostatic" : "bistatic"};
+  const std::vector<std::string> solver =
+      counterpart.target ? solver_notes(counterpart.request) : std::vector{fmt::format("seaglint {}", kVersion)};
+  notes.insert(notes.end(), solver.begin(), solver.end());
+  return notes;
+}
 
 // Curves, images and range profiles, as far as the cuts have them.
 ComparisonFigures draw(const std::vector<ExportComparison>& comparisons, const ComparisonSettings& settings,
+                       const Counterpart& counterpart, const CommandContext& context,
                        const std::filesystem::path& directory) {
   std::vector<PairedCut> cuts;
   for (const ExportComparison& comparison : comparisons)
     cuts.insert(cuts.end(), comparison.cuts.begin(), comparison.cuts.end());
-  const std::string title =
-      fmt::format("{} against {}, seaglint {}", comparisons.front().name, comparisons.front().compared, kVersion);
+  const std::string title = fmt::format("{} against {}", comparisons.front().name, comparisons.front().compared);
+  const std::vector<std::string> notes = notes_of(cuts, counterpart);
+  const auto drawn = [&](PlotPanels panels, const char* name) {
+    panels.title = title;
+    panels.notes = notes;
+    return draw_panels(panels, directory, name);
+  };
   ComparisonFigures figures;
-  figures.curves = draw_panels(comparison_plots(cuts, settings.floor_db), title, directory, "compare");
-  const std::vector<Heatmap> images = comparison_images(cuts, settings.floor_db);
+  figures.curves = drawn(comparison_plots(cuts, settings.floor_db), "compare");
+  std::vector<Heatmap> images = comparison_images(cuts, settings.floor_db);
   for (std::size_t i = 0; i < images.size(); ++i) {
     figures.images.push_back(directory / kImages[i]);
-    write_figure(images[i], figures.images.back(), {720, 450});
+    images[i].notes = notes;
+    write_figure(images[i], figures.images.back(), {720, 490});
   }
-  const PlotPanels profiles = range_profile_plots(cuts);
-  figures.profiles = draw_panels(profiles, title, directory, "range_profiles");
+  TurntableTarget target{.threads = context.threads};
+  if (counterpart.target) {
+    target.mesh = &counterpart.target->prepared.mesh;
+    if (counterpart.request.cavities.parts.empty()) target.names = part_names(counterpart.request, *counterpart.target);
+    target.notes = solver_notes(counterpart.request);
+  } else {
+    target.notes = {notes.back()};
+  }
+  if (const auto turntable = compared_turntable(cuts)) {
+    const std::vector<Heatmap> pictures = turntable_pictures(*turntable, target);
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+      figures.turntables.push_back(directory / kTurntables[i]);
+      write_figure(pictures[i], figures.turntables.back(), map_size(FigureStyle::kScreen));
+    }
+  }
+  const PlotPanels profiles = range_profile_plots(cuts, target.names);
+  figures.profiles = drawn(profiles, "range_profiles");
   constexpr std::size_t kMostPoints = 50'000;  // of the page's script, about 1 MB
   std::size_t points = 0;
   for (const LinePlot& plot : profiles.plots) {
@@ -177,6 +226,7 @@ void require_results(const CompareArguments& arguments) {
                            "range_profiles.png", "range_profiles.svg"})
     outputs.push_back((directory / name).string());
   for (const char* name : kImages) outputs.push_back((directory / name).string());
+  for (const char* name : kTurntables) outputs.push_back((directory / name).string());
   require_outputs(outputs, inputs);
   require_figure(directory / "compare.png");
 }
@@ -220,7 +270,7 @@ void run_compare(const CompareArguments& arguments, const CommandContext& contex
   require_comparison(comparisons);
   const std::filesystem::path directory = arguments.directory;
   write_file(directory / "compare.csv", comparison_csv(comparisons, context.threads));
-  const ComparisonFigures figures = draw(comparisons, settings, directory);
+  const ComparisonFigures figures = draw(comparisons, settings, counterpart, context, directory);
   write_file(directory / "compare.html", comparison_page(comparisons, settings, figures));
   write_file(directory / "compare.json", comparison_json(comparisons, settings));
   const std::vector<std::filesystem::path> solved = write_solved(comparisons, arguments);

@@ -132,6 +132,8 @@ void show_figure(const RcsArguments& arguments, const RcsRequest& request, const
                                                         : level_plots(sweep, arguments.polar);
     panels.title = arguments.target_name();
     panels.notes = sweep_notes(request);
+    if (arguments.polar)
+      panels.notes.insert(panels.notes.begin(), "azimuth counter-clockwise seen from above, 90: port");
     panels.size.style = figure_style(arguments.style);
     if (!panels.plots.empty()) write_figure(panels, figure);
     if (!panels.plots.empty())
@@ -165,8 +167,7 @@ void show_images(const RcsArguments& arguments, const RcsRequest& request, const
   }
   if (arguments.profiles.empty()) return;
   const Heatmap figure = profiles_figure(echo, turntable_profiles(echo, profiles_range(sampling, &extent)), caption,
-                                         part_names(request, target, element, sampling.range_cell_m),
-                                         style == FigureStyle::kPaper ? 6 : 12);
+                                         part_names(request, target), style == FigureStyle::kPaper ? 6 : 12);
   write_figure(figure, arguments.profiles, map_size(style));
   print_out("Range profiles: {}\n", arguments.profiles);
 }
@@ -282,6 +283,8 @@ void add_rcs(CommandOptions& program, CommandContext& context) {
     command.require_any_of("--export-dynamic-range-db", {"--export-scattering-centres", "--export-hot-spots"});
     command.require_any_of("--polarisation", {"--isar", "--profiles"});
     command.require_one_of({"--output", "--cross-check"});
+    command.refuse_with("--average", {"--cross-check", "--converge", "--uncertainty", "--reference", "--export-as",
+                                      "--export-scattering-centres", "--export-hot-spots", "--isar", "--profiles"});
     command.refuse_with("--cross-check",
                         {"--method", "--cavity", "--converge", "--uncertainty", "--reference", "--export-as",
                          "--export-scattering-centres", "--export-hot-spots", "--isar", "--profiles", "--polar"});

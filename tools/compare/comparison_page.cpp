@@ -269,6 +269,13 @@ std::string comparison_page(const std::vector<ExportComparison>& comparisons, co
   constexpr const char* kImages[] = {"image of the export's levels", "image of the compared levels",
                                      "image of the differences"};
   for (std::size_t i = 0; i < figures.images.size(); ++i) images += figure(figures.images[i], "", kImages[i]);
+  std::string turntables;
+  constexpr const char* kTurntables[] = {"turntable image of the export", "range profiles of the export",
+                                         "turntable image of the compared values",
+                                         "range profiles of the compared values"};
+  for (std::size_t i : {0u, 2u, 1u, 3u}) {
+    if (i < figures.turntables.size()) turntables += figure(figures.turntables[i], "", kTurntables[i]);
+  }
   const PageCuts cuts = page_cuts(comparisons, settings.floor_db);
   PageValues values{
       {"title", title},
@@ -289,6 +296,7 @@ std::string comparison_page(const std::vector<ExportComparison>& comparisons, co
       {"profiles",
        figure(figures.profiles, "Hann's window over all frequencies of a direction; a point has its own level.",
               "range profiles of both", figures.profiles_plot)},
+      {"turntables", turntables.empty() ? "" : "<div class=\"maps\">" + turntables + "</div>"},
       {"worst", worst(comparisons)},
       {"readings", readings(comparisons)},
       {"version", kVersion}};

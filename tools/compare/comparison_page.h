@@ -14,10 +14,11 @@ namespace seaglint {
 // Pictures of a comparison, each embedded where there is one. They are shown in print and without scripts; elsewhere
 // the page's script draws all cuts that the page has room for, by polarisation, frequency and angle.
 struct ComparisonFigures {
-  std::filesystem::path curves;               // comparison_plots()
-  std::vector<std::filesystem::path> images;  // comparison_images()
-  std::filesystem::path profiles;             // range_profile_plots()
-  std::string profiles_plot;                  // the same for the page's script (plot_json())
+  std::filesystem::path curves;                   // comparison_plots()
+  std::vector<std::filesystem::path> images;      // comparison_images()
+  std::filesystem::path profiles;                 // range_profile_plots()
+  std::string profiles_plot;                      // the same for the page's script (plot_json())
+  std::vector<std::filesystem::path> turntables;  // turntable_pictures()
 };
 
 // The verdicts, curves and images, statistics, largest differences, what was fitted and how the files were read. A few

@@ -279,6 +279,20 @@ PlotPanels comparison_plots(const std::vector<PairedCut>& cuts, double floor_db)
           {abreast == 1 ? 900 : static_cast<int>(750 * abreast), 860 * blocks}};
 }
 
+bool are_uniform(const std::vector<double>& values) {
+  const double step = (values.back() - values.front()) / static_cast<double>(values.size() - 1);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (std::abs(values[i] - values.front() - static_cast<double>(i) * step) > 0.02 * step) return false;
+  }
+  return true;
+}
+
+bool is_monostatic(const PairedCut::Place& place) {
+  constexpr double kDigits = 1e-6;
+  const double twice = 4 * kPi * place.frequency_hz / kSpeedOfLight;
+  return std::abs(place.path_gradient.norm() - twice) < kDigits * twice;
+}
+
 namespace {
 
 // Levels of one quantity over an angle and frequency, NaN where there is none.
@@ -287,14 +301,6 @@ struct LevelGrid {
   std::vector<double> deg, ghz;
   std::vector<double> reference, compared;  // [ghz][deg]
 };
-
-bool are_uniform(const std::vector<double>& values) {
-  const double step = (values.back() - values.front()) / static_cast<double>(values.size() - 1);
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (std::abs(values[i] - values.front() - static_cast<double>(i) * step) > 0.02 * step) return false;
-  }
-  return true;
-}
 
 // The grid over azimuth at the elevation of the first cut, or over elevation at its azimuth, of the cuts of the same
 // reference and quantity; absent below three values of either, where steps are uneven and where places are missing.
@@ -483,9 +489,30 @@ double level_at_range(std::span<const PairedCut::Place> places, std::span<const 
   return dbsm(sum / n);
 }
 
-PlotPanels range_profile_plots(std::span<const PairedCut> cuts) {
+namespace {
+
+// Names above the strongest peaks of a profile.
+std::vector<LinePlot::Mark> marks_of(const RangeProfile& profile, const PairedCut& cut, const PeakNames& names) {
+  constexpr std::size_t kMostNames = 5;
+  const PairedCut::Place& place = cut.places[cut.places.size() / 2];
+  if (!names || !is_monostatic(place)) return {};
+  std::vector<double> magnitude_m;
+  for (const double level : profile.level_dbsm) magnitude_m.push_back(amplitude_of_dbsm(level));
+  const double cell_m = (profile.range_m.back() - profile.range_m.front()) / static_cast<double>(cut.places.size());
+  std::vector<NamedPeak> peaks = strongest_peaks(profile.range_m, magnitude_m, cell_m, kMostNames);
+  names(peaks,
+        {{place.azimuth_deg, place.elevation_deg, place.frequency_hz}, static_cast<std::size_t>(cut.element), cell_m});
+  std::vector<LinePlot::Mark> marks;
+  for (NamedPeak& peak : peaks)
+    if (!peak.name.empty()) marks.push_back({peak.range_m, dbsm(peak.magnitude_m), std::move(peak.name)});
+  return marks;
+}
+
+}  // namespace
+
+PlotPanels range_profile_plots(std::span<const PairedCut> cuts, const PeakNames& names) {
   constexpr std::size_t kMostPlots = 4;
-  constexpr double kDynamic_db = 60;
+  constexpr double kDynamic_db = 60, kNames_db = 22;  // room for the names
   std::vector<LinePlot> plots;
   for (const PairedCut& cut : cuts) {
     if (plots.size() == kMostPlots) break;
@@ -500,7 +527,9 @@ PlotPanels range_profile_plots(std::span<const PairedCut> cuts) {
     plot.title = fmt::format("{}, {}", kPolarisationNames[static_cast<int>(cut.element)], cut.place);
     plot.x = {"range from the phase origin, positive = farther (m)",
               AxisRange{reference.range_m.front(), reference.range_m.back()}, false};
-    plot.y = {"range profile (dBsm)", AxisRange{highest - kDynamic_db, highest + 3}, false};
+    plot.marks = marks_of(compared, cut, names);
+    plot.y = {"range profile (dBsm)", AxisRange{highest - kDynamic_db, highest + (plot.marks.empty() ? 3 : kNames_db)},
+              false};
     plot.series = {
         {cut.reference, reference.range_m, reference.level_dbsm, {}, SeriesStyle::kLines, kReferenceColour, 2.4},
         {cut.models[0].name, compared.range_m, compared.level_dbsm, {}, SeriesStyle::kLines, kComputedColour}};

@@ -12,6 +12,7 @@
 
 #include "tools/compare/paired_cut.h"
 #include "tools/figure/map_figure.h"
+#include "tools/rcs/turntable_figure.h"
 
 namespace seaglint {
 
@@ -95,7 +96,14 @@ RangeProfile range_profile(std::span<const PairedCut::Place> places, std::span<c
 // The profile's level at one range (m), of any frequencies.
 double level_at_range(std::span<const PairedCut::Place> places, std::span<const Complex> amplitude_m, double range_m);
 
-// Those of export and compared values for the first four cuts over frequency that have phases; empty if none does.
-PlotPanels range_profile_plots(std::span<const PairedCut> cuts);
+// Those of export and compared values for the first four cuts over frequency that have phases, of one antenna with
+// names at the strongest peaks of the compared values; empty if none does.
+PlotPanels range_profile_plots(std::span<const PairedCut> cuts, const PeakNames& names = {});
+
+// True if all steps of ascending values, two or more, are equal within a fiftieth.
+bool are_uniform(const std::vector<double>& values);
+
+// True if transmitter and receiver are in one direction.
+bool is_monostatic(const PairedCut::Place& place);
 
 }  // namespace seaglint

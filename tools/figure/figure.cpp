@@ -76,7 +76,7 @@ std::string polar_commands(const FigureAxis& radius) {
       "set polar\nset angles degrees\nset theta top counterclockwise\nset trange [0:360]\nset rrange [{:g}:{:g}]\n"
       "unset xtics\nunset ytics\nunset border\nset border polar\nunset xlabel\nunset ylabel\nunset raxis\n"
       "set rtics {:g},{:g} scale 0 font {}\nset ttics 0,30 font {}\n"
-      "set ttics add ('0 bow' 0, '90 port' 90, '180 stern' 180, '270 starboard' 270)\n"
+      "set ttics add ('0 bow' 0, '180 stern' 180)\nset lmargin 5\nset rmargin 5\n"
       "set grid polar 30 lt 1 lc rgb '#d8d8d8' lw 0.6\nset size ratio 1\n",
       low, high, low + step, step, kSmallFont, kSmallFont);
 }
@@ -141,7 +141,9 @@ PlotText plot_text(const LinePlot& figure, std::size_t first_index) {
   if (figure.equal_axes) commands += "set size ratio -1\n";
   commands += "plot " + plots.substr(0, plots.size() - 2) + "\n";
   if (figure.polar)
-    commands += "unset polar\nunset rtics\nunset ttics\nunset grid\nset border 31\nset xtics\nset ytics\n";
+    commands +=
+        "unset polar\nset lmargin 11\nset rmargin 3\nunset rtics\nunset ttics\nunset grid\nset border 31\nset "
+        "xtics\nset ytics\n";
   return {commands, data};
 }
 
@@ -175,13 +177,14 @@ constexpr double kTitleLine = 1.4, kTitleCharacter = 0.6;  // height, mean width
 // The figure as a style has it.
 PlotPanels in_style(PlotPanels figure) {
   if (figure.size.style == FigureStyle::kScreen) return figure;
-  constexpr double kHeightOverWidth = 0.62;
+  const bool polar = std::ranges::any_of(figure.plots, &LinePlot::polar);
+  const double height_over_width = polar ? 1.25 : 0.62;
   figure.columns = std::min(figure.columns, figure.size.style == FigureStyle::kPaper ? 1 : 2);
   for (LinePlot& plot : figure.plots) plot.legend_above = true;
   const auto columns = static_cast<std::size_t>(figure.columns);
   const std::size_t rows = (figure.plots.size() + columns - 1) / columns;
   figure.size.height =
-      static_cast<int>(std::lround(kHeightOverWidth * figure.size.width / figure.columns * static_cast<double>(rows)));
+      static_cast<int>(std::lround(height_over_width * figure.size.width / figure.columns * static_cast<double>(rows)));
   return figure;
 }
 

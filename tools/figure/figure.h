@@ -80,8 +80,8 @@ struct PlotPanels {
   std::vector<std::string> notes = {};  // phrases of the small print below all: radar, aspect, sea, seed, version
 };
 
-// One or two columns of a journal have one or at most two plots side by side, each 0.62 of its width high, with the
-// legend above. Throw as draw_by_gnuplot().
+// One or two columns of a journal have one or at most two plots side by side, each 0.62 (polar: 1.25) of its width
+// high, with the legend above. Throw as draw_by_gnuplot().
 void write_figure(const PlotPanels& figure, const std::filesystem::path& file);
 void write_figure(const LinePlot& figure, const std::filesystem::path& file, FigureSize size = {});
 

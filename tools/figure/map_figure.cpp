@@ -57,7 +57,7 @@ double tic_step(const AxisRange& range, double count) {
 
 // Step of the tics along an axis of this height in units of the text's size.
 double upright_step(const AxisRange& range, const AxisRange& up) {
-  constexpr double kApart = 2.4;
+  constexpr double kApart = 1.7;
   return tic_step({std::min(range.first, range.second), std::max(range.first, range.second)},
                   std::max(2.0, (up.second - up.first) / kApart));
 }
@@ -182,9 +182,9 @@ void write_figure(const Heatmap& figure, const std::filesystem::path& file, Figu
       data += fmt::format("{:.9g} {}\n", figure.map.x[i], gnuplot_number(figure.profile->values[i]));
     data += "\n\n";
     commands += fmt::format(
-        "plot {} index {} using 1:2 with lines lc rgb '#0072b2' lw 1.2\nunset label\nunset arrow\nunset grid\nset "
+        "plot {} index {} using 1:2 with lines lc rgb '{}' lw 1.2\nunset label\nunset arrow\nunset grid\nset "
         "format x\n",
-        kGnuplotData, index++);
+        kGnuplotData, index++, figure.profile->colour);
     commands += axis_commands("x", shown.x);
   }
   commands += margins(at, across, up) + axis_commands("y", shown.y) + axis_commands("cb", figure.colour);

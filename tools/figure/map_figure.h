@@ -44,6 +44,7 @@ struct RightAxis {
 struct ProfileAbove {
   FigureAxis y;
   std::vector<double> values;  // one per cell of x
+  std::string colour = kComputedColour;
   struct Peak {
     double x = 0, value = 0;
     std::string name;

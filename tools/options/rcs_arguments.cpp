@@ -440,6 +440,12 @@ void RcsArguments::add_to(CommandOptions& command) {
                   "Radar range for the wavefront curvature, from the target origin (with --sea-reflection from the sea "
                   "surface below it); 0 = plane wave")
       .number_within(0.0, 1e9);
+  command
+      .add_option("--average", request.average,
+                  "Azimuths, evenly spread over every step, of whose cross-sections each row is the mean: a coarse "
+                  "table that misses no lobe; columns of levels alone")
+      .integer_within(1, 10000)
+      .show_default();
   command.add_flag("--uncertainty", request.uncertainty,
                    "Also trace with all facets flat: columns xx_flat_over_smooth_db after the others (level of flat "
                    "facets over that of smooth surfaces) and xx_vertex_change (estimated change, relative to the echo, "

@@ -14,6 +14,7 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/real_functions.h"
 #include "sim/geometry/mesh/triangle_mesh.h"
+#include "tools/rcs/rcs_views.h"
 
 namespace seaglint {
 
@@ -187,6 +188,8 @@ std::vector<std::string> sweep_notes(const RcsRequest& request) {
   std::vector<std::string> notes{axis("", request.frequency_hz, 1e-9, "GHz"),
                                  axis("azimuth ", request.azimuth_deg, 1, "deg"),
                                  axis("elevation ", request.elevation_deg, 1, "deg")};
+  if (request.average > 1)
+    notes.push_back(fmt::format("every level the mean of {} azimuths over the step", request.average));
   if (request.transmitter)
     notes.push_back(fmt::format("transmitter at azimuth {:g} deg, elevation {:g} deg", request.transmitter->azimuth_deg,
                                 request.transmitter->elevation_deg));
@@ -217,8 +220,8 @@ PlotPanels level_plots(const RcsSweep& sweep, bool polar) {
 }
 
 std::optional<std::string> lobe_warning(const RcsRequest& request, const TriangleMesh& mesh) {
-  const std::vector<double>& azimuths = request.azimuth_deg;
-  if (azimuths.size() < kFewestDrawn) return {};
+  const std::vector<double> azimuths = averaged_azimuths(request);
+  if (request.azimuth_deg.size() < kFewestDrawn) return {};
   double step = 0;
   for (std::size_t i = 1; i < azimuths.size(); ++i) step = std::max(step, std::abs(azimuths[i] - azimuths[i - 1]));
   const Bounds box = bounds(mesh);

@@ -60,6 +60,8 @@ RcsSweep requested_sweep(const RcsRequest& request) {
   RcsSweep sweep{request.frequency_hz, request.azimuth_deg, request.elevation_deg, {}, {}, {}, 0, {}};
   if (request.transmitter) sweep.transmitter = direction_to(*request.transmitter);
   check_method(request);
+  if (request.average > 1 && request.azimuth_deg.size() < 2)
+    throw InputError(fmt::format("--average {}: --azimuth-deg must have a step, A:B:STEP", request.average));
   check_sea(request);
   if (request.uncertainty && request.crease_deg && *request.crease_deg == 0)
     throw InputError(fmt::format("--uncertainty compares smooth surfaces with flat facets; with {} all are flat",

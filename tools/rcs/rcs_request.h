@@ -102,10 +102,11 @@ struct RcsRequest : MeshPlacement {
   std::vector<MaterialChoice> materials;     // empty: perfect conductor throughout
   std::vector<double> frequency_hz, azimuth_deg, elevation_deg{0};
   std::optional<FixedTransmitter> transmitter;  // bistatic: the sweep is over the receiver's directions
-  double range_m = 0;                           // 0: far field
-  bool edges = true;                            // fringe currents at sharp edges
-  bool uncertainty = false;                     // also computes the echo of flat facets
-  bool physical_optics_too = false;             // also computes a second model without edge diffraction
+  int average = 1;           // azimuths, evenly spread over every step, of whose cross-sections a view is the mean
+  double range_m = 0;        // 0: far field
+  bool edges = true;         // fringe currents at sharp edges
+  bool uncertainty = false;  // also computes the echo of flat facets
+  bool physical_optics_too = false;  // also computes a second model without edge diffraction
   int max_bounces = kDefaultBounces;
   SolverMethod method = SolverMethod::kBeams;
   double min_patch_m = 0;            // 0: min_patch()

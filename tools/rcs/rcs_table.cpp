@@ -90,8 +90,32 @@ std::string rcs_heading(const RcsRequest& request, const Scatterer& scatterer, c
       cavity_line(request.cavities), transmitter_line(request.transmitter), warning_lines(warnings));
 }
 
+namespace {
+
+// The table of a request with `average`: levels alone.
+std::string averages_table(const RcsRequest& request, const std::string& heading, const RcsSweep& sweep) {
+  std::string csv =
+      heading + fmt::format(
+                    "# every level is the mean cross-section of {} azimuths, evenly spread over the step "
+                    "about its own\nfrequency_hz,azimuth_deg,elevation_deg,hh_dbsm,hv_dbsm,vh_dbsm,vv_dbsm\n",
+                    request.average);
+  for (std::size_t q = 0; q < sweep.frequency_hz.size(); ++q) {
+    for (std::size_t view = 0; view < sweep.views(); ++view) {
+      csv +=
+          fmt::format("{:.9g},{:.9g},{:.9g}", sweep.frequency_hz[q], sweep.azimuth_of(view), sweep.elevation_of(view));
+      for (const Complex& x : sweep.models.back().matrices[view][q])
+        csv += fmt::format(",{:.4f}", dbsm(x, kMinPrinted_m2));
+      csv += "\n";
+    }
+  }
+  return csv;
+}
+
+}  // namespace
+
 std::string rcs_table(const RcsRequest& request, const Scatterer& scatterer, const RcsSweep& sweep,
                       std::span<const std::string> warnings) {
+  if (request.average > 1) return averages_table(request, rcs_heading(request, scatterer, "rcs", warnings), sweep);
   std::string csv =
       rcs_heading(request, scatterer, "rcs", warnings) +
       fmt::format(

@@ -24,7 +24,7 @@ std::string rcs_heading(const RcsRequest& request, const Scatterer& scatterer, c
 std::string method_text(const RcsRequest& request, const Scatterer& scatterer);
 
 // CSV of the sweep's last model, frequency slowest, then elevation, then azimuth, after rcs_heading(). A sweep with a
-// flat model has the columns of its uncertainty.
+// flat model has the columns of its uncertainty; with `average` there are levels alone.
 std::string rcs_table(const RcsRequest& request, const Scatterer& scatterer, const RcsSweep& sweep,
                       std::span<const std::string> warnings = {});
 

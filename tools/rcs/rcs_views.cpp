@@ -241,8 +241,52 @@ SolveResult view_contributions(const RcsRequest& request, const RcsTarget& targe
                 .stop = stop});
 }
 
+std::vector<double> averaged_azimuths(const RcsRequest& request) {
+  if (request.average <= 1) return request.azimuth_deg;
+  const double step =
+      (request.azimuth_deg.back() - request.azimuth_deg.front()) / static_cast<double>(request.azimuth_deg.size() - 1);
+  std::vector<double> azimuths;
+  for (const double azimuth : request.azimuth_deg) {
+    for (int i = 0; i < request.average; ++i) azimuths.push_back(azimuth + step * ((i + 0.5) / request.average - 0.5));
+  }
+  return azimuths;
+}
+
+namespace {
+
+// The mean cross-sections of `average` neighbouring azimuths each.
+RcsSweep averaged(const RcsSweep& fine, const RcsRequest& request) {
+  RcsSweep sweep = requested_sweep(request);
+  const auto average = static_cast<std::size_t>(request.average);
+  for (const RcsSweep::Model& model : fine.models) {
+    RcsSweep::Model& mean = sweep.models.emplace_back(RcsSweep::Model{model.name, model.edge_diffraction, {}});
+    for (std::size_t view = 0; view < sweep.views(); ++view) {
+      // Azimuths are the fastest axis of the views.
+      auto& values = mean.matrices.emplace_back(sweep.frequency_hz.size());
+      for (std::size_t q = 0; q < values.size(); ++q) {
+        for (std::size_t element = 0; element < 4; ++element) {
+          double sum = 0;
+          for (std::size_t i = 0; i < average; ++i) sum += std::norm(model.matrices[view * average + i][q][element]);
+          values[q][element] = std::sqrt(sum / static_cast<double>(average));
+        }
+      }
+    }
+  }
+  return sweep;
+}
+
+}  // namespace
+
 RcsResult compute_rcs(const RcsRequest& request, const RcsTarget& target, int threads, const StopFlag* stop,
                       const std::function<void(const std::string&)>& say) {
+  if (request.average > 1) {
+    RcsRequest every = request;
+    every.azimuth_deg = averaged_azimuths(request);
+    every.average = 1;
+    RcsResult result = compute_rcs(every, target, threads, stop, say);
+    result.sweep = averaged(result.sweep, request);
+    return result;
+  }
   RcsResult result{requested_sweep(request), {}, 0};
   RcsSweep& sweep = result.sweep;
   const std::vector<std::vector<std::array<Complex, 4>>> empty(sweep.views());

@@ -42,9 +42,13 @@ struct RcsResult {
   std::size_t segments = 0;   // beam segments traced from transmitters
 };
 
+// Azimuths of the request, each replaced by `average` of them, evenly spread over the step about it.
+std::vector<double> averaged_azimuths(const RcsRequest& request);
+
 // Computes all models of the request, on `threads` threads (0 = all processors). Throws WorkError when a cavity's
 // currents do not converge or *stop becomes true. say(), if any, gets a line with the time that a long sweep will take,
-// by its first views.
+// by its first views. With `average` above 1 the amplitudes are positive ones with the mean of |S|^2, without phases,
+// and there are no estimates.
 RcsResult compute_rcs(const RcsRequest& request, const RcsTarget& target, int threads = 0,
                       const StopFlag* stop = nullptr, const std::function<void(const std::string&)>& say = {});
 

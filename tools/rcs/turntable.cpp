@@ -73,7 +73,7 @@ class BasebandProfiles {
 };
 
 std::vector<double> cell_centres(const Interval& span, double resolution_m) {
-  constexpr double kPerCell = 3, kMost = 800, kLeast = 16;
+  constexpr double kPerCell = 3, kMost = 800, kLeast = 240;
   const double count = std::clamp(std::ceil(span.size() / resolution_m * kPerCell), kLeast, kMost);
   std::vector<double> centres;
   for (double i = 0.5; i < count; ++i) centres.push_back(span.low + span.size() * i / count);
@@ -208,9 +208,9 @@ TurntableImage turntable_image(const TurntableEcho& echo, const TurntableArea& a
 }
 
 TurntableProfiles turntable_profiles(const TurntableEcho& echo, const Interval& range) {
-  constexpr std::size_t kPerCell = 4;
+  constexpr std::size_t kLeast = 4, kMost = 16, kWanted = 512;  // values per resolution cell; in all
   require_turntable(echo);
-  BasebandProfiles profiles(echo, kPerCell, 1);
+  BasebandProfiles profiles(echo, std::clamp(kWanted / echo.frequency_hz.size(), kLeast, kMost), 1);
   const double cell_m = profiles.period_m() / static_cast<double>(profiles.length());
   const auto first = static_cast<std::ptrdiff_t>(std::ceil(range.low / cell_m)),
              last = static_cast<std::ptrdiff_t>(std::floor(range.high / cell_m));

@@ -18,6 +18,7 @@ struct TurntableEcho {
   std::vector<double> frequency_hz, azimuth_deg;
   double elevation_deg = 0;
   std::vector<Complex> amplitude_m;
+  std::size_t element = 3;  // of hh, hv, vh, vv
 };
 
 inline constexpr std::size_t kFewestOfTurntable = 8;
@@ -74,14 +75,14 @@ TurntableArea turntable_area(const TurntableSampling& sampling, const TurntableE
 // 1991; S ~ e^{+j 2k r^.x} here). Taylor's weights (-35 dB), times k along frequency for the area of the polar grid,
 // with sum 1: a point scatterer has its own cross-section at its place. Summed as back-projection of range profiles
 // that are interpolated linearly between values 32 times as dense as resolution cells (error -58 dB at the band's
-// ends). At least three cells per resolution cell, and 800 cells along an axis at most.
+// ends). Three cells per resolution cell, 240 to 800 along an axis.
 TurntableImage turntable_image(const TurntableEcho& echo, const TurntableArea& area, int threads = 0);
 
 // The ranges of profiles, likewise, of all azimuths.
 Interval profiles_range(const TurntableSampling& sampling, const TurntableExtent* extent);
 
 // Range profiles of all azimuths with the same weights along frequency, levels in dBsm, [azimuth][range], over a part
-// of the unambiguous range, four to eight values per resolution cell.
+// of the unambiguous range, four values or more per resolution cell.
 struct TurntableProfiles {
   std::vector<double> range_m, level_dbsm;
 };

@@ -11,7 +11,6 @@
 #include "sim/core/numbers/real_functions.h"
 #include "sim/core/process/error.h"
 #include "tools/figure/mesh_picture.h"
-#include "tools/rcs/rcs_views.h"
 
 namespace seaglint {
 
@@ -63,6 +62,7 @@ std::vector<std::array<double, 2>> plan_of(const TriangleMesh& mesh, const Vec3&
   };
   const double size = size_of(mesh);
   std::vector<std::array<double, 2>> plan = outline_of(mesh, right, up, size / kSamples);
+  if (mesh.part_names.size() < 2) return plan;
   std::vector<TriangleMesh> parts(mesh.part_names.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     TriangleMesh& part = parts[mesh.triangle_part[t]];
@@ -70,7 +70,7 @@ std::vector<std::array<double, 2>> plan_of(const TriangleMesh& mesh, const Vec3&
     part.triangles.push_back(mesh.triangles[t]);
   }
   for (const TriangleMesh& part : parts) {
-    if (parts.size() == 1 || part.triangles.empty() || size_of(part) < kLeast * size) continue;
+    if (part.triangles.empty() || size_of(part) < kLeast * size) continue;
     const auto more = outline_of(part, right, up, size / kSamples);
     plan.insert(plan.end(), more.begin(), more.end());
   }
@@ -126,7 +126,7 @@ void require_window(const RcsRequest& request, const TriangleMesh& mesh, const s
 }
 
 TurntableEcho turntable_echo(const RcsSweep& sweep, std::size_t element) {
-  TurntableEcho echo{sweep.frequency_hz, sweep.azimuth_deg, sweep.elevation_deg.front(), {}};
+  TurntableEcho echo{sweep.frequency_hz, sweep.azimuth_deg, sweep.elevation_deg.front(), {}, element};
   for (const auto& frequencies : sweep.models.back().matrices) {
     for (const std::array<Complex, 4>& matrix : frequencies) echo.amplitude_m.push_back(matrix[element]);
   }
@@ -162,7 +162,7 @@ Heatmap turntable_figure(const TurntableEcho& echo, const TurntableImage& image,
 }
 
 Heatmap profiles_figure(const TurntableEcho& echo, const TurntableProfiles& profiles, const TurntableCaption& caption,
-                        const NamesAt& names, std::size_t most) {
+                        const PeakNames& names, std::size_t most) {
   constexpr std::size_t kMostCells = 800;
   const TurntableSampling sampling = turntable_sampling(echo.frequency_hz, echo.azimuth_deg, echo.elevation_deg);
   const std::size_t ranges = profiles.range_m.size(), middle = echo.azimuth_deg.size() / 2;
@@ -177,6 +177,7 @@ Heatmap profiles_figure(const TurntableEcho& echo, const TurntableProfiles& prof
                 std::vector<double>(columns.count * rows.count, figure.colour.range->first)};
   figure.profile.emplace();
   figure.profile->y = {"RCS (dBsm)", figure.colour.range, false};
+  figure.profile->colour = caption.colour;
   figure.profile->values.assign(columns.count, figure.colour.range->first);
   const auto raise = [](double& value, double level) { value = std::max(value, level); };
   for (std::size_t a = 0; a < echo.azimuth_deg.size(); ++a) {
@@ -191,7 +192,7 @@ Heatmap profiles_figure(const TurntableEcho& echo, const TurntableProfiles& prof
     for (std::size_t m = 0; m < ranges; ++m)
       magnitude_m.push_back(amplitude_of_dbsm(profiles.level_dbsm[middle * ranges + m]));
     std::vector<NamedPeak> peaks = strongest_peaks(profiles.range_m, magnitude_m, sampling.range_cell_m, most);
-    names(peaks, echo.azimuth_deg[middle], middle_hz);
+    names(peaks, {{echo.azimuth_deg[middle], echo.elevation_deg, middle_hz}, echo.element, sampling.range_cell_m});
     for (const NamedPeak& peak : peaks) {
       if (!peak.name.empty() && dbsm(peak.magnitude_m) > figure.colour.range->first)
         figure.profile->peaks.push_back({peak.range_m, dbsm(peak.magnitude_m), peak.name});
@@ -209,18 +210,16 @@ Heatmap profiles_figure(const TurntableEcho& echo, const TurntableProfiles& prof
   return figure;
 }
 
-NamesAt part_names(const RcsRequest& request, const RcsTarget& target, std::size_t element, double range_cell_m) {
-  return [&request, &target, element, range_cell_m](std::vector<NamedPeak>& peaks, double azimuth_deg,
-                                                    double frequency_hz) {
-    const RcsView view{azimuth_deg, request.elevation_deg[0], frequency_hz};
-    const SolveResult solved = view_contributions(request, target, view);
+PeakNames part_names(const RcsRequest& request, const RcsTarget& target) {
+  return [&request, &target](std::vector<NamedPeak>& peaks, const ProfilePlace& place) {
+    const SolveResult solved = view_contributions(request, target, place.view);
     std::vector<RangeContribution> contributions;
     append_contributions({.points = solved.views[0].points,
                           .mesh = target.prepared.mesh,
-                          .k = 2 * kPi * frequency_hz / kSpeedOfLight,
-                          .element = element},
+                          .k = 2 * kPi * place.view.frequency_hz / kSpeedOfLight,
+                          .element = place.element},
                          contributions);
-    name_peaks(peaks, contributions, range_cell_m);
+    name_peaks(peaks, contributions, place.range_cell_m);
   };
 }
 

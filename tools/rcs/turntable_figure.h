@@ -14,6 +14,7 @@
 #include "tools/pipeline/imaging.h"
 #include "tools/rcs/rcs_request.h"
 #include "tools/rcs/rcs_target.h"
+#include "tools/rcs/rcs_views.h"
 #include "tools/rcs/turntable.h"
 
 namespace seaglint {
@@ -35,21 +36,29 @@ struct TurntableCaption {
   std::string title;               // what is drawn: target, polarisation
   std::vector<std::string> notes;  // phrases of the small print after those of the sampling
   std::optional<double> highest_dbsm = {};
+  std::string colour = kComputedColour;  // of the profile above the others
 };
 
 // Levels over range and cross range, seen from above with the radar at the left; with the mesh's outline, if any.
 Heatmap turntable_figure(const TurntableEcho& echo, const TurntableImage& image, const TriangleMesh* mesh,
                          const TurntableCaption& caption);
 
-// Names the peaks of the profile at an azimuth and a frequency; null: they have none.
-using NamesAt = std::function<void(std::vector<NamedPeak>& peaks, double azimuth_deg, double frequency_hz)>;
+// A range profile of an element at one azimuth and elevation, by its middle frequency.
+struct ProfilePlace {
+  RcsView view;
+  std::size_t element = 3;  // of hh, hv, vh, vv
+  double range_cell_m = 0;
+};
+
+// Names the peaks of a profile; null: they have none.
+using PeakNames = std::function<void(std::vector<NamedPeak>& peaks, const ProfilePlace& place)>;
+
+// By the contributions of the target's parts, for one antenna without the sea and cavities. Both arguments outlive it.
+PeakNames part_names(const RcsRequest& request, const RcsTarget& target);
 
 // Levels over range and azimuth below the profile at the middle azimuth, whose `most` strongest peaks have names.
 // More than 800 ranges or azimuths share cells with the largest level of each.
 Heatmap profiles_figure(const TurntableEcho& echo, const TurntableProfiles& profiles, const TurntableCaption& caption,
-                        const NamesAt& names, std::size_t most);
-
-// By the contributions of the target's parts to an element, of one antenna without the sea and cavities.
-NamesAt part_names(const RcsRequest& request, const RcsTarget& target, std::size_t element, double range_cell_m);
+                        const PeakNames& names, std::size_t most);
 
 }  // namespace seaglint
