@@ -80,13 +80,15 @@ bool is_figure_asked(const RcsArguments& arguments) {
   return arguments.reference.figure_given() || !arguments.reference.files.empty() || arguments.request.uncertainty;
 }
 
-// Levels are drawn beside a table that is a file, not a device, except those of the one row of an export of a view.
+// Levels are drawn beside a table that is a file, not a device, except those of the one row of an export of a view, and
+// unless another figure has that name.
 bool is_drawn(const RcsArguments& arguments) {
   std::error_code error;
   const std::filesystem::file_status output = std::filesystem::status(arguments.output, error);
   const bool is_file = !std::filesystem::exists(output) || std::filesystem::is_regular_file(output);
-  return arguments.reference.draws() &&
-         (is_figure_asked(arguments) || (is_file && !arguments.request.exports.wanted()));
+  const std::filesystem::path figure = figure_file(arguments);
+  const bool is_free = figure != arguments.isar && figure != arguments.profiles && !arguments.request.exports.wanted();
+  return arguments.reference.draws() && (is_figure_asked(arguments) || (is_file && is_free));
 }
 
 bool has_images(const RcsArguments& arguments) { return !arguments.isar.empty() || !arguments.profiles.empty(); }

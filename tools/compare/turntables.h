@@ -25,8 +25,8 @@ std::optional<ComparedTurntable> compared_turntable(const std::vector<PairedCut>
 // What a comparison's target adds to its pictures.
 struct TurntableTarget {
   const TriangleMesh* mesh = nullptr;  // outlines and area; null: the whole windows of the sampling
-  PeakNames names;
-  std::vector<std::string> notes;  // after those of the sampling
+  PeakNames names = {};
+  std::vector<std::string> notes = {};  // after those of the sampling
   int threads = 0;
 };
 

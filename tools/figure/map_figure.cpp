@@ -57,19 +57,19 @@ double tic_step(const AxisRange& range, double count) {
 
 // Step of the tics along an axis of this height in units of the text's size.
 double upright_step(const AxisRange& range, const AxisRange& up) {
-  constexpr double kApart = 1.7;
-  return tic_step({std::min(range.first, range.second), std::max(range.first, range.second)},
-                  std::max(2.0, (up.second - up.first) / kApart));
+  constexpr double kApart = 1.7, kFewest = 2, kMost = 10;
+  const auto [low, high] = std::minmax(range.first, range.second);
+  return tic_step({low, high}, std::clamp((up.second - up.first) / kApart, kFewest, kMost));
 }
 
 // Left end of a frame: room for the label and the longest number of its axis.
 double left_of(const AxisRange& range, const AxisRange& up) {
   constexpr double kLeast = 5.6, kLabel = 4, kDigit = 0.62;
   const double step = upright_step(range, up);
+  const auto [low, high] = std::minmax(range.first, range.second);
   std::size_t longest = 0;
-  for (double at = std::ceil(std::min(range.first, range.second) / step) * step;
-       at <= std::max(range.first, range.second); at += step)
-    longest = std::max(longest, fmt::format("{:.6g}", at + 0.0).size());
+  for (double tic = std::ceil(low / step); tic * step <= high; ++tic)
+    longest = std::max(longest, fmt::format("{:.6g}", tic * step).size());
   return std::max(kLeast, kLabel + kDigit * static_cast<double>(longest));
 }
 
@@ -154,7 +154,7 @@ void write_figure(const Heatmap& figure, const std::filesystem::path& file, Figu
   };
   AxisRange across{left_of(*shown.y.range, up_to(asked.height())), asked.width() - (figure.right ? 12.4 : 7)};
   if (figure.equal_axes) {
-    constexpr double kHighest = 1.3;  // of the width
+    constexpr double kHighest = 1;  // of the width
     const double ratio =
         std::abs((shown.y.range->second - shown.y.range->first) / (shown.x.range->second - shown.x.range->first));
     const double room = kHighest * asked.width() - bottom - title,

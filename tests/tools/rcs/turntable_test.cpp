@@ -213,6 +213,7 @@ TEST(TurntableImage, OfTwoSpheresHasTheirFrontsWithTheirLevels) {
     spheres.append(transformed(make_sphere(kRadius, 3), Mat3::Identity(), place));
   RcsRequest request = request_of(grid(9.7, 0.015, 41), grid(58, 0.2, 21));
   request.mesh = std::make_shared<TriangleMesh>(spheres);
+  request.edges = false;
   const RcsResult result = compute_rcs(request, prepare_rcs_target(request), 1);
   const TurntableExtent extent = turntable_extent(spheres, request.azimuth_deg, 0);
   for (const std::size_t element : {0u, 3u}) {
