@@ -134,6 +134,36 @@ TEST(Sea, DrawsItsFigureOrLeavesNoFile) {
       run_program({"sea", kPoints, "--figure", figure, "-o", csv, "--set", "sea.significant_wave_height_m=0"}).code, 2);
 }
 
+// Of several states a table has one more column, and each state has the rows that it has alone.
+TEST(Sea, WritesEveryStateOfASweep) {
+  const TemporaryFolder folder;
+  const std::filesystem::path all = folder.path() / "all.csv", one = folder.path() / "one.csv",
+                              spectra = folder.path() / "spectra.csv", figure = folder.path() / "sea.svg";
+  const Words words{
+      "sea", kPoints, "--duration-s", "100", "--realisations", "2", "--set", "sea.significant_wave_height_m=[0.5, 2]"};
+  const ProgramResult result = completed(with(words, {"--figure", figure, "--spectrum", spectra, "-o", all}));
+  EXPECT_HAS(result.out, "sea state 0, realisation 0\nsignificant_wave_height_m 0.5,");
+  EXPECT_HAS(result.out, "sea state 1, realisation 0\nsignificant_wave_height_m 2,");
+  const std::vector<std::string> lines = data_lines(all);
+  EXPECT_EQ(lines[0], "sea_state,time_s,elevation_m,elevation_linear_m,slope_x,slope_y");
+  for (const char* number : {"0", "1"}) {
+    completed(with(words, {"--spectrum", folder.path() / "spectrum.csv", "--state", number, "-o", one}));
+    const std::vector<std::string> alone = data_lines(one);
+    ASSERT_EQ(lines.size(), 2 * alone.size() - 1);
+    EXPECT_EQ(alone[0], "time_s,elevation_m,elevation_linear_m,slope_x,slope_y");
+    const std::size_t first = *number == '0' ? 0 : alone.size() - 1;
+    for (std::size_t i = 1; i < alone.size(); ++i) ASSERT_EQ(lines[first + i], number + ("," + alone[i]));
+  }
+  EXPECT_EQ(data_lines(spectra)[0],
+            "sea_state,omega_rad_s,density_m2_s,realised_density_m2_s,realised_linear_density_m2_s");
+  EXPECT_EQ(data_lines(spectra).size(), 2 * data_lines(folder.path() / "spectrum.csv").size() - 1);
+  for (const char* word : {"Hs 0.5 m", "Hs 2 m", "Tp 8 s", "deep water", "seed "}) EXPECT_HAS(read_file(figure), word);
+  expect_refused(with(words, {"--spectrum", spectra, "--state", "2", "-o", one}),
+                 "--state 2: must be all or a number within 0 and 1");
+  expect_refused(with(words, {"--spectrum", spectra, "--state", "first", "-o", one}),
+                 "--state first: must be all or a number within 0 and 1");
+}
+
 TEST(Sea, RefusesInvalidRanges) {
   for (const auto& wrong : {std::pair{"--step-s", "0"}, std::pair{"--duration-s", "-1"}, std::pair{"--at", "1"},
                             std::pair{"--at", "nan,0"}, std::pair{"--duration-s", "nan"}, std::pair{"--step-s", "nan"}})
@@ -177,7 +207,7 @@ TEST(Motion, DrawsRaosInTheScenariosUnitsAndDepth) {
       for (int mode = 1; mode <= 6; ++mode) rows += fmt::format("{0} 120 {1} {2} 0 {2} 0\n", period, mode, scale);
     write_file(reference, rows);
     // The numbers are those of no body.
-    Words words = with({"motion", "scenarios/quick.yaml", "--duration-s", "1", "--set",
+    Words words = with({"motion", "scenarios/quick.yaml", "--state", "0", "--duration-s", "1", "--set",
                         "targets.ship.motion.rao_follows_long_waves=false"},
                        {"-o", folder.path() / "motion.csv", "--rao", figure, "--rao-reference", reference});
     for (const std::string& setting : settings) words.insert(words.end(), {"--set", setting});
@@ -192,7 +222,7 @@ TEST(Motion, DrawsRaosInTheScenariosUnitsAndDepth) {
 TEST(Motion, WritesEveryBodyAtEveryTime) {
   const TemporaryFolder folder;
   const std::string scenario = write_boxes(folder.path()), file = folder.path() / "motion.csv";
-  completed({"motion", scenario, "--duration-s", "2", "--step-s", "0.1", "-o", file});
+  completed({"motion", scenario, "--state", "0", "--duration-s", "2", "--step-s", "0.1", "-o", file});
   const std::vector<std::string> lines = data_lines(file);
   ASSERT_EQ(lines.size(), 1 + 21 * 3u);
   EXPECT_EQ(lines[0], "time_s,body,roll_deg,pitch_deg,yaw_deg,surge_m,sway_m,heave_m");
@@ -200,6 +230,26 @@ TEST(Motion, WritesEveryBodyAtEveryTime) {
   EXPECT_HAS(lines[2], "0,array_1,");
   EXPECT_HAS(lines[3], "0,array_2,");
   for (std::size_t i = 1; i < lines.size(); ++i) EXPECT_EQ(numbers(lines[i]).size(), 8u);
+}
+
+TEST(Motion, WritesAndDrawsEveryStateOfASweep) {
+  const TemporaryFolder folder;
+  const std::string scenario = write_boxes(folder.path()), file = folder.path() / "motion.csv";
+  const std::filesystem::path figure = folder.path() / "motion.svg", frames = folder.path() / "frames.svg";
+  for (const char* style : {"screen", "paper", "paper-wide"}) {
+    const ProgramResult result = completed({"motion", scenario, "--duration-s", "2", "--figure", figure, "--snapshots",
+                                            frames, "--style", style, "-o", file});
+    EXPECT_HAS(result.out, "sea state 0: Hs 1 m\nship: roll");
+    EXPECT_HAS(result.out, "sea state 1: Hs 2 m\nship: roll");
+    for (const char* word : {">Hs 1 m<", ">Hs 2 m<", "array_2", "boxes: Tp 8 s", "deep water"})
+      EXPECT_HAS(read_file(figure), word);
+    EXPECT_HAS(read_file(frames), "array_2, 0.0 s");
+  }
+  const std::vector<std::string> lines = data_lines(file);
+  ASSERT_EQ(lines.size(), 1 + 2 * 21 * 3u);
+  EXPECT_EQ(lines[0], "sea_state,time_s,body,roll_deg,pitch_deg,yaw_deg,surge_m,sway_m,heave_m");
+  EXPECT_HAS(lines[1], "0,0,ship,");
+  EXPECT_HAS(lines[64], "1,0,ship,");
 }
 
 TEST(Motion, DoesNotDependOnThreads) {

@@ -176,6 +176,47 @@ TEST_F(DataSetUse, ReportsDifferencesOfARegeneratedSample) {
   expect_refused({"regenerate", data, "--sample", "40"}, "--sample 40: the data set has samples 0 to 39");
 }
 
+TEST_F(DataSetUse, IsLookedAtFromItsShardsAndItsMergedFile) {
+  const fs::path one = path("look.svg"), two = path("merged.svg");
+  const ProgramResult result = completed({"look", data_, "--samples", "6", "-o", one});
+  EXPECT_HAS(result.out, "look.svg: 6 of 40 maps of ");
+  EXPECT_HAS(result.out, "SCR 20 dB");
+  completed({"look", data_ / "dataset.h5", "--samples", "6", "-o", two});
+  EXPECT_EQ(read_file(one), read_file(two));
+  const std::string text = read_file(one);
+  for (const char* word : {"carrier 16 GHz", "6 of 40 maps of points, seed", "|RV| relative to its peak (dB)"})
+    EXPECT_HAS(text, word);
+  completed({"look", data_, "--samples", "100", "--whole", "--style", "paper", "-o", two});
+  EXPECT_HAS(read_file(two), "40 of 40 maps");
+  EXPECT_HAS(read_file(two), "whole maps");
+}
+
+// Every class in the same seas and at the same aspects.
+TEST_F(DataSetUse, IsLookedAtInEqualConditions) {
+  const fs::path file = path("pairs.svg");
+  std::istringstream lines(completed({"look", data_, "--samples", "8", "-o", file}).out);
+  std::vector<std::string> conditions;
+  for (std::string line; std::getline(lines, line);)
+    if (const std::size_t at = line.find("Hs "); at != std::string::npos) conditions.push_back(line.substr(at));
+  ASSERT_EQ(conditions.size(), 8u);
+  for (std::size_t i = 0; i < 8; i += 2) EXPECT_EQ(conditions[i], conditions[i + 1]);
+}
+
+TEST_F(DataSetUse, IsNotLookedAtWhereItIsMissingOrDamaged) {
+  const fs::path file = path("none.png"), empty = path("empty"), data = copy();
+  fs::create_directory(empty);
+  expect_refused({"look", empty, "-o", file}, "no manifest.json: not a data set, or one that is not finished");
+  expect_refused({"look", path("nowhere"), "-o", file}, "no such directory");
+  expect_refused({"look", data / "shard_00000.h5", "-o", file}, "shard_00000.h5: is no merged file of a data set");
+  expect_refused({"look", data, "-o", "look.bmp"}, "look.bmp: a figure's name ends in .png, .svg or .pdf");
+  fs::resize_file(data / "shard_00001.h5", 1000);
+  expect_refused({"look", data, "--samples", "40", "-o", file}, "shard_00001.h5: truncated or changed");
+  fs::create_directory(path("moved"));
+  fs::copy(data_ / "dataset.h5", path("moved") + "/dataset.h5");
+  expect_refused({"look", path("moved") + "/dataset.h5", "-o", file}, "dataset.h5: its shards are not in");
+  EXPECT_FALSE(fs::exists(file));
+}
+
 TEST_F(DataSetUse, IsTheSameInNumpy) {
   const fs::path one = path("all.npz"), many = path("npz");
   completed({"export", data_, "-o", one});

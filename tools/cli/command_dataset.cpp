@@ -27,6 +27,8 @@
 #include "sim/core/text/words.h"
 #include "tools/cli/command_line.h"
 #include "tools/compare/cross_check.h"
+#include "tools/figure/map_figure.h"
+#include "tools/pipeline/contact_sheet.h"
 #include "tools/pipeline/generate.h"
 #include "tools/pipeline/warnings.h"
 #include "tools/run/run.h"
@@ -77,8 +79,10 @@ void make_data_set(const Pipeline& pipeline, const std::string& directory, const
     print_out("{} shards of other parts are still missing or damaged; the last part writes the manifest\n",
               result.missing);
   else
-    print_out("Next: `seaglint verify {0}`, `seaglint train {0} -o MODEL`, or seaglint.Dataset(\"{0}\") in Python\n",
-              directory);
+    print_out(
+        "Next: `seaglint verify {0}`, `seaglint look {0} -o look.png`, `seaglint train {0} -o MODEL`, or "
+        "seaglint.Dataset(\"{0}\") in Python\n",
+        directory);
 }
 
 void generate(const GenerateArguments& arguments, const CommandContext& context) {
@@ -135,7 +139,7 @@ void add_features(CommandOptions& program, CommandContext& context) {
   CommandOptions command = program.add_command(
       "features", "Make the maps and features of a data set again from its stored echoes, with other settings");
   auto arguments = std::make_shared<FeaturesArguments>();
-  command.add_option("data", arguments->data, "Directory of a data set with dataset.echoes: true").required();
+  command.add_option("DATA", arguments->data, "Directory of a data set with dataset.echoes: true").required();
   command.add_option("--set", arguments->set, "Replace a value of clutter, map, features or learning, key.path=value")
       .repeatable("KEY.PATH=VALUE");
   command.add_option("-o,--output", arguments->directory, "Directory of the new data set, new or empty").required();
@@ -157,8 +161,8 @@ void add_merge(CommandOptions& program, CommandContext& context) {
   CommandOptions command =
       program.add_command("merge", "One HDF5 file over all shards of a data set, which stay where they are");
   auto arguments = std::make_shared<MergeArguments>();
-  command.add_option("directory", arguments->directory, "Directory of the data set").required();
-  command.add_option("-o,--output", arguments->file, "The merged file; DIRECTORY/dataset.h5 unless given");
+  command.add_option("DATA", arguments->directory, "Directory of the data set").required();
+  command.add_option("-o,--output", arguments->file, "The merged file; DATA/dataset.h5 unless given");
   command.footer("Example:\n  seaglint merge build/points/data");
   command.callback([arguments, &context] {
     context.work = [arguments, &context] {
@@ -267,7 +271,7 @@ void add_verify(CommandOptions& program, CommandContext& context) {
   CommandOptions command = program.add_command(
       "verify", "Audit a data set: missing, repeated, damaged and mislabelled samples; regenerates some of them");
   auto arguments = std::make_shared<VerifyArguments>();
-  command.add_option("directory", arguments->directory, "Directory of the data set").required();
+  command.add_option("DATA", arguments->directory, "Directory of the data set, or its merged file").required();
   command
       .add_option("--regenerate", arguments->regenerate,
                   "Samples to regenerate from their rows, spread over the data set")
@@ -367,7 +371,7 @@ void add_regenerate(CommandOptions& program, CommandContext& context) {
   CommandOptions command =
       program.add_command("regenerate", "Regenerate one sample of a data set and compare it with the stored one");
   auto arguments = std::make_shared<RegenerateArguments>();
-  command.add_option("directory", arguments->directory, "Directory of the data set").required();
+  command.add_option("DATA", arguments->directory, "Directory of the data set, or its merged file").required();
   command.add_option("--sample", arguments->sample, "Number of the sample").required();
   command.add_option("-o,--output", arguments->output,
                      "Map (also complex), axes, hop code, centres and row as NumPy's .npz");
@@ -376,6 +380,52 @@ void add_regenerate(CommandOptions& program, CommandContext& context) {
     context.uninterruptible = true;
     context.work = [arguments] { regenerate_sample(*arguments); };
   });
+}
+
+// A contact sheet of a data set.
+
+namespace {
+
+struct LookArguments {
+  std::string data, output, style = "screen";
+  int samples = 12;
+  bool whole = false;
+};
+
+void look(const LookArguments& arguments, const CommandContext& context) {
+  require_figure(arguments.output);
+  const DatasetReader reader(find_data_set(arguments.data));
+  warn(data_set_warnings(reader));
+  const ContactSheet sheet = contact_sheet({.reader = reader,
+                                            .samples = static_cast<std::size_t>(arguments.samples),
+                                            .whole = arguments.whole,
+                                            .style = figure_style(arguments.style),
+                                            .stop = &context.stop});
+  write_figure(sheet.figure, arguments.output);
+  print_out("{}: {} of {} maps of {}\n{}", arguments.output, sheet.figure.maps.size(), reader.size(),
+            reader.directory().string(), sheet.text);
+}
+
+}  // namespace
+
+void add_look(CommandOptions& program, CommandContext& context) {
+  CommandOptions command = program.add_command(
+      "look",
+      "Draw some of a data set's stored maps side by side: every class in the same seas and at the same aspects");
+  auto arguments = std::make_shared<LookArguments>();
+  command.add_option("DATA", arguments->data, "Directory of the data set, or its merged file").required();
+  command.add_option("-o,--output", arguments->output, "Picture, .png, .svg or .pdf").required();
+  command
+      .add_option("--samples", arguments->samples,
+                  "Number of maps, in equal parts of the classes, spread over sea states, views and realisations")
+      .integer_within(1, 100)
+      .show_default();
+  command.add_flag("--whole", arguments->whole, "Whole maps; else the window of all targets that are shown");
+  add_style_option(command, arguments->style);
+  command.footer(
+      "Example:\n  seaglint look build/points -o look.png\n"
+      "  seaglint look build/demo --samples 24 --style paper-wide -o look.pdf");
+  command.callback([arguments, &context] { context.work = [arguments, &context] { look(*arguments, context); }; });
 }
 
 namespace {
@@ -429,7 +479,7 @@ void require_npz_output(const std::string& output) {
 void add_export(CommandOptions& program, CommandContext& context) {
   CommandOptions command = program.add_command("export", "A data set as NumPy's .npz");
   auto arguments = std::make_shared<ExportArguments>();
-  command.add_option("directory", arguments->directory, "Directory of the data set").required();
+  command.add_option("DATA", arguments->directory, "Directory of the data set, or its merged file").required();
   command
       .add_option("-o,--output", arguments->output,
                   "FILE.npz: everything in one file, for up to some 10,000 maps; else a directory for one file a shard")

@@ -318,7 +318,10 @@ void show_map(const MapArguments& arguments, int threads) {
   const bool is_map = arguments.product == "rv";
   const FigureStyle style = figure_style(arguments.style);
   report_scenario(pipeline, {.bands = is_map, .coverage = is_map});
-  const auto write = [&](const Heatmap& figure) { write_figure(figure, arguments.output, map_size(style)); };
+  const auto write = [&](Heatmap figure) {
+    figure.notes.push_back(fmt::format("seaglint {}", kVersion));
+    write_figure(figure, arguments.output, map_size(style));
+  };
   if (is_map) {
     const GeneratedSample made = pipeline.generate_sample(arguments.sample);
     write(map_figure(arguments, pipeline, radar, made));

@@ -59,11 +59,11 @@ void add_train(CommandOptions& program, CommandContext& context) {
       program.add_command("train", "Train network and trees on a data set and evaluate them on unseen maps and seas");
   auto arguments = std::make_shared<TrainArguments>();
   command
-      .add_option("DIR", arguments->data,
+      .add_option("DATA", arguments->data,
                   "Data sets made by `seaglint generate` or `seaglint run`; learning, split and seed are those of the "
                   "first one's scenario")
       .required()
-      .repeatable("DIR");
+      .repeatable("DATA");
   command.add_option("-o,--output", arguments->model, "Directory of the model").required();
   command.add_option("--set", arguments->set, "Replace a value of the data set's scenario (repeatable)")
       .repeatable("learning.KEY=VALUE");

@@ -14,6 +14,7 @@
 #include <system_error>
 
 #include "classify/dataset/directory/dataset_writer.h"
+#include "classify/dataset/directory/export.h"
 #include "classify/model/study.h"
 #include "seaglint_version.h"
 #include "sim/core/process/error.h"
@@ -60,6 +61,7 @@ void add_commands(CommandOptions& program, CommandContext& context) {
   add_merge(program, context);
   add_verify(program, context);
   add_regenerate(program, context);
+  add_look(program, context);
   add_features(program, context);
   add_export(program, context);
   add_train(program, context);
@@ -131,6 +133,7 @@ int run_command_line(int argc, char** argv) {
 }
 
 std::filesystem::path find_data_set(const std::filesystem::path& directory) {
+  if (directory.extension() == ".h5" && is_regular_file(directory)) return data_set_of_merged(directory);
   const bool below = !exists(directory / kManifestFile) && exists(directory / "data" / kScenarioFile);
   return below ? directory / "data" : directory;
 }

@@ -47,6 +47,7 @@ void add_generate(CommandOptions& program, CommandContext& context);
 void add_merge(CommandOptions& program, CommandContext& context);
 void add_verify(CommandOptions& program, CommandContext& context);
 void add_regenerate(CommandOptions& program, CommandContext& context);
+void add_look(CommandOptions& program, CommandContext& context);
 void add_features(CommandOptions& program, CommandContext& context);
 void add_export(CommandOptions& program, CommandContext& context);
 void add_train(CommandOptions& program, CommandContext& context);
@@ -56,7 +57,7 @@ void add_run(CommandOptions& program, CommandContext& context);
 void add_benchmark(CommandOptions& program, CommandContext& context);
 void add_report(CommandOptions& program, CommandContext& context);
 
-// Directory of the data set: the given one, or its `data`, where `run` writes it.
+// Directory of the data set: the given one, its `data`, where `run` writes it, or that of a merged file's shards.
 std::filesystem::path find_data_set(const std::filesystem::path& directory);
 
 // Directory of the model: the given one, or its `model`, where `run` writes it.

@@ -70,7 +70,8 @@ void add_benchmark(CommandOptions& program, CommandContext& context) {
       .required();
   command.add_option("-o,--output", arguments->directory, "Directory of the results, new or empty").required();
   command.add_flag("--small", arguments->small, "A trial with a few maps in a minute");
-  command.add_option("--set", arguments->set, "Replace a value of the scenario: key.path=value");
+  command.add_option("--set", arguments->set, "Replace a value of the scenario (repeatable)")
+      .repeatable("KEY.PATH=VALUE");
   command.add_flag("--resume", arguments->resume, "Go on with what an earlier run left in the directory");
   add_threads_option(command, context);
   command.footer(
@@ -121,7 +122,7 @@ Scenario read_own_scenario(const std::filesystem::path& run) {
 void add_report(CommandOptions& program, CommandContext& context) {
   CommandOptions command = program.add_command("report", "Draw the figures of a run again and write its report.html");
   auto directory = std::make_shared<std::string>();
-  command.add_option("DIR", *directory, "Directory made by `seaglint run`").required();
+  command.add_option("RUN", *directory, "Directory made by `seaglint run`; the report is written into it").required();
   add_threads_option(command, context);
   command.footer("Example:\n  seaglint report build/demo");
   command.callback([directory, &context] {

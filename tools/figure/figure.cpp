@@ -62,10 +62,13 @@ std::vector<double> apart(std::vector<double> places, double distance, const Axi
   return places;
 }
 
-namespace {
+std::string series_colour(std::size_t i) {
+  // Okabe and Ito's palette, distinguishable for colour-blind readers.
+  constexpr const char* kLineColours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"};
+  return kLineColours[i % std::size(kLineColours)];
+}
 
-// Okabe and Ito's palette, distinguishable for colour-blind readers.
-constexpr const char* kLineColours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"};
+namespace {
 
 // Axes of a polar plot: gnuplot leaves out points below the lower end of the radius, which is the centre.
 std::string polar_commands(const FigureAxis& radius) {
@@ -105,7 +108,7 @@ PlotText plot_text(const LinePlot& figure, std::size_t first_index) {
     }
     if (series.x.empty()) data += "NaN NaN NaN NaN\n";
     data += "\n\n";
-    const std::string colour = series.colour.empty() ? kLineColours[s % std::size(kLineColours)] : series.colour;
+    const std::string colour = series.colour.empty() ? series_colour(s) : series.colour;
     const std::string title = series.name.empty() ? "notitle" : "title " + gnuplot_text(series.name);
     named = named || !series.name.empty();
     const std::string index = fmt::format("data index {} using ", first_index + s);
@@ -119,7 +122,7 @@ PlotText plot_text(const LinePlot& figure, std::size_t first_index) {
     }
     const bool line = series.style == SeriesStyle::kLines;
     const char* style = line ? "lines" : series.style == SeriesStyle::kPoints ? "points" : "linespoints";
-    const std::string marks = line ? "" : fmt::format("pt {} ps 0.8", s % 2 == 0 ? 7 : 5);
+    const std::string marks = line ? "" : fmt::format("pt {} ps 0.8*{}", s % 2 == 0 ? 7 : 5, kMarkSize);
     plots += fmt::format("{}1:2 with {} lc rgb '{}' lw {:g} {} {}, ", index, style, colour, series.width, marks, title);
   }
   SEAGLINT_CHECK(!plots.empty(), "a plot without series");
@@ -176,32 +179,64 @@ constexpr double kTitleLine = 1.4, kTitleCharacter = 0.6;  // height, mean width
 
 // The figure as a style has it.
 PlotPanels in_style(PlotPanels figure) {
-  if (figure.size.style == FigureStyle::kScreen) return figure;
-  const bool polar = std::ranges::any_of(figure.plots, &LinePlot::polar);
-  const double height_over_width = polar ? 1.25 : 0.62;
+  if (figure.size.style == FigureStyle::kScreen || figure.aligned) return figure;
   figure.columns = std::min(figure.columns, figure.size.style == FigureStyle::kPaper ? 1 : 2);
   for (LinePlot& plot : figure.plots) plot.legend_above = true;
   const auto columns = static_cast<std::size_t>(figure.columns);
   const std::size_t rows = (figure.plots.size() + columns - 1) / columns;
+  const int of_width = rows > 1 && figure.size.style == FigureStyle::kPaperWide ? 2 : figure.columns;
+  const bool polar = std::ranges::any_of(figure.plots, &LinePlot::polar);
+  const double height_over_width = polar ? 1.25 : rows > 1 ? 0.7 : 0.62;
   figure.size.height =
-      static_cast<int>(std::lround(height_over_width * figure.size.width / figure.columns * static_cast<double>(rows)));
+      static_cast<int>(std::lround(height_over_width * figure.size.width / of_width * static_cast<double>(rows)));
   return figure;
 }
 
 }  // namespace
 
-SmallPrint::SmallPrint(const FigureLayout& at, const std::vector<std::string>& phrases, double left)
+AxisRange FrameGrid::across_of(std::size_t i) const {
+  const double width =
+      (across.second - across.first - apart[0] * static_cast<double>(columns - 1)) / static_cast<double>(columns);
+  const double left = across.first + (width + apart[0]) * static_cast<double>(i % columns);
+  return {left, left + width};
+}
+
+AxisRange FrameGrid::up_of(std::size_t i) const {
+  const double height = (up.second - up.first - apart[1] * static_cast<double>(rows - 1)) / static_cast<double>(rows);
+  const double top = up.second - (height + apart[1]) * static_cast<double>(i / columns);
+  return {top - height, top};
+}
+
+std::string margins(const FigureLayout& at, const AxisRange& across, const AxisRange& up) {
+  return fmt::format(
+      "set lmargin at screen {:.5f}\nset rmargin at screen {:.5f}\nset bmargin at screen {:.5f}\nset tmargin at "
+      "screen {:.5f}\n",
+      at.x(across.first), at.x(across.second), at.y(up.first), at.y(up.second));
+}
+
+double tic_step(const AxisRange& range, double count) {
+  const double wanted = (range.second - range.first) / count, power = std::pow(10, std::floor(std::log10(wanted)));
+  for (const double factor : {1.0, 2.0, 5.0}) {
+    if (factor * power >= wanted) return factor * power;
+  }
+  return 10 * power;
+}
+
+SmallPrint::SmallPrint(const FigureLayout& at, const std::vector<std::string>& phrases, double left,
+                       std::optional<double> right, const char* colour)
     : at_(at),
       left_(left),
-      lines_(wrapped(phrases, static_cast<std::size_t>((at.width() - left - 0.8) / kSmallCharacter))) {}
+      colour_(colour),
+      lines_(wrapped(phrases, static_cast<std::size_t>(
+                                  std::max(1.0, (right.value_or(at.width() - 0.8) - left) / kSmallCharacter)))) {}
 
 double SmallPrint::height() const { return kSmallLine * static_cast<double>(lines_.size()); }
 
 std::string SmallPrint::commands(double upper) const {
   std::string text;
   for (std::size_t i = 0; i < lines_.size(); ++i) {
-    text += fmt::format("set label {} at screen {:.5f},{:.5f} left font {} tc rgb '#404040'\n", gnuplot_text(lines_[i]),
-                        at_.x(left_), at_.y(upper - kSmallLine * static_cast<double>(i)), kSmallFont);
+    text += fmt::format("set label {} at screen {:.5f},{:.5f} left font {} tc rgb '{}'\n", gnuplot_text(lines_[i]),
+                        at_.x(left_), at_.y(upper - kSmallLine * static_cast<double>(i)), kSmallFont, colour_);
   }
   return text;
 }
@@ -210,37 +245,209 @@ void write_figure(const LinePlot& figure, const std::filesystem::path& file, Fig
   write_figure(PlotPanels{.plots = {figure}, .size = size}, file);
 }
 
+namespace {
+
+// Title above all, small print below: their commands, and the heights that they leave to the panels.
+struct PanelFrame {
+  std::string commands;
+  double head = 0, bottom = 0;
+};
+
+PanelFrame panel_frame(const PlotPanels& figure, const FigureLayout& at) {
+  const std::vector<std::string> title =
+      wrapped({figure.title}, static_cast<std::size_t>((at.width() - 2) / kTitleCharacter));
+  const SmallPrint notes(at, figure.notes, 1.2);
+  PanelFrame frame{notes.commands(notes.height() - 0.3),
+                   figure.title.empty() ? 0 : 0.5 + kTitleLine * static_cast<double>(title.size()),
+                   figure.notes.empty() ? 0 : notes.height() + 0.6};
+  for (std::size_t i = 0; i < title.size(); ++i) {
+    frame.commands += fmt::format("set label {} at screen 0.5,{:.5f} center\n", gnuplot_text(title[i]),
+                                  at.y(at.height() - 1.2 - kTitleLine * static_cast<double>(i)));
+  }
+  return frame;
+}
+
+// About six numbers at y over the data, or over the axis's own range.
+std::string few_numbers(const LinePlot& plot) {
+  AxisRange range{1e300, -1e300};
+  for (const Series& series : plot.series) {
+    for (const double y : series.y) {
+      if (std::isfinite(y)) range = {std::min(range.first, y), std::max(range.second, y)};
+    }
+  }
+  if (plot.y.range) range = *plot.y.range;
+  if (plot.y.logarithmic || !(range.first < range.second)) return "";
+  return fmt::format("set ytics {:g}\n", tic_step(range, 6));
+}
+
+// Each plot starts from gnuplot's default axes.
+constexpr const char* kDefaultAxes =
+    "unset logscale\nset format\nset xrange [*:*]\nset yrange [*:*]\nset xtics autofreq\nset ytics autofreq\nset "
+    "offsets\n";
+
+// The ranges of a plot with equal axes in a frame of this height over width: the smaller one is extended.
+void fill_frame(LinePlot& plot, double height_over_width) {
+  plot.equal_axes = false;
+  const auto extend = [](AxisRange& range, double span) {
+    const double more = 0.5 * (span - (range.second - range.first));
+    range = {range.first - more, range.second + more};
+  };
+  const double x = plot.x.range->second - plot.x.range->first, y = plot.y.range->second - plot.y.range->first;
+  if (y < height_over_width * x) {
+    extend(*plot.y.range, height_over_width * x);
+  } else {
+    extend(*plot.x.range, y / height_over_width);
+  }
+}
+
+// The legend of a plot's series in lines above the panels.
+class LegendAbove {
+ public:
+  LegendAbove(const LinePlot& plot, double width) {
+    for (std::size_t i = 0; i < plot.series.size(); ++i) {
+      const Series& series = plot.series[i];
+      if (series.name.empty()) continue;
+      const double length = kSample + 0.5 + kSmallCharacter * static_cast<double>(series.name.size()) + 1.5;
+      if (lines_.empty() || lines_.back().length + length > width) lines_.emplace_back();
+      lines_.back().entries.push_back(
+          {series.name, series.colour.empty() ? series_colour(i) : series.colour, lines_.back().length});
+      lines_.back().length += length;
+    }
+  }
+
+  double height() const { return lines_.empty() ? 0 : 0.3 + kLine * static_cast<double>(lines_.size()); }
+
+  // Lines in the middle of `across` below `upper`.
+  std::string commands(const FigureLayout& at, const AxisRange& across, double upper) const {
+    std::string text;
+    double y = upper - 0.5 * kLine;
+    for (const Line& line : lines_) {
+      const double left = 0.5 * (across.first + across.second - line.length + 1.5);
+      for (const Entry& entry : line.entries) {
+        const double x = left + entry.x;
+        text += fmt::format(
+            "set arrow from screen {:.5f},{:.5f} to screen {:.5f},{:.5f} nohead lc rgb '{}' lw 1.6\n"
+            "set label {} at screen {:.5f},{:.5f} left font {}\n",
+            at.x(x), at.y(y), at.x(x + kSample), at.y(y), entry.colour, gnuplot_text(entry.name),
+            at.x(x + kSample + 0.5), at.y(y), kSmallFont);
+      }
+      y -= kLine;
+    }
+    return text;
+  }
+
+ private:
+  static constexpr double kSample = 1.8, kLine = 1.25;
+  struct Entry {
+    std::string name, colour;
+    double x;
+  };
+  struct Line {
+    std::vector<Entry> entries;
+    double length = 0;
+  };
+  std::vector<Line> lines_;
+};
+
+void write_aligned(PlotPanels figure, const std::filesystem::path& file) {
+  std::vector<LinePlot>& plots = figure.plots;
+  const auto columns = static_cast<std::size_t>(figure.columns);
+  const auto same = [](const FigureAxis& a, const FigureAxis& b) {
+    return a.range.has_value() && a.range == b.range && a.label == b.label;
+  };
+  const bool one_x = std::ranges::all_of(plots, [&](const LinePlot& plot) { return same(plot.x, plots.front().x); });
+  bool one_y = true;  // in each row
+  for (std::size_t i = 0; i < plots.size(); ++i) one_y = one_y && same(plots[i].y, plots[i - i % columns].y);
+
+  figure.size.height = figure.size.width;
+  const FigureArea square = figure_area(figure.size);
+  const double width = square.width / square.em;
+  FrameGrid grid{.columns = columns,
+                 .rows = (plots.size() + columns - 1) / columns,
+                 .across = {6.2, width - 1.6},
+                 .up = {},
+                 .apart = {one_y ? 1.9 : 4.8, 0}};
+  const FigureLayout unknown_height(square);
+  const auto title_of = [&](const FigureLayout& at, std::size_t i) {
+    const AxisRange across = grid.across_of(i);
+    std::vector<std::string> phrases;  // divided where "; " stands
+    for (std::string rest = plots[i].title; !rest.empty();) {
+      const std::size_t end = std::min(rest.find("; "), rest.size());
+      phrases.push_back(rest.substr(0, end));
+      rest.erase(0, end + 2);
+    }
+    return SmallPrint(at, phrases, across.first, across.second + 0.5, "#000000");
+  };
+  double titles = 0;
+  for (std::size_t i = 0; i < plots.size(); ++i) {
+    if (!plots[i].title.empty()) titles = std::max(titles, title_of(unknown_height, i).height() + 0.2);
+  }
+  const LegendAbove legend(plots.front(), width - 3);
+  const PanelFrame outer = panel_frame(figure, unknown_height);
+  const AxisRange first = grid.across_of(0);
+  const double frame_height = *figure.aligned * (first.second - first.first), rows = static_cast<double>(grid.rows);
+  const double bottom = outer.bottom + 3.2, top = outer.head + legend.height() + titles + 0.4;
+  const bool titled_rows = std::any_of(plots.begin() + static_cast<std::ptrdiff_t>(std::min(columns, plots.size())),
+                                       plots.end(), [](const LinePlot& plot) { return !plot.title.empty(); });
+  grid.apart[1] = (one_x ? 0.7 : 1.7) + (titled_rows ? titles : 0.2);
+  const double height = bottom + rows * frame_height + (rows - 1) * grid.apart[1] + top;
+  grid.up = {bottom, height - top};
+  figure.size.height = static_cast<int>(std::lround(figure.size.width * height / width));
+  const FigureLayout at(figure_area(figure.size));
+
+  std::string data, commands = "set multiplot\nset tics font small\n" + panel_frame(figure, at).commands;
+  commands += legend.commands(at, {0, width}, height - outer.head - 0.2);
+  std::size_t index = 0;
+  for (std::size_t i = 0; i < plots.size(); ++i) {
+    LinePlot& plot = plots[i];
+    const bool is_lowest = i + columns >= plots.size();
+    const AxisRange up = grid.up_of(i);
+    if (plot.equal_axes) fill_frame(plot, *figure.aligned);
+    if (!is_lowest) plot.x.label.clear();
+    if (!grid.is_left(i)) plot.y.label.clear();
+    const PlotText text = plot_text(plot, index);
+    const std::size_t own = text.commands.rfind("plot ");  // what stands before is replaced in part
+    const SmallPrint title = title_of(at, i);
+    commands += kDefaultAxes + margins(at, grid.across_of(i), up) + text.commands.substr(0, own);
+    if (one_x && !is_lowest) commands += "set format x ''\n";
+    if (one_y && !grid.is_left(i)) commands += "set format y ''\n";
+    if (plot.x.range) commands += fmt::format("set xtics {:g} offset 0,0.3\n", tic_step(*plot.x.range, 4));
+    if (plot.y.range && !plot.y.logarithmic) commands += fmt::format("set ytics {:g}\n", tic_step(*plot.y.range, 5));
+    commands += "set xlabel offset 0,0.7+0.25*label_shift\nset ylabel offset 0.8+label_shift,0\nunset key\n";
+    if (!plot.title.empty()) commands += title.commands(up.second + title.height() - 0.4);
+    commands += text.commands.substr(own) + "unset label\nunset arrow\n";
+    data += text.data;
+    index += plot.series.size();
+  }
+  draw_by_gnuplot(file, figure.size, data, commands + "unset multiplot\n");
+}
+
+}  // namespace
+
 void write_figure(const PlotPanels& asked, const std::filesystem::path& file) {
   const PlotPanels figure = in_style(asked);
   SEAGLINT_CHECK(!figure.plots.empty() && figure.columns >= 1,
                  fmt::format("{} plots in {} columns", figure.plots.size(), figure.columns));
+  if (figure.aligned) return write_aligned(figure, file);
   const auto columns = static_cast<std::size_t>(figure.columns);
   const std::size_t rows = (figure.plots.size() + columns - 1) / columns;
   const FigureLayout at(figure_area(figure.size));
-  const std::vector<std::string> title =
-      wrapped({figure.title}, static_cast<std::size_t>((at.width() - 2) / kTitleCharacter));
-  const SmallPrint notes(at, figure.notes, 1.2);
-  const double bottom = figure.notes.empty() ? 0 : notes.height() + 0.6;
-  const double head = figure.title.empty() ? 0 : 0.5 + kTitleLine * static_cast<double>(title.size());
-  const double width = 1.0 / figure.columns, height = at.y(at.height() - head - bottom) / static_cast<double>(rows);
+  const PanelFrame frame = panel_frame(figure, at);
+  const double width = 1.0 / figure.columns,
+               height = at.y(at.height() - frame.head - frame.bottom) / static_cast<double>(rows);
 
-  std::string data, commands = "set multiplot\nset lmargin 11\nset rmargin 3\n" + notes.commands(notes.height() - 0.3);
-  for (std::size_t i = 0; i < title.size(); ++i) {
-    commands += fmt::format("set label {} at screen 0.5,{:.5f} center\n", gnuplot_text(title[i]),
-                            at.y(at.height() - 1.2 - kTitleLine * static_cast<double>(i)));
-  }
+  std::string data, commands = "set multiplot\nset lmargin 11\nset rmargin 3\n" + frame.commands;
   std::size_t index = 0;
   for (std::size_t i = 0; i < figure.plots.size(); ++i) {
     const LinePlot& plot = figure.plots[i];
     const PlotText text = plot_text(plot, index);
-    // Each plot starts from gnuplot's default axes.
-    commands += fmt::format(
-                    "set origin {:.5f},{:.5f}\nset size noratio {:.5f},{:.5f}\nunset logscale\nset format\nset xlabel "
-                    "offset 0,0.3\nset xrange [*:*]\nset yrange [*:*]\nset offsets\nset title {}\n",
-                    width * static_cast<double>(i % columns),
-                    at.y(bottom) + height * static_cast<double>(rows - 1 - i / columns), width, height,
-                    gnuplot_text(plot.title)) +
-                text.commands + "unset label\n";
+    commands +=
+        fmt::format(
+            "set origin {:.5f},{:.5f}\nset size noratio {:.5f},{:.5f}\n{}set xlabel offset 0,0.3\nset title {}\n",
+            width * static_cast<double>(i % columns),
+            at.y(frame.bottom) + height * static_cast<double>(rows - 1 - i / columns), width, height, kDefaultAxes,
+            gnuplot_text(plot.title)) +
+        (figure.size.style == FigureStyle::kScreen || plot.polar ? "" : few_numbers(plot)) + text.commands + "unset label\n";
     data += text.data;
     index += plot.series.size();
   }

@@ -4,6 +4,7 @@
 // Figures of lines and scatters, alone or in panels.
 
 #include <array>
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -55,12 +56,15 @@ Rgb viridis(double at);
 std::string viridis_palette();
 inline constexpr const char* kMarks = "#ff4d4d";
 
+// Colour of the i-th series of a plot that names none.
+std::string series_colour(std::size_t i);
+
 struct LinePlot {
   std::string title;
   FigureAxis x, y;
   std::vector<Series> series;
-  bool equal_axes = false;  // one metre is one metre in x and y
-  bool legend_above = false;
+  bool equal_axes = false;   // one metre is one metre in x and y; of aligned plots both ranges are given
+  bool legend_above = true;  // else at the right
   // Azimuths x in degrees, the bow up and counter-clockwise, with y outwards from the lower end of its range, which is
   // given; lower values are raised to it.
   bool polar = false;
@@ -78,12 +82,23 @@ struct PlotPanels {
   FigureSize size = {};    // in a style of paper only its proportions are those of the plots, see write_figure()
   std::string title = {};  // above all
   std::vector<std::string> notes = {};  // phrases of the small print below all: radar, aspect, sea, seed, version
+  // Height over width of frames that stand close together in every style; the figure's height follows. Labels, and the
+  // numbers of ranges that are equal, stand at the left and the lower edge alone, the legend of the first plot above
+  // all.
+  std::optional<double> aligned = {};
 };
 
-// One or two columns of a journal have one or at most two plots side by side, each 0.62 (polar: 1.25) of its width
-// high, with the legend above. Throw as draw_by_gnuplot().
+// One or two columns of a journal have one or at most two plots side by side, unless they are aligned, each 0.62
+// (polar: 1.25) of the width of a column high, with the legend above. Throw as draw_by_gnuplot().
 void write_figure(const PlotPanels& figure, const std::filesystem::path& file);
 void write_figure(const LinePlot& figure, const std::filesystem::path& file, FigureSize size = {});
+
+// What a figure of any content has in common with others.
+struct FigureText {
+  std::string title;
+  std::vector<std::string> notes;  // phrases of the small print
+  FigureStyle style = FigureStyle::kScreen;
+};
 
 // Places of the parts of a figure, in units of the text's size from the lower left corner.
 class FigureLayout {
@@ -99,10 +114,29 @@ class FigureLayout {
   double width_, height_;
 };
 
-// Small print from a line's left end and the uppermost line's height on, in lines that end before the right margin.
+// Equal frames in rows, the first one above at the left; in units of the text's size.
+struct FrameGrid {
+  std::size_t columns = 1, rows = 1;
+  AxisRange across, up;           // of all frames together
+  std::array<double, 2> apart{};  // neighbours, across and up
+
+  AxisRange across_of(std::size_t i) const;  // of the i-th frame
+  AxisRange up_of(std::size_t i) const;
+  bool is_left(std::size_t i) const { return i % columns == 0; }
+};
+
+// gnuplot's margins of a frame.
+std::string margins(const FigureLayout& at, const AxisRange& across, const AxisRange& up);
+
+// About `count` steps over a range, of 1, 2 or 5 times a power of ten.
+double tic_step(const AxisRange& range, double count);
+
+// Small print from a line's left end and the uppermost line's height on, in lines that end before `right`, unless given
+// the figure's margin.
 class SmallPrint {
  public:
-  SmallPrint(const FigureLayout& at, const std::vector<std::string>& phrases, double left);
+  SmallPrint(const FigureLayout& at, const std::vector<std::string>& phrases, double left,
+             std::optional<double> right = {}, const char* colour = "#404040");
 
   double height() const;                     // of all lines
   std::string commands(double upper) const;  // gnuplot's labels; height of the uppermost line
@@ -110,6 +144,7 @@ class SmallPrint {
  private:
   FigureLayout at_;
   double left_;
+  const char* colour_;
   std::vector<std::string> lines_;
 };
 

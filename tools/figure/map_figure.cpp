@@ -46,15 +46,6 @@ std::string image_data(const CellMap& map, const CellAxis& x, const CellAxis& y)
   return data + "\n\n";
 }
 
-// About `count` steps over a range, of 1, 2 or 5 times a power of ten.
-double tic_step(const AxisRange& range, double count) {
-  const double wanted = (range.second - range.first) / count, power = std::pow(10, std::floor(std::log10(wanted)));
-  for (const double factor : {1.0, 2.0, 5.0}) {
-    if (factor * power >= wanted) return factor * power;
-  }
-  return 10 * power;
-}
-
 // Step of the tics along an axis of this height in units of the text's size.
 double upright_step(const AxisRange& range, const AxisRange& up) {
   constexpr double kApart = 1.7, kFewest = 2, kMost = 10;
@@ -71,14 +62,6 @@ double left_of(const AxisRange& range, const AxisRange& up) {
   for (double tic = std::ceil(low / step); tic * step <= high; ++tic)
     longest = std::max(longest, fmt::format("{:.6g}", tic * step).size());
   return std::max(kLeast, kLabel + kDigit * static_cast<double>(longest));
-}
-
-// The frame of a plot, in units of the text's size from the lower left corner.
-std::string margins(const FigureLayout& at, const AxisRange& across, const AxisRange& up) {
-  return fmt::format(
-      "set lmargin at screen {:.5f}\nset rmargin at screen {:.5f}\nset bmargin at screen {:.5f}\nset tmargin at "
-      "screen {:.5f}\n",
-      at.x(across.first), at.x(across.second), at.y(up.first), at.y(up.second));
 }
 
 // The panel of a profile above the map, with names at its peaks: each on a line that leads to a place of its own.
@@ -239,6 +222,85 @@ void write_figure(const Heatmap& figure, const std::filesystem::path& file, Figu
   draw_by_gnuplot(file, size, data, commands + "unset multiplot\n");
 }
 
+void write_figure(const HeatmapPanels& figure, const std::filesystem::path& file) {
+  SEAGLINT_CHECK(!figure.maps.empty() && figure.columns >= 1,
+                 fmt::format("{} maps in {} columns", figure.maps.size(), figure.columns));
+  constexpr double kHeightOverWidth = 0.62;
+  FigureSize size{.width = figure.width, .height = figure.width, .style = figure.style};
+  const FigureArea square = figure_area(size);
+  const double width = square.width / square.em;
+  const std::size_t columns = std::min(figure.maps.size(), static_cast<std::size_t>(figure.columns));
+  FrameGrid grid{
+      .columns = columns, .rows = (figure.maps.size() + columns - 1) / columns, .across = {5.4, width - 7.2}, .up = {}};
+  const auto axes_of = [](const Heatmap& map) {
+    return std::pair{map.x.range.value_or(cell_axis(map.map.x).edges),
+                     map.y.range.value_or(cell_axis(map.map.y).edges)};
+  };
+  const bool one_range = std::ranges::all_of(
+      figure.maps, [&](const Heatmap& map) { return axes_of(map) == axes_of(figure.maps.front()); });
+  grid.apart[0] = one_range ? 0.9 : 3.6;
+
+  // Texts above each frame, of one height: the title, then the small print.
+  const auto texts = [&](const FigureLayout& at, std::size_t i) {
+    const AxisRange across = grid.across_of(i);
+    const Heatmap& map = figure.maps[i];
+    return std::array{SmallPrint(at, {map.title}, across.first, across.second, "#000000"),
+                      SmallPrint(at, map.notes, across.first, across.second)};
+  };
+  const FigureLayout unknown_height(square);
+  double above = 0;
+  for (std::size_t i = 0; i < figure.maps.size(); ++i) {
+    const auto [title, notes] = texts(unknown_height, i);
+    above = std::max(above, title.height() + notes.height() + 0.4);
+  }
+  const SmallPrint below(unknown_height, figure.notes, 1.2);
+  const double head = figure.title.empty() ? 0.4 : 2.2,
+               bottom = below.height() + (figure.notes.empty() ? 0 : 0.8) + 3.2;
+  grid.apart[1] = above + (one_range ? 0.4 : 1.7);
+  const AxisRange first = grid.across_of(0);
+  const double rows = static_cast<double>(grid.rows);
+  const double height =
+      bottom + rows * kHeightOverWidth * (first.second - first.first) + (rows - 1) * grid.apart[1] + above + head;
+  grid.up = {bottom, height - head - above};
+  size.height = static_cast<int>(std::lround(figure.width * height / width));
+  const FigureLayout at(figure_area(size));
+
+  const FigureAxis& colour = figure.maps.front().colour;
+  std::string data, commands = "set multiplot\nunset key\nset tics out nomirror font small\n";
+  commands += figure.maps.front().diverging ? kBlueWhiteRed : viridis_palette();
+  commands += axis_commands("cb", colour) + "set cblabel offset 1-0.4*label_shift,0\n";
+  commands += fmt::format("set colorbox user origin screen {:.5f},{:.5f} size screen {:.5f},{:.5f}\n",
+                          at.x(grid.across.second + 0.9), at.y(grid.up_of(figure.maps.size() - 1).first), at.x(1),
+                          at.y(grid.up.second - grid.up_of(figure.maps.size() - 1).first));
+  commands += SmallPrint(at, figure.notes, 1.2).commands(below.height() - 0.3);
+  if (!figure.title.empty()) {
+    commands +=
+        fmt::format("set label {} at screen 0.5,{:.5f} center\n", gnuplot_text(figure.title), at.y(height - 1.2));
+  }
+  commands += fmt::format(
+      "set label {} at screen {:.5f},{:.5f} center\nset label {} at screen {:.5f},{:.5f} center rotate by 90\n",
+      gnuplot_text(figure.maps.front().x.label), at.x(0.5 * (grid.across.first + grid.across.second)),
+      at.y(bottom - 2.5), gnuplot_text(figure.maps.front().y.label), at.x(1.2),
+      at.y(0.5 * (grid.up.first + grid.up.second)));
+  for (std::size_t i = 0; i < figure.maps.size(); ++i) {
+    const Heatmap& map = figure.maps[i];
+    const auto [title, notes] = texts(at, i);
+    const AxisRange across = grid.across_of(i), up = grid.up_of(i);
+    const auto [x, y] = axes_of(map);
+    data += image_data(map.map, cell_axis(map.map.x), cell_axis(map.map.y));
+    commands += title.commands(up.second + title.height() + notes.height() - 0.4) +
+                notes.commands(up.second + notes.height() - 0.4);
+    const bool is_lowest = i + columns >= figure.maps.size();
+    commands += margins(at, across, up) + axis_commands("x", {"", x, false}) + axis_commands("y", {"", y, false});
+    commands += fmt::format("set format x '{}'\nset format y '{}'\nset xtics {:g} offset 0,0.4\nset ytics {:g}\n",
+                            one_range && !is_lowest ? "" : "%g", one_range && !grid.is_left(i) ? "" : "%g",
+                            tic_step(x, 5), tic_step(y, 5));
+    commands +=
+        fmt::format("plot {} index {} using 1:2:3 with image notitle\nunset label\nunset colorbox\n", kGnuplotData, i);
+  }
+  draw_by_gnuplot(file, size, data, commands + "unset multiplot\n");
+}
+
 std::vector<double> levels_db(std::span<const float> magnitudes) {
   const float peak = magnitudes.empty() ? 0 : std::ranges::max(magnitudes);
   std::vector<double> levels;
@@ -253,16 +315,19 @@ FigureAxis level_axis(const std::string& quantity) {
   return {quantity + " relative to its peak (dB)", AxisRange{kMapFloorDb, 0}, false};
 }
 
-std::vector<std::string> small_print(const Scenario& scenario, const RadarSpec& radar, const SampleRecord& record) {
+std::vector<std::string> radar_print(const RadarSpec& radar) {
   constexpr const char* kPolarisations[] = {"HH", "HV", "VH", "VV"};
   const double length_s = 1e-6 * radar.pri_us * radar.pulses;
   std::string carrier = fmt::format("carrier {:g} GHz", radar.carrier_ghz);
   if (radar.carrier_count > 1) carrier += fmt::format(" + {} x {:g} MHz", radar.carrier_count, radar.hop_step_mhz);
-  std::vector<std::string> notes{
-      fmt::format("{}, {}", carrier, kPolarisations[static_cast<std::size_t>(radar.polarisation)]),
-      fmt::format("{} pulses in {:.3g} {}", radar.pulses, length_s < 1 ? 1e3 * length_s : length_s,
-                  length_s < 1 ? "ms" : "s"),
-      fmt::format("azimuth {:g} deg, elevation {:g} deg", record.azimuth_deg, record.elevation_deg)};
+  return {fmt::format("{}, {}", carrier, kPolarisations[static_cast<std::size_t>(radar.polarisation)]),
+          fmt::format("{} pulses in {:.3g} {}", radar.pulses, length_s < 1 ? 1e3 * length_s : length_s,
+                      length_s < 1 ? "ms" : "s")};
+}
+
+std::vector<std::string> small_print(const Scenario& scenario, const RadarSpec& radar, const SampleRecord& record) {
+  std::vector<std::string> notes = radar_print(radar);
+  notes.push_back(fmt::format("azimuth {:g} deg, elevation {:g} deg", record.azimuth_deg, record.elevation_deg));
   std::string sea = fmt::format("Hs {:g} m", record.significant_wave_height_m);
   if (record.significant_wave_height_m > 0) {
     sea += fmt::format(", Tp {:.3g} s towards {:g} deg", record.peak_period_s, record.propagation_deg);

@@ -74,6 +74,21 @@ struct Heatmap {
 // Throws as draw_by_gnuplot().
 void write_figure(const Heatmap& figure, const std::filesystem::path& file, FigureSize size = {});
 
+// Several heat maps of one quantity in rows, with one colour bar, that of the first: title and small print of each
+// stand above it; insets, profiles, rings, lines and right axes are not drawn. Where all show the same ranges, numbers
+// stand at the left and the lower edge alone. The height follows from the rows: each map is 0.62 of its width high.
+struct HeatmapPanels {
+  std::vector<Heatmap> maps;
+  int columns = 4;
+  FigureStyle style = FigureStyle::kScreen;
+  int width = 1300;                     // on a screen, pixels
+  std::string title = {};               // above all
+  std::vector<std::string> notes = {};  // phrases of the small print below all
+};
+
+// Throws as draw_by_gnuplot().
+void write_figure(const HeatmapPanels& figure, const std::filesystem::path& file);
+
 // Size of a heat map's figure in a style.
 FigureSize map_size(FigureStyle style);
 
@@ -81,6 +96,9 @@ FigureSize map_size(FigureStyle style);
 std::vector<double> levels_db(std::span<const float> magnitudes);
 // The axis of such levels of a quantity, "|RV|".
 FigureAxis level_axis(const std::string& quantity);
+
+// Phrases of the small print: carriers and polarisation, pulses and their duration.
+std::vector<std::string> radar_print(const RadarSpec& radar);
 
 // Small print of a sample's figure: carrier, polarisation, pulses; aspect; sea; scenario, sample and seed. `radar`:
 // with the sample's drawn values.

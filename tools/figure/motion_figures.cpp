@@ -14,7 +14,7 @@
 #include "sim/motion/ship/responses.h"
 #include "sim/motion/ship/ship.h"
 #include "sim/motion/statistics.h"
-#include "tools/figure/figure.h"
+#include "tools/figure/sea_figures.h"
 
 namespace seaglint {
 
@@ -61,25 +61,46 @@ std::string spectrum_csv(const std::vector<NamedTrajectory>& bodies, double dura
   return text;
 }
 
-void write_motion_figure(const std::vector<NamedTrajectory>& bodies, double duration_s, const std::string& title,
+void write_motion_figure(std::span<const MotionCase> cases, double duration_s, const FigureText& text,
                          const std::filesystem::path& file) {
   constexpr double kLongest = 100;
-  constexpr std::size_t kMaxBodies = 6;
-  std::vector<LinePlot> plots(3);
+  constexpr std::size_t kMaxBodies = 6, kMostInColumn = 3;
+  const std::size_t most = text.style == FigureStyle::kPaper ? kMostInColumn : kMostStates;
+  const std::size_t states = std::min(cases.size(), most);
+  PlotPanels figure{.plots = std::vector<LinePlot>(3 * states),
+                    .columns = static_cast<int>(states),
+                    .size = {std::max(1000, 180 + 260 * static_cast<int>(states)), 900, text.style},
+                    .title = text.title,
+                    .notes = with_left_out(text.notes, cases.size(), states),
+                    .aligned = {}};
+  if (states > 1) figure.aligned = states > 3 ? 0.85 : text.style == FigureStyle::kPaper ? 0.75 : 0.6;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    plots[axis].x.label = "time (s)";
-    plots[axis].y.label = fmt::format("{} (deg)", kAngles[axis]);
-    plots[axis].legend_above = axis == 0;
-    for (std::size_t i = 0; i < std::min(bodies.size(), kMaxBodies); ++i) {
-      const std::vector<MotionSample> samples = uniform_samples(bodies[i].trajectory, std::min(duration_s, kLongest));
-      Series series;
-      if (axis == 0) series.name = bodies[i].body;
-      for (std::size_t n = 0; n < samples.size(); ++n) series.x.push_back(kStatisticsStep_s * static_cast<double>(n));
-      series.y = angle_deg(samples, static_cast<int>(axis));
-      plots[axis].series.push_back(series);
+    double largest = 0;
+    for (std::size_t state = 0; state < states; ++state) {
+      const std::vector<NamedTrajectory>& bodies = cases[state].bodies;
+      LinePlot& plot = figure.plots[axis * states + state];
+      plot.title = axis == 0 ? cases[state].name : "";
+      plot.x.label = "time (s)";
+      plot.y.label = fmt::format("{} (deg)", kAngles[axis]);
+      for (std::size_t i = 0; i < std::min(bodies.size(), kMaxBodies); ++i) {
+        const std::vector<MotionSample> samples = uniform_samples(bodies[i].trajectory, std::min(duration_s, kLongest));
+        Series series;
+        if (axis == 0) series.name = bodies[i].body;
+        if (states > 1) series.width = 1;
+        for (std::size_t n = 0; n < samples.size(); ++n) series.x.push_back(kStatisticsStep_s * static_cast<double>(n));
+        series.y = angle_deg(samples, static_cast<int>(axis));
+        for (const double y : series.y) largest = std::max(largest, std::abs(y));
+        plot.series.push_back(std::move(series));
+      }
+    }
+    if (states < 2) continue;
+    for (std::size_t state = 0; state < states; ++state) {
+      LinePlot& plot = figure.plots[axis * states + state];
+      plot.x.range = AxisRange{0, std::min(duration_s, kLongest)};
+      if (largest > 0) plot.y.range = AxisRange{-1.05 * largest, 1.05 * largest};
     }
   }
-  write_figure({.plots = plots, .size = {1000, 900}, .title = title}, file);
+  write_figure(figure, file);
 }
 
 namespace {
@@ -148,65 +169,105 @@ LinePlot frame(const NamedTrajectory& body, const WaveField& sea, double t) {
 
 }  // namespace
 
-void write_motion_frames(const std::vector<NamedTrajectory>& bodies, const WaveField& sea, double period_s,
-                         const std::string& title, const std::filesystem::path& file) {
-  constexpr int kMoments = 5;
-  std::vector<LinePlot> plots;
-  const std::size_t rows = bodies.size() > 1 ? 2 : 1;
-  for (std::size_t row = 0; row < rows; ++row) {
-    for (int n = 0; n < kMoments; ++n) {
-      plots.push_back(frame(row == 0 ? bodies.front() : bodies.back(), sea, period_s * n / kMoments));
+void write_motion_frames(std::span<const MotionCase> cases, double duration_s, const FigureText& text,
+                         const std::filesystem::path& file) {
+  const int moments = text.style == FigureStyle::kPaper ? 3 : 5;
+  constexpr std::size_t kMostOnPaper = 3;
+  const std::size_t states = std::min(cases.size(), text.style == FigureStyle::kScreen ? kMostStates : kMostOnPaper);
+  PlotPanels figure{.plots = {},
+                    .columns = moments,
+                    .size = {1600, 0, text.style},
+                    .title = text.title,
+                    .notes = with_left_out(text.notes, cases.size(), states),
+                    .aligned = 0.3};
+  for (const MotionCase& one : cases.first(states)) {
+    const double period = std::min(one.peak_period_s, duration_s);
+    for (std::size_t row = 0; row < std::min<std::size_t>(one.bodies.size(), 2); ++row) {
+      const NamedTrajectory& body = row == 0 ? one.bodies.front() : one.bodies.back();
+      for (int n = 0; n < moments; ++n) {
+        figure.plots.push_back(frame(body, one.sea, period * n / moments));
+        LinePlot& plot = figure.plots.back();
+        if (!one.name.empty()) plot.title = one.name + "; " + plot.title;
+      }
+      // One range for the row.
+      const auto first = figure.plots.end() - moments;
+      AxisRange z = *first->y.range;
+      for (auto plot = first; plot != figure.plots.end(); ++plot)
+        z = {std::min(z.first, plot->y.range->first), std::max(z.second, plot->y.range->second)};
+      for (auto plot = first; plot != figure.plots.end(); ++plot) plot->y.range = z;
+      *figure.aligned =
+          std::max(*figure.aligned, (z.second - z.first) / (first->x.range->second - first->x.range->first));
     }
   }
-  write_figure({.plots = plots, .columns = kMoments, .size = {2000, rows == 2 ? 800 : 420}, .title = title}, file);
+  figure.plots.front().series.front().name = "water";
+  figure.plots.front().series.back().name = "outline of the body";
+  write_figure(figure, file);
 }
 
-void write_rao_figure(const ShipParticulars& ship, double mu, double depth, const RaoReference& reference,
-                      const std::string& title, const std::filesystem::path& file) {
+void write_rao_figure(const RaoRequest& request, const FigureText& text, const std::filesystem::path& file) {
   constexpr int kPoints = 150;
   constexpr double kHighest = 2;
+  const std::size_t count = std::min(request.directions.size(), kMostStates);
+  const RaoReference& reference = request.reference;
   std::vector<LinePlot> plots(3);
-  std::array<Series, 3> computed;
-  for (int i = 1; i <= kPoints; ++i) {
-    const double omega = kHighest * i / kPoints;
-    const MotionRao r = ship_rao(ship, {omega, wavenumber_at(omega, depth), mu});
-    const std::array<Complex, 3> angles{r.roll, r.pitch, r.yaw};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      computed[axis].x.push_back(omega);
-      computed[axis].y.push_back(degrees(std::abs(angles[axis])));
-    }
-  }
-  std::array<Series, 3> published;
-  if (!reference.file.empty()) {
-    const RaoTable table = reference.file.extension() == ".4"
-                               ? read_wamit_rao(reference.file, reference.conventions)
-                               : read_veres_rao(reference.file, ship.speed, reference.conventions);
-    for (const double omega : table.omegas()) {
-      if (omega > kHighest) break;
-      const MotionRao r = table.at(omega, wavenumber_at(omega, depth), mu);
-      const std::array<Complex, 3> angles{r.roll, r.pitch, r.yaw};
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        published[axis].x.push_back(omega);
-        published[axis].y.push_back(degrees(std::abs(angles[axis])));
-      }
-    }
-  }
   for (std::size_t axis = 0; axis < 3; ++axis) {
     plots[axis].x.label = "wave frequency (rad/s)";
     plots[axis].y.label = fmt::format("{} (deg/m)", kAngles[axis]);
-    plots[axis].legend_above = axis == 0;
-    if (axis == 0) computed[axis].name = "seaglint";
-    plots[axis].series.push_back(computed[axis]);
-    if (reference.file.empty()) continue;
-    if (axis == 0) published[axis].name = reference.file.filename().string();
-    published[axis].style = SeriesStyle::kPoints;
-    plots[axis].series.push_back(published[axis]);
-    // The axis is limited, as a resonance of unknown damping would compress the other curves.
-    double largest = 0;
-    for (const double y : published[axis].y) largest = std::max(largest, y);
-    plots[axis].y.range = AxisRange{0, 1.3 * largest};
   }
-  write_figure({.plots = plots, .size = {900, 1000}, .title = title}, file);
+  const auto named = [&](const std::string& name, double mu) {
+    return count == 1 ? name : fmt::format("{}, towards {:.4g} deg", name, degrees(mu));
+  };
+  const auto curves = [&](const std::vector<double>& omegas, std::size_t i, const auto& rao, SeriesStyle style,
+                          const std::string& name) {
+    std::array<Series, 3> series;
+    for (const double omega : omegas) {
+      const MotionRao r = rao(omega);
+      const std::array<Complex, 3> angles{r.roll, r.pitch, r.yaw};
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        series[axis].x.push_back(omega);
+        series[axis].y.push_back(degrees(std::abs(angles[axis])));
+      }
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (axis == 0) series[axis].name = name;
+      series[axis].style = style;
+      if (count > 1) series[axis].colour = series_colour(i);
+      plots[axis].series.push_back(series[axis]);
+    }
+    return series;
+  };
+  std::vector<double> omegas;
+  for (int i = 1; i <= kPoints; ++i) omegas.push_back(kHighest * i / kPoints);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double mu = request.directions[i];
+    const auto own = [&](double omega) {
+      return ship_rao(request.ship, {omega, wavenumber_at(omega, request.depth), mu});
+    };
+    curves(omegas, i, own, SeriesStyle::kLines, named("seaglint", mu));
+  }
+  if (!reference.file.empty()) {
+    const RaoTable table = reference.file.extension() == ".4"
+                               ? read_wamit_rao(reference.file, reference.conventions)
+                               : read_veres_rao(reference.file, request.ship.speed, reference.conventions);
+    std::vector<double> tabled = table.omegas();
+    std::erase_if(tabled, [](double omega) { return omega > kHighest; });
+    std::array<double, 3> largest{};
+    for (std::size_t i = 0; i < count; ++i) {
+      const double mu = request.directions[i];
+      const auto published = [&](double omega) { return table.at(omega, wavenumber_at(omega, request.depth), mu); };
+      const std::array<Series, 3> series =
+          curves(tabled, i, published, SeriesStyle::kPoints, named(reference.file.filename().string(), mu));
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        for (const double y : series[axis].y) largest[axis] = std::max(largest[axis], y);
+    }
+    // The axes are limited, as a resonance of unknown damping would compress the other curves.
+    for (std::size_t axis = 0; axis < 3; ++axis) plots[axis].y.range = AxisRange{0, 1.3 * largest[axis]};
+  }
+  write_figure({.plots = plots,
+                .size = {900, 1000, text.style},
+                .title = text.title,
+                .notes = with_left_out(text.notes, request.directions.size(), count, "direction")},
+               file);
 }
 
 }  // namespace seaglint

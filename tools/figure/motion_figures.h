@@ -4,14 +4,17 @@
 // Motion of a scenario's bodies in waves as statistics, spectra and figures.
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "sim/core/numbers/dispersion.h"
 #include "sim/geometry/mesh/triangle_mesh.h"
 #include "sim/motion/kinematics/trajectory.h"
 #include "sim/motion/ship/rao_files.h"
 #include "sim/motion/ship/ship.h"
 #include "sim/sea/wave_field.h"
+#include "tools/figure/figure.h"
 
 namespace seaglint {
 
@@ -30,14 +33,24 @@ std::string motion_statistics(const std::vector<NamedTrajectory>& bodies, double
 // of 120 s (or the whole duration, when shorter), every half of their resolution up to 8 rad/s.
 std::string spectrum_csv(const std::vector<NamedTrajectory>& bodies, double duration_s);
 
-// Figure of roll, pitch and yaw of up to six bodies over the first 100 s.
-void write_motion_figure(const std::vector<NamedTrajectory>& bodies, double duration_s, const std::string& title,
+// The bodies in a realisation of one sea state.
+struct MotionCase {
+  std::string name;  // of the state among others, state_names()
+  std::vector<NamedTrajectory> bodies;
+  WaveField sea;
+  double peak_period_s = 0;
+};
+
+// Figure of roll, pitch and yaw of up to six bodies over the first 100 s, at most to duration_s. Several states stand
+// side by side on common axes: the first kMostStates, three in a column of a journal.
+void write_motion_figure(std::span<const MotionCase> cases, double duration_s, const FigureText& text,
                          const std::filesystem::path& file);
 
-// Five snapshots over one wave period of the first and the last body with the water surface around them, seen from
-// starboard; x is relative to the mean motion of each body.
-void write_motion_frames(const std::vector<NamedTrajectory>& bodies, const WaveField& sea, double period_s,
-                         const std::string& title, const std::filesystem::path& file);
+// Five snapshots, three in a column of a journal, over one wave period (at most duration_s) of the first and the last
+// body with the water surface around them, seen from starboard; x is relative to the mean motion of each body. Of
+// several states the first kMostStates.
+void write_motion_frames(std::span<const MotionCase> cases, double duration_s, const FigureText& text,
+                         const std::filesystem::path& file);
 
 // Table of VERES or WAMIT to draw with a ship's response amplitude operators.
 struct RaoReference {
@@ -45,9 +58,15 @@ struct RaoReference {
   MotionSpec conventions{};    // its keys rao_ and wamit_
 };
 
-// Figure of the moduli of a ship's response amplitude operators over frequency, in waves towards mu (rad) in water of
-// the given depth (m).
-void write_rao_figure(const ShipParticulars& ship, double mu, double depth, const RaoReference& reference,
-                      const std::string& title, const std::filesystem::path& file);
+// A ship in regular waves of every direction that is asked for, in which they travel, rad, in water of one depth, m.
+struct RaoRequest {
+  const ShipParticulars& ship;
+  std::vector<double> directions;
+  double depth = kDeepWater;
+  RaoReference reference = {};
+};
+
+// Figure of the moduli of the response amplitude operators over frequency, of kMostStates directions at most.
+void write_rao_figure(const RaoRequest& request, const FigureText& text, const std::filesystem::path& file);
 
 }  // namespace seaglint

@@ -165,6 +165,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr FigureSize kPlotSize{640, 430};
 constexpr std::size_t kMaxNeighbours = 700;  // rows of a t-SNE plane
 
 struct Drawing {
@@ -174,7 +175,9 @@ struct Drawing {
 
 class FigureList {
  public:
-  explicit FigureList(fs::path directory) : directory_(std::move(directory)) {}
+  // `notes`: small print of every figure of lines.
+  FigureList(fs::path directory, std::vector<std::string> notes)
+      : directory_(std::move(directory)), notes_(std::move(notes)) {}
 
   template <class Plot>
   void add(const std::string& section, const std::string& name, Plot plot, FigureSize size, std::string caption,
@@ -187,11 +190,16 @@ class FigureList {
                         ""};
     if constexpr (std::is_same_v<Plot, LinePlot>) figure.plot = plot_json(plot);
     if constexpr (std::is_same_v<Plot, PlotPanels>) figure.plot = plot_json(plot.plots, plot.columns);
-    drawings_.push_back({std::move(figure), [plot = std::move(plot), size](const fs::path& file) {
-                           if constexpr (std::is_same_v<Plot, PlotPanels>)
-                             write_figure(plot, file);
-                           else
+    drawings_.push_back({std::move(figure), [plot = std::move(plot), size, notes = notes_](const fs::path& file) {
+                           if constexpr (std::is_same_v<Plot, PlotPanels>) {
+                             PlotPanels panels = plot;
+                             panels.notes = notes;
+                             write_figure(panels, file);
+                           } else if constexpr (std::is_same_v<Plot, LinePlot>) {
+                             write_figure(PlotPanels{.plots = {plot}, .size = size, .notes = notes}, file);
+                           } else {
                              write_figure(plot, file, size);
+                           }
                          }});
   }
 
@@ -220,6 +228,7 @@ class FigureList {
 
  private:
   fs::path directory_;
+  std::vector<std::string> notes_;
   std::vector<Drawing> drawings_;
 };
 
@@ -230,22 +239,25 @@ std::string file_word(const std::string& name) {
 }
 
 // A map in the target's window, its centres and the fitted line, with small print.
-Heatmap map_of(const ShownMap& shown, const Scenario& scenario, const SamplePlan& plan) {
+Heatmap map_of(const ShownMap& shown, const ReportRequest& request) {
+  const Scenario& scenario = request.scenario;
+  const SamplePlan& plan = request.plan;
   const SampleRecord& record = shown.sample.record;
   const LineFit line = fit_line(shown.sample.centre_list);
   Heatmap map = rv_figure({.sample = shown.sample, .axes = shown.axes, .line = {line.slope, line.intercept}});
   const SampleAddress address = plan.address(static_cast<std::size_t>(record.sample));
   std::ranges::copy(small_print(scenario, plan.drawn(scenario, address).radar, record), std::back_inserter(map.notes));
+  map.notes.push_back("seaglint " + request.results.numbers.version);
   return map;
 }
 
-void add_maps(FigureList& list, const ReportData& data, const Scenario& scenario, const SamplePlan& plan) {
-  for (const ShownMap& shown : data.shown) {
+void add_maps(FigureList& list, const ReportRequest& request) {
+  for (const ShownMap& shown : request.results.data.shown) {
     const SampleRecord& record = shown.sample.record;
     const LineFit line = fit_line(shown.sample.centre_list);
     list.add(
         "maps", fmt::format("map_{}_{:g}deg", file_word(record.target_name), record.azimuth_deg),
-        map_of(shown, scenario, plan), map_size(FigureStyle::kScreen),
+        map_of(shown, request), map_size(FigureStyle::kScreen),
         fmt::format("<b>{}</b>, azimuth {:g}°, H<sub>s</sub> {:g} m (sample {}). Strongest cell {:.3g} m ({:.1f} "
                     "dBsm), {} centres, "
                     "MWR {:.3g} (m/s)², CCF {:.2f}, σ<sub>r</sub> {:.1f} m, σ<sub>v</sub> {:.2f} m/s; the straight "
@@ -272,8 +284,7 @@ void add_wrong_maps(FigureList& list, const ReportRequest& request) {
     const ShownMap shown{stored_sample(reader, static_cast<std::size_t>(sample)).sample, data.axes};
     const SampleRecord& record = shown.sample.record;
     list.add(
-        "wrong", fmt::format("wrong_map_{}", i + 1), map_of(shown, request.scenario, request.plan),
-        map_size(FigureStyle::kScreen),
+        "wrong", fmt::format("wrong_map_{}", i + 1), map_of(shown, request), map_size(FigureStyle::kScreen),
         fmt::format("Sample {}: <b>{}</b> declared <b>{}</b> with probability {:.2f}. {} centres, MWR {:.3g} (m/s)², "
                     "CCF {:.2f}.",
                     sample, escape_html(classes.at(static_cast<std::size_t>(wrong[i].label))),
@@ -290,7 +301,7 @@ void add_scores(FigureList& list, const Study& study, const SplitSpec& split) {
   for (const Outcome& outcome : outcomes) {
     const bool random = outcome.protocol == Protocol::kRandom;
     list.add("accuracy", fmt::format("accuracy_{}", name(outcome.protocol)),
-             accuracy_plot(study, split, outcome.protocol), {640, 400},
+             accuracy_plot(study, split, outcome.protocol), kPlotSize,
              random ? "Random split: maps of the same sea lie on both sides. Bars: 95 % "
                       "bootstrap over seas."
                     : fmt::format("Split {}: tested on {}. No bar where a height has one test sea only.", by, unseen),
@@ -298,7 +309,7 @@ void add_scores(FigureList& list, const Study& study, const SplitSpec& split) {
   }
   for (auto& [key, plot] : condition_accuracy_plots(study, split)) {
     list.add(
-        "accuracy", "accuracy_by_" + file_word(key), std::move(plot), {640, 400},
+        "accuracy", "accuracy_by_" + file_word(key), std::move(plot), kPlotSize,
         fmt::format("The same for {} by <code>{}</code>: swept values each, drawn ones in at most {} bins of equal "
                     "numbers of maps, at the means of their values.",
                     unseen, escape_html(key), kMostBins),
@@ -306,7 +317,7 @@ void add_scores(FigureList& list, const Study& study, const SplitSpec& split) {
   }
   for (const Outcome& outcome : outcomes) {
     list.add("accuracy", fmt::format("roc_{}", name(outcome.protocol)), roc_plot(study, split, outcome.protocol),
-             {640, 400},
+             kPlotSize,
              outcome.protocol == Protocol::kRandom
                  ? "Receiver operating characteristic over the threshold of the trees' probability, all test "
                    "predictions of the random split; no false alarm stands at 0.1 %."
@@ -315,7 +326,7 @@ void add_scores(FigureList& list, const Study& study, const SplitSpec& split) {
              fmt::format("ROC, {} split", name(outcome.protocol)));
   }
   if (std::optional<LinePlot> plot = roc_by_wave_height_plot(study, split))
-    list.add("accuracy", "roc_by_wave_height", std::move(*plot), {640, 400},
+    list.add("accuracy", "roc_by_wave_height", std::move(*plot), kPlotSize,
              fmt::format("The same of the fused features by wave height, {}.", unseen), "ROC by wave height");
 }
 
@@ -415,7 +426,7 @@ void add_features(FigureList& list, const ReportData& data, const ClassNames& cl
   residual.title = "Line residual and contrast of the spreads";
   residual.x = {"MWR ((m/s)^2)", {}, true};
   residual.y = {"CCF", AxisRange{0, 1.02}, false};
-  list.add("scatter", "features_mwr_ccf", std::move(residual), {640, 400},
+  list.add("scatter", "features_mwr_ccf", std::move(residual), kPlotSize,
            "Residual of the line (MWR) and contrast of the spreads (CCF), every map a point; a residual of zero stands "
            "at 1e-6.",
            "Scatter of MWR and CCF by class");
@@ -428,7 +439,7 @@ void add_features(FigureList& list, const ReportData& data, const ClassNames& cl
   spreads.title = "Spreads of the scattering centres";
   spreads.x.label = "sigma_r (m)";
   spreads.y.label = "sigma_v (m/s)";
-  list.add("scatter", "features_spreads", std::move(spreads), {640, 400},
+  list.add("scatter", "features_spreads", std::move(spreads), kPlotSize,
            "Standard deviations of the centres' ranges and velocities.",
            "Scatter of range and velocity spread by class");
 
@@ -449,7 +460,7 @@ void add_features(FigureList& list, const ReportData& data, const ClassNames& cl
     plot.title = title;
     plot.x.label = "t-SNE 1";
     plot.y.label = "t-SNE 2";
-    list.add("neighbours", name, std::move(plot), {640, 400},
+    list.add("neighbours", name, std::move(plot), kPlotSize,
              fmt::format("{}: neighbours stay neighbours, distances between clusters mean nothing. {} maps, training "
                          "and test together.",
                          title, few.size()),
@@ -497,7 +508,7 @@ void add_aspects(FigureList& list, const ReportData& data, const ClassNames& cla
       plot.series.push_back(std::move(series));
     }
     const bool is_binned = std::ranges::any_of(azimuths, [](const ColumnBin& bin) { return bin.lowest < bin.highest; });
-    list.add("aspects", quantity.file, std::move(plot), {640, 400},
+    list.add("aspects", quantity.file, std::move(plot), kPlotSize,
              quantity.caption + std::string(is_binned ? " Azimuths in bins of equal numbers of maps." : ""),
              quantity.title);
   }
@@ -579,9 +590,13 @@ void add_targets(FigureList& list, const std::vector<Target>& targets) {
 std::vector<ReportFigure> draw_report_figures(const ReportRequest& request) {
   const auto& [data, numbers] = request.results;
   const Scenario& scenario = request.scenario;
-  FigureList list(request.directory);
+  std::vector<std::string> notes{fmt::format("{}, seed {}", scenario.name, scenario.seed),
+                                 fmt::format("{} maps", data.rows.size())};
+  std::ranges::copy(radar_print(scenario.radar), std::back_inserter(notes));
+  notes.push_back("seaglint " + numbers.version);
+  FigureList list(request.directory, std::move(notes));
   const ClassNames classes = class_names(scenario);
-  add_maps(list, data, scenario, request.plan);
+  add_maps(list, request);
   add_scores(list, numbers.study, scenario.learning.split);
   add_wrong_maps(list, request);
   add_features(list, data, classes, scenario.seed);

@@ -184,6 +184,23 @@ bool is_merged(const fs::path& file) {
   }
 }
 
+fs::path data_set_of_merged(const fs::path& file) {
+  if (!is_merged(file)) throw InputError(fmt::format("{}: is no merged file of a data set", file.string()));
+  try {
+    const Hdf5Reader merged(file);
+    const std::vector<VirtualSource> sources = merged.sources(kMaps.path);
+    if (sources.empty()) throw WorkError(fmt::format("{} is not an array over shards", kMaps.path));
+    const fs::path directory = (folder_of(file) / sources.front().file).lexically_normal().parent_path();
+    const fs::path manifest = directory / kManifestFile;
+    if (!fs::exists(manifest)) throw WorkError(fmt::format("its shards are not in {}", directory.string()));
+    if (merged.attribute("manifest_sha256") != sha256_file(manifest))
+      throw WorkError(fmt::format("is of another manifest than {}; merge again", manifest.string()));
+    return directory;
+  } catch (const WorkError& error) {
+    throw InputError(fmt::format("{}: {}", file.string(), error.what()));
+  }
+}
+
 std::optional<std::string> merged_file_of_another_manifest(const DatasetReader& reader) {
   const fs::path file = reader.directory() / kMergedFile;
   if (!fs::is_regular_file(file) || !is_merged(file)) return std::nullopt;

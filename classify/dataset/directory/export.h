@@ -38,6 +38,10 @@ Merged merge_dataset(const std::filesystem::path& directory, const std::filesyst
 // True for a file that merge_dataset() wrote, of any version.
 bool is_merged(const std::filesystem::path& file);
 
+// Directory of the data set whose shards a merged file is over. Throws InputError for a file that is no merged file,
+// and for one whose shards are gone or of another manifest.
+std::filesystem::path data_set_of_merged(const std::filesystem::path& file);
+
 // A sentence if kMergedFile in the data set's directory is of another manifest: what reads that file by itself would
 // pair labels of one data set with maps of another.
 std::optional<std::string> merged_file_of_another_manifest(const DatasetReader& reader);

@@ -8,6 +8,7 @@
 #include <signal.h>
 #include <sys/resource.h>
 #include <unistd.h>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -20,6 +21,7 @@
 #include "sim/core/process/file.h"
 #include "sim/geometry/shapes/generators.h"
 #include "tools/figure/motion_figures.h"
+#include "tools/figure/sea_figures.h"
 #include "tools/figure/tsne.h"
 
 namespace seaglint {
@@ -59,6 +61,18 @@ Heatmap ripple(int columns, int rows) {
   map.rings = {{3, 0}, {6, -0.5}};
   map.ring_name = "centres";
   return map;
+}
+
+// The text of a figure as an SVG has it.
+std::string svg_of(const Heatmap& figure, const fs::path& folder, FigureSize size = {}) {
+  write_figure(figure, folder / "text.svg", size);
+  return read_file(folder / "text.svg");
+}
+
+std::size_t count_of(const std::string& text, const std::string& word) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++count;
+  return count;
 }
 
 TEST_F(Figure, HeatmapsOfAnyShapeBecomePicturesWithoutOtherFiles) {
@@ -104,22 +118,66 @@ TEST_F(Figure, LinesPointsAndIntervalsBecomePictures) {
   EXPECT_EQ(files(), 1u);
 }
 
+// Panels with equal ranges have the axes' labels once.
+TEST_F(Figure, OfSeveralMapsHasOneColourBarAndTheTextsOfEach) {
+  HeatmapPanels panels{.maps = {ripple(20, 10), ripple(20, 10), ripple(20, 10)}, .columns = 2, .notes = {"seed 42"}};
+  for (std::size_t i = 0; i < panels.maps.size(); ++i) {
+    panels.maps[i].title = "map " + std::to_string(i);
+    panels.maps[i].notes = {"Hs " + std::to_string(i) + " m", "azimuth 80 deg"};
+  }
+  for (const FigureStyle style : {FigureStyle::kScreen, FigureStyle::kPaper, FigureStyle::kPaperWide}) {
+    panels.style = style;
+    const fs::path file = folder_ / "panels.svg";
+    write_figure(panels, file);
+    const std::string text = read_file(file);
+    for (const char* word : {"map 0", "map 2", "Hs 1 m", "seed 42"})
+      EXPECT_NE(text.find(word), std::string::npos) << word;
+    for (const char* once : {"level (dB)", "range (m)", "velocity (m/s)"}) EXPECT_EQ(count_of(text, once), 1u) << once;
+    EXPECT_EQ(count_of(text, "data:image/png"), 3u);
+  }
+  const fs::path file = folder_ / "panels.png";
+  panels.maps.resize(1);  // of one cell
+  panels.maps[0] = ripple(1, 1);
+  write_figure(panels, file);
+  EXPECT_GT(read_file(file).size(), 1000u);
+}
+
+TEST_F(Figure, OfAlignedPlotsHasLabelsAtItsEdgesAndOneLegend) {
+  LinePlot plot;
+  plot.x = {"time (s)", AxisRange{0, 10}};
+  plot.y = {"roll (deg)", AxisRange{-1, 1}};
+  plot.series = {{"ship", {0, 10}, {0, 1}, {}}, {"float", {0, 10}, {1, 0}, {}}};
+  PlotPanels panels{.plots = {plot, plot, plot, plot}, .columns = 2, .notes = {"seed 42"}, .aligned = 0.5};
+  for (std::size_t i = 0; i < 4; ++i) panels.plots[i].title = "state " + std::to_string(i);
+  for (const FigureStyle style : {FigureStyle::kScreen, FigureStyle::kPaper}) {
+    panels.size.style = style;
+    write_figure(panels, folder_ / "aligned.svg");
+    const std::string text = read_file(folder_ / "aligned.svg");
+    EXPECT_EQ(count_of(text, ">ship<"), 1u);
+    EXPECT_EQ(count_of(text, "time (s)"), 2u);
+    EXPECT_EQ(count_of(text, "roll (deg)"), 2u);
+    EXPECT_EQ(count_of(text, "state 3"), 1u);
+    EXPECT_EQ(count_of(text, "seed 42"), 1u);
+  }
+}
+
+TEST(SeaStates, AreNamedByWhatDiffers) {
+  SeaState one, two;
+  two.significant_wave_height_m = 2;
+  two.propagation_rad = radians(60);
+  EXPECT_EQ(state_names(std::array{one}), std::vector<std::string>{""});
+  EXPECT_EQ(state_names(std::array{one, two}),
+            (std::vector<std::string>{"Hs 1 m, towards 0 deg", "Hs 2 m, towards 60 deg"}));
+  EXPECT_EQ(common_of(std::array{one, two}).quantities, (std::vector<std::string>{"Tp 8 s", "gamma 3.3"}));
+  EXPECT_EQ(common_of(std::array{one, two}).depth, "deep water");
+  EXPECT_EQ(state_names(std::array{one, one}), (std::vector<std::string>{"state 0", "state 1"}));
+  EXPECT_EQ(with_left_out({"seed 1"}, 8, 6), (std::vector<std::string>{"seed 1", "2 more sea states not drawn"}));
+}
+
 TEST_F(Figure, RefusesOtherFormatsAndMissingFolders) {
   EXPECT_THROW(write_figure(ripple(4, 4), folder_ / "map.jpg"), InputError);
   EXPECT_THROW(write_figure(ripple(4, 4), folder_ / "missing" / "map.png"), WorkError);
   EXPECT_EQ(files(), 0u);
-}
-
-// The text of a figure as an SVG has it.
-std::string svg_of(const Heatmap& figure, const fs::path& folder, FigureSize size = {}) {
-  write_figure(figure, folder / "text.svg", size);
-  return read_file(folder / "text.svg");
-}
-
-std::size_t count_of(const std::string& text, const std::string& word) {
-  std::size_t count = 0;
-  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++count;
-  return count;
 }
 
 // A map of 128 x 64 cells of 0.75 m and 0.15 m/s with three centres of a target, its pedestal over all velocities of
@@ -296,7 +354,8 @@ TEST(MotionFrames, DrawTheWaterAtAShipsPosition) {
   const std::filesystem::path file =
       std::filesystem::path(testing::TempDir()) / ("motion_frames_" + std::to_string(::getpid()) + ".svg");
   const auto picture = [&](double speed, double period_s) {
-    write_motion_frames({{"ship", Trajectory(), make_plate(2, 2), speed}}, sea, period_s, "title", file);
+    const MotionCase one{"", {{"ship", Trajectory(), make_plate(2, 2), speed}}, sea, period_s};
+    write_motion_frames(std::span(&one, 1), 100, {.title = "title", .notes = {}}, file);
     std::string text = read_file(file);
     std::filesystem::remove(file);
     return text;
