@@ -447,7 +447,8 @@ void write_figure(const PlotPanels& asked, const std::filesystem::path& file) {
             width * static_cast<double>(i % columns),
             at.y(frame.bottom) + height * static_cast<double>(rows - 1 - i / columns), width, height, kDefaultAxes,
             gnuplot_text(plot.title)) +
-        (figure.size.style == FigureStyle::kScreen || plot.polar ? "" : few_numbers(plot)) + text.commands + "unset label\n";
+        (figure.size.style == FigureStyle::kScreen || plot.polar ? "" : few_numbers(plot)) + text.commands +
+        "unset label\n";
     data += text.data;
     index += plot.series.size();
   }

@@ -136,7 +136,9 @@ void write_figure(const Heatmap& figure, const std::filesystem::path& file, Figu
     return AxisRange{bottom, figure.profile ? bottom + 0.5 * (top - bottom) : top};
   };
   AxisRange across{left_of(*shown.y.range, up_to(asked.height())), asked.width() - (figure.right ? 12.4 : 7)};
+  std::optional<double> x_step;
   if (figure.equal_axes) {
+    constexpr double kApart = 2.6;  // of tics
     constexpr double kHighest = 1;  // of the width
     const double ratio =
         std::abs((shown.y.range->second - shown.y.range->first) / (shown.x.range->second - shown.x.range->first));
@@ -145,6 +147,7 @@ void write_figure(const Heatmap& figure, const std::filesystem::path& file, Figu
     size.height = static_cast<int>(std::lround(size.width * (bottom + wide * ratio + title) / asked.width()));
     const double middle = 0.5 * (across.first + across.second);
     across = {middle - 0.5 * wide, middle + 0.5 * wide};
+    x_step = tic_step(*shown.x.range, std::clamp(wide / kApart, 3.0, 10.0));
   }
   const FigureLayout at(figure_area(size));
   const SmallPrint notes(at, figure.notes, strip_left);
@@ -171,6 +174,7 @@ void write_figure(const Heatmap& figure, const std::filesystem::path& file, Figu
     commands += axis_commands("x", shown.x);
   }
   commands += margins(at, across, up) + axis_commands("y", shown.y) + axis_commands("cb", figure.colour);
+  if (x_step) commands += fmt::format("set xtics {:g}\n", *x_step);
   commands += fmt::format("set ytics {:g}\n", upright_step(*shown.y.range, up));
   if (figure.colour.range) commands += fmt::format("set cbtics {:g}\n", upright_step(*figure.colour.range, up));
   commands +=

@@ -199,8 +199,14 @@ std::string plot_json(std::span<const LinePlot> plots, int columns) {
   for (const LinePlot& plot : plots) {
     std::vector<std::string> series;
     for (const Series& one : plot.series) series.push_back(series_of(one));
-    panels.push_back(fmt::format(R"({{"title":{},"x":{},"y":{},"equal":{},"series":[{}]}})", json_string(plot.title),
-                                 axis_of(plot.x), axis_of(plot.y), plot.equal_axes, fmt::join(series, ",")));
+    std::vector<std::string> marks;
+    for (const LinePlot::Mark& mark : plot.marks)
+      marks.push_back(
+          fmt::format(R"([{},{},{}])", json_number(mark.x, 6), json_number(mark.y, 6), json_string(mark.name)));
+    panels.push_back(fmt::format(R"({{"title":{},"x":{},"y":{},"equal":{},{}"series":[{}]}})", json_string(plot.title),
+                                 axis_of(plot.x), axis_of(plot.y), plot.equal_axes,
+                                 marks.empty() ? "" : fmt::format(R"("marks":[{}],)", fmt::join(marks, ",")),
+                                 fmt::join(series, ",")));
   }
   return fmt::format(R"({{"columns":{},"panels":[{}]}})", columns, fmt::join(panels, ","));
 }

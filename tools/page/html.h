@@ -65,7 +65,8 @@ std::string json_numbers(std::span<const double> values, int digits = 6);
 // that shows and hides series.
 
 // {"columns", "panels": [{"title", "x": {"label", "log", "range"}, "y", "equal", "series": [{"name", "style", "x", "y",
-// "low", "high", "colour", "width"}]}]}: numbers to six digits; colour and width of series that state a colour.
+// "low", "high", "colour", "width"}], "marks": [[x, y, name]]}]}: numbers to six digits; colour and width of series
+// that state a colour; marks of plots that have some.
 std::string plot_json(std::span<const LinePlot> plots, int columns);
 std::string plot_json(const LinePlot& plot);
 

@@ -63,6 +63,7 @@ const seaglint = (() => {
       layout["xaxis" + suffix] = axis(panel.x, { domain: across, anchor: "y" + suffix });
       layout["yaxis" + suffix] = axis(panel.y, { domain: upward, anchor: "x" + suffix, ...(panel.equal ? { scaleanchor: "x" + suffix } : {}) });
       layout.annotations.push({ text: panel.title, showarrow: false, xref: "paper", yref: "paper", x: across[0], y: upward[1], xanchor: "left", yanchor: "bottom", font: { size: 13 } });
+      for (const [x, y, text] of panel.marks ?? []) layout.annotations.push({ text, textangle: -60, showarrow: false, xref: "x" + suffix, yref: "y" + suffix, x, y, xanchor: "left", yanchor: "bottom", font: { size: 11 } });
       data.push(...traces(panel, suffix, names));
     });
     return { data, layout };

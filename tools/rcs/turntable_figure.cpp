@@ -149,7 +149,7 @@ Heatmap turntable_figure(const TurntableEcho& echo, const TurntableImage& image,
   }
   figure.notes = {fmt::format("seen from above, radar at the left (azimuth {:.6g} deg)", sampling.middle_azimuth_deg),
                   "range from the body's origin, positive = farther; cross range positive = left",
-                  mesh != nullptr ? "lines: outlines of the mesh and its parts" : "",
+                  !figure.outline.empty() ? "lines: outlines of the mesh and its parts" : "",
                   band_text(echo),
                   sector_text(echo),
                   fmt::format("resolution {:.3g} m (c/2B) by {:.3g} m (lambda/2 sector)", sampling.range_cell_m,
