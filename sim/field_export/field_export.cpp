@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
 #include <vector>
@@ -204,9 +205,28 @@ std::string range(const std::set<double>& angles) {
   return fmt::format("({:.9g},{:.9g},{:.9g})", first, last, step);
 }
 
+// Phis within [0, 360) as a sweep across 0 where the step from the last to the first is like the others: those beyond
+// the widest step less 360.
+std::set<double> across_zero(const std::set<double>& phis) {
+  const double closing = *phis.begin() + 360 - *phis.rbegin();
+  double narrowest = 360, widest = closing, from = 360;
+  for (auto next = std::next(phis.begin()); next != phis.end(); ++next) {
+    const double step = *next - *std::prev(next);
+    narrowest = std::min(narrowest, step);
+    if (step > widest) {
+      widest = step;
+      from = *next;
+    }
+  }
+  if (closing > 1.5 * narrowest) return phis;
+  std::set<double> swept;
+  for (const double phi : phis) swept.insert(phi < from ? phi : phi - 360);
+  return swept;
+}
+
 std::string incidence(const DeclaredTransmitter& transmitter, const std::set<double>& thetas,
                       const std::set<double>& phis) {
-  if (transmitter.is_monostatic) return fmt::format("theta = {}, phi = {}", range(thetas), range(phis));
+  if (transmitter.is_monostatic) return fmt::format("theta = {}, phi = {}", range(thetas), range(across_zero(phis)));
   return fmt::format("theta = {:.9g}, phi = {:.9g}", transmitter.theta_deg, transmitter.phi_deg);
 }
 

@@ -3,9 +3,9 @@
 
 A block ```console has commands behind `$ ` with what they print; `...` stands for any text, or, alone on a line, for any
 lines, none included. A line `[exit code N]` ends the output of a command that fails. A block ```yaml NAME is the file
-NAME; a comment <!-- copy FILE... --> copies files of the source tree (names with spaces in quotes). Standard output and standard error are checked
-together, in the order of lines within each. A script ```python NAME.py is compiled; commands that run it are left out where
-a module that it imports is not installed.
+NAME; a comment <!-- copy FILE... --> copies files of the source tree, names with spaces in quotes. Standard output and
+standard error are checked together, in the order of lines within each. A script ```python NAME.py is compiled; commands
+that run it are left out where a module that it imports is not installed.
 """
 import ast
 import dataclasses

@@ -111,6 +111,11 @@ TEST(FieldExport, AsCstHasTenDigitsAndItsPlaceInTheName) {
             "boat (f = 9.3), theta = (85,90.25,5.25), phi = (0,200,100), VP.txt");
   EXPECT_EQ(cst_texts(cuts_of(kFixed), false, "boat")[1].name,
             "boat (f = 10.123456789), theta = 80, phi = 30.5, HP.txt");
+  std::vector<RcsCut> across = cuts_of(kMonostatic);
+  for (RcsCut& cut : across)
+    for (FieldValue& value : cut.values) value.phi_deg = value.phi_deg == 200 ? 350 : value.phi_deg;
+  EXPECT_EQ(cst_texts(across, true, "boat")[0].name,
+            "boat (f = 9.3), theta = (85,90.25,5.25), phi = (-10,10.5,10.25), VP.txt");
 }
 
 TEST(FieldExport, OfWhatAFormatCannotHoldIsRefused) {
