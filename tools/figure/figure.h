@@ -88,8 +88,8 @@ struct PlotPanels {
   std::optional<double> aligned = {};
 };
 
-// One or two columns of a journal have one or at most two plots side by side, unless they are aligned, each 0.62
-// (polar: 1.25) of the width of a column high, with the legend above. Throw as draw_by_gnuplot().
+// One or two columns of a journal have one or at most two plots side by side, unless they are aligned, each 0.62 (in
+// several rows 0.7, polar 1.25) of the width of a column high, with the legend above. Throw as draw_by_gnuplot().
 void write_figure(const PlotPanels& figure, const std::filesystem::path& file);
 void write_figure(const LinePlot& figure, const std::filesystem::path& file, FigureSize size = {});
 
