@@ -265,6 +265,13 @@ def test_torch_loader(data_set):
     assert sum(int(labels.sum()) for _, labels in batches) == 20
 
 
+def test_columns_of_torch_items(data_set):
+    data = seaglint.Dataset(data_set)
+    assert data.torch_dataset(["label", "azimuth_deg"]).values[1] is data.columns["azimuth_deg"]
+    with pytest.raises(seaglint.InputError, match="no column 'azimut_deg': did you mean 'azimuth_deg'"):
+        data.torch_dataset("azimut_deg")
+
+
 def test_other_threads_go_on():
     count, done = 0, threading.Event()
 

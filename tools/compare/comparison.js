@@ -111,7 +111,7 @@
     const bottom = Math.max(cut.bottom, high - 50, quantile(of.z[0].flat().filter((v) => v !== null), 0.02) - 1);
     const at = cut.along === "frequency" ? { type: "line", x0: cut[of.angle === "azimuth" ? "az" : "el"], x1: cut[of.angle === "azimuth" ? "az" : "el"], yref: "paper", y0: 0, y1: 1 } : { type: "line", xref: "paper", x0: 0, x1: 1, y0: cut.ghz, y1: cut.ghz };
     for (const [k, title] of [`${cut.name} (dBsm)`, `${cut.compared} (dBsm)`, "compared - export (dB)"].entries()) {
-      const scale = k < 2 ? { zmin: bottom, zmax: high, colorscale: "Cividis" } : { zmin: -widest, zmax: widest, colorscale: [[0, "#2166ac"], [0.25, "#92c5de"], [0.5, "#ffffff"], [0.75, "#f4a582"], [1, "#b2182b"]] };
+      const scale = k < 2 ? { zmin: bottom, zmax: high, colorscale: "Viridis" } : { zmin: -widest, zmax: widest, colorscale: [[0, "#2166ac"], [0.25, "#92c5de"], [0.5, "#ffffff"], [0.75, "#f4a582"], [1, "#b2182b"]] };
       const heat = { type: "heatmap", x: of.x, y: of.y, z: of.z[k], ...scale, colorbar: { thickness: 12 }, hovertemplate: `${of.angle} %{x:.6g} deg<br>%{y:.6g} GHz<br>%{z:.2f} ${k < 2 ? "dBsm" : "dB"}<extra></extra>` };
       const layout = { template: "none", height: 320, margin: { l: 58, r: 8, t: 32, b: 44 }, title: { text: title, font: { size: 13 }, x: 0.02 }, xaxis: seaglint.axis({ label: of.angle + " (deg)" }), yaxis: seaglint.axis({ label: "frequency (GHz)" }), shapes: [{ ...at, line: { color: k < 2 ? "#fff" : "#000", width: 1, dash: "dot" } }] };
       await plotly.react(images[k], [heat], layout, seaglint.CONFIG);

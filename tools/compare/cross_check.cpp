@@ -274,7 +274,6 @@ PlotPanels cross_check_plots(const CrossCheck& check) {
       if (levels) {
         plot.title = kCoPolarNames[element];
         plot.y = axis_of("radar cross section (dBsm)", both, kMargin_db, kLongest_db);
-        plot.legend_above = true;
         plot.series = {std::move(beams), std::move(rays)};
       } else {
         plot.y = axis_of("relative difference (dB)", difference.y, kMargin_db, kLongest_db);

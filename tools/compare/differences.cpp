@@ -192,7 +192,6 @@ PlotPanels comparison_plots(const std::vector<PairedCut>& cuts, double floor_db)
       return values;
     };
     LinePlot level, difference;
-    level.legend_above = difference.legend_above = true;
     level.title = (first.total ? fmt::format("total, {} transmitted", transmits_v(first.element) ? "V" : "H")
                                : upper(kPolarisationNames[static_cast<int>(first.element)])) +
                   (first.frequency_hz ? fmt::format(", {:g} GHz", *first.frequency_hz * 1e-9) : std::string()) +
@@ -523,7 +522,6 @@ PlotPanels range_profile_plots(std::span<const PairedCut> cuts, const PeakNames&
     const double highest = std::max(*std::max_element(reference.level_dbsm.begin(), reference.level_dbsm.end()),
                                     *std::max_element(compared.level_dbsm.begin(), compared.level_dbsm.end()));
     LinePlot plot;
-    plot.legend_above = true;
     plot.title = fmt::format("{}, {}", kPolarisationNames[static_cast<int>(cut.element)], cut.place);
     plot.x = {"range from the phase origin, positive = farther (m)",
               AxisRange{reference.range_m.front(), reference.range_m.back()}, false};

@@ -137,8 +137,7 @@ PlotText plot_text(const LinePlot& figure, std::size_t first_index) {
     commands += fmt::format("set label {} at first {:.9g},{:.9g} left rotate by 60 offset 0,0.4 font {}\n",
                             gnuplot_text(mark.name), mark.x, mark.y, kSmallFont);
   }
-  const char* place = figure.legend_above ? "outside center top horizontal" : "outside right top";
-  commands += named ? fmt::format("set key {} reverse Left samplen 2\n", place) : "unset key\n";
+  commands += named ? "set key outside center top horizontal reverse Left samplen 2\n" : "unset key\n";
   if (!figure.polar && !figure.x.range && !figure.x.logarithmic)
     commands += "set autoscale xfix\nset offsets graph 0.03, graph 0.03, 0, 0\n";
   if (figure.equal_axes) commands += "set size ratio -1\n";
@@ -181,7 +180,6 @@ constexpr double kTitleLine = 1.4, kTitleCharacter = 0.6;  // height, mean width
 PlotPanels in_style(PlotPanels figure) {
   if (figure.size.style == FigureStyle::kScreen || figure.aligned) return figure;
   figure.columns = std::min(figure.columns, figure.size.style == FigureStyle::kPaper ? 1 : 2);
-  for (LinePlot& plot : figure.plots) plot.legend_above = true;
   const auto columns = static_cast<std::size_t>(figure.columns);
   const std::size_t rows = (figure.plots.size() + columns - 1) / columns;
   const int of_width = rows > 1 && figure.size.style == FigureStyle::kPaperWide ? 2 : figure.columns;

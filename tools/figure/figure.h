@@ -63,8 +63,7 @@ struct LinePlot {
   std::string title;
   FigureAxis x, y;
   std::vector<Series> series;
-  bool equal_axes = false;   // one metre is one metre in x and y; of aligned plots both ranges are given
-  bool legend_above = true;  // else at the right
+  bool equal_axes = false;  // one metre is one metre in x and y; of aligned plots both ranges are given
   // Azimuths x in degrees, the bow up and counter-clockwise, with y outwards from the lower end of its range, which is
   // given; lower values are raised to it.
   bool polar = false;

@@ -436,20 +436,24 @@ std::string key_lines(const Scenario& scenario, bool drawn) {
 constexpr const char* kMotionModels[] = {"fixed", "ship", "float", "series", "rao"};
 
 std::string motion_lines(const Pipeline& pipeline) {
-  const auto& states = pipeline.plan().sea_states();
-  const double height_m = total_wave_height(std::ranges::max(states, {}, total_wave_height));
+  const std::vector<TrialSea> seas = trial_seas(pipeline);
+  std::vector<double> heights_m;
+  for (const TrialSea& sea : seas) heights_m.push_back(total_wave_height(sea.state));
+  const auto [lowest_m, highest_m] = std::ranges::minmax(heights_m);
+  const std::string where =
+      seas.size() == 1 ? fmt::format("Hs {:.3g} m", highest_m)
+                       : fmt::format("Hs {:.3g} to {:.3g} m, over {} drawn seas", lowest_m, highest_m, seas.size());
   std::string text;
   const auto add = [&](const std::string& of) { text += line(text.empty() ? "moves" : "", of); };
-  for (const TargetMotion& motion : target_motions(pipeline)) {
+  for (const TargetMotion& motion : target_motions(pipeline, seas)) {
     const std::string moves = motion_text(motion), rests = rest_text(motion);
     const TargetSpec& target = *motion.target;
     if (moves.empty()) {
       add(fmt::format("{}: {}", target.name, rests));
       continue;
     }
-    add(fmt::format("{}: {}, {} at Hs {:.3g} m{}{}", target.name,
-                    kMotionModels[static_cast<std::size_t>(target.motion.model)], moves, height_m,
-                    rests.empty() ? "" : "; ", rests));
+    add(fmt::format("{}: {}, {} at {}{}{}", target.name, kMotionModels[static_cast<std::size_t>(target.motion.model)],
+                    moves, where, rests.empty() ? "" : "; ", rests));
   }
   for (const TargetSpec& target : pipeline.scenario().targets) {
     if (target.mesh.empty())

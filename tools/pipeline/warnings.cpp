@@ -104,7 +104,7 @@ void warn(std::span<const std::string> sentences) {
 void report_scenario(const Pipeline& pipeline, const ReportScope& scope) {
   const Scenario& scenario = pipeline.scenario();
   for (const std::string& note : motion_file_notes(own_targets(pipeline))) print_note(note);
-  if (scope.rest) report_rest(scenario, target_motions(pipeline));
+  if (scope.rest) report_rest(scenario, target_motions(pipeline, trial_seas(pipeline)));
   warn(mesh_warnings(pipeline));
   warn(motion_warnings(own_targets(pipeline)));
   report_sea(scenario, pipeline.plan().sea_states());
@@ -382,21 +382,45 @@ bool has_motion_section(const Scenario& scenario, const TargetSpec& target) {
 
 }  // namespace
 
-std::vector<TargetMotion> target_motions(const Pipeline& pipeline) {
+std::vector<TrialSea> trial_seas(const Pipeline& pipeline) {
+  const SamplePlan& plan = pipeline.plan();
+  const bool are_drawn = std::ranges::any_of(varied_keys(pipeline.scenario()), [](const VariedKey& key) {
+    return key.drawn != nullptr && key.key_path.starts_with("sea.");
+  });
+  if (!are_drawn) {
+    const std::vector<SeaState>& states = plan.sea_states();
+    const auto highest = std::ranges::max_element(states, {}, total_wave_height);
+    return {{*highest, sea_key(static_cast<std::size_t>(highest - states.begin()), 0)}};
+  }
+  constexpr std::size_t kMost = 4;
+  std::vector<TrialSea> seas;
+  for (std::size_t i = 0; i < kMost; ++i) {
+    const SampleAddress at = plan.sea_address(i * (plan.size() - 1) / (kMost - 1));
+    const std::uint64_t key = sea_key(static_cast<std::size_t>(at.sea_state), static_cast<std::size_t>(at.realisation));
+    if (std::ranges::find(seas, key, &TrialSea::key) == seas.end()) seas.push_back({plan.sea_state(at), key});
+  }
+  return seas;
+}
+
+std::vector<TargetMotion> target_motions(const Pipeline& pipeline, std::span<const TrialSea> seas) {
   const Scenario& scenario = pipeline.scenario();
-  const std::vector<SeaState>& states = pipeline.plan().sea_states();
-  const auto highest = std::ranges::max_element(states, {}, total_wave_height);
-  const std::uint64_t key = sea_key(static_cast<std::size_t>(highest - states.begin()), 0);
-  const WaveField sea = realise_sea(*highest, scenario.seed, key);
+  std::vector<WaveField> fields;
+  for (const TrialSea& sea : seas) fields.push_back(realise_sea(sea.state, scenario.seed, sea.key));
   std::vector<TargetMotion> motions;
   for (std::size_t t = 0; t < scenario.targets.size(); ++t) {
     const Target& target = pipeline.targets()[t];
     if (target.models.empty()) continue;
+    TargetMotion motion{&scenario.targets[t]};
     try {
-      motions.push_back({&scenario.targets[t], motion_rms(trial_motion(pipeline, target, sea, key), kDuration_s)});
+      for (std::size_t s = 0; s < seas.size(); ++s) {
+        const auto rms = motion_rms(trial_motion(pipeline, target, fields[s], seas[s].key), kDuration_s);
+        for (std::size_t i = 0; i < rms.size(); ++i) motion.rms[i] = std::hypot(motion.rms[i], rms[i]);
+      }
     } catch (const InputError&) {
-      continue;  // its responses do not cover this sea
+      continue;  // its responses do not cover these seas
     }
+    for (double& rms : motion.rms) rms /= std::sqrt(static_cast<double>(seas.size()));
+    motions.push_back(motion);
   }
   return motions;
 }

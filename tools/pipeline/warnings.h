@@ -73,10 +73,17 @@ struct TargetMotion {
   std::array<double, 6> rms{};  // motion_rms(); 0: at rest in that degree of freedom
 };
 
-// That of every mesh target, parts included, over 100 s of the first realisation of the sea state with the highest
-// waves, with drawn keys at the middles of their distributions; of a recorded motion that is shorter, over the
-// scenario's intervals. Without targets whose responses do not cover this sea.
-std::vector<TargetMotion> target_motions(const Pipeline& pipeline);
+// The seas by which a scenario's motions are judged: the first realisation of the sea state with the highest waves;
+// where keys of the sea are drawn, up to four of the data set's seas, evenly chosen.
+struct TrialSea {
+  SeaState state;
+  std::uint64_t key = 0;  // of its realisation
+};
+std::vector<TrialSea> trial_seas(const Pipeline& pipeline);
+
+// That of every mesh target, parts included, over 100 s of each of these seas (mean square over them); of a recorded
+// motion that is shorter, over the scenario's intervals. Without targets whose responses do not cover these seas.
+std::vector<TargetMotion> target_motions(const Pipeline& pipeline, std::span<const TrialSea> seas);
 
 // "roll 1.91, pitch 0.42, yaw 0.11 deg rms"; empty for a target at rest.
 std::string motion_text(const TargetMotion& motion);

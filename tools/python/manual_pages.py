@@ -34,7 +34,7 @@ p, ul { max-width: 100ch; }
 """
 
 CURRENT = ' aria-current="page"'
-TUTORIALS = ("by_task", "data_set", "report", "pytorch", "iq", "clutter", "mesh_guide", "mesh", "own_ship", "hfss_cst", "sea_states")
+TUTORIALS = ("by_task", "gallery", "data_set", "report", "pytorch", "iq", "clutter", "mesh_guide", "mesh", "own_ship", "hfss_cst", "sea_states")
 REFERENCE = ("sea_effects", "glossary")
 CHAPTERS = ("scenarios/benchmarks.md", "tests/accuracy.md", "tests/experiments.md")  # beside the READMEs
 STAGES = ("sim/core", "sim/scenario", "sim/geometry", "sim/sea", "sim/motion", "sim/scattering", "sim/canonical", "sim/cavity", "sim/field_tables", "sim/field_export",

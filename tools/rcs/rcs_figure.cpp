@@ -102,7 +102,6 @@ LinePlot plot_of_levels(const LevelCurve& curve, DrawnAxis axis, bool polar) {
   lowest = std::max(lowest, highest - kMostLevelSpan);
   plot.y = {"radar cross section (dBsm)", AxisRange{5 * std::floor(lowest / 5), 5 * std::ceil(highest / 5 + 0.2)},
             false};
-  plot.legend_above = true;
   plot.polar = polar;
   if (polar) plot.title += ": radar cross section (dBsm)";
   const bool has_medians = axis == DrawnAxis::kAzimuth && std::ranges::is_sorted(curve.x) &&

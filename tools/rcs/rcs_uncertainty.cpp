@@ -216,7 +216,6 @@ LinePlot plot_of(const RcsSweep& sweep, const Cut& cut, std::size_t element) {
   plot.x = {cut.label, AxisRange{first, last}, false};
   plot.y = {"radar cross section (dBsm)", AxisRange{std::max(low, high - kHighest_db) - kMargin_db, high + kMargin_db},
             false};
-  plot.legend_above = true;
   plot.series = {std::move(line), std::move(band)};
   return plot;
 }

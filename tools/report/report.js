@@ -56,7 +56,7 @@
       y: Array.from({length: velocity.count}, (_, i) => at(velocity, i)),
       zmin: set.floor_db,
       zmax: 0,
-      colorscale: 'Cividis',
+      colorscale: 'Viridis',
       colorbar: {title: {text: 'dB', side: 'right'}, thickness: 12},
       hovertemplate: 'range %{x:.2f} m<br>velocity %{y:.3f} m/s<br>%{z:.0f} dB<extra></extra>'
     };

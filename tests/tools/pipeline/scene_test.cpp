@@ -223,7 +223,7 @@ dataset: {{maps_per_case: 2, realisations_per_case: 2}}
 
 TEST(MotionSummary, NamesWhatIsZeroAndTheKeyThatMovesIt) {
   const Pipeline pipeline(bodies("model: ship", "model: float"));
-  const std::vector<TargetMotion> all = target_motions(pipeline);
+  const std::vector<TargetMotion> all = target_motions(pipeline, trial_seas(pipeline));
   ASSERT_EQ(all.size(), 2u);
   EXPECT_EQ(rest_text(all[0]), "surge, sway, heave are 0 without targets.ship.motion.translations: true");
   EXPECT_EQ(rest_text(all[1]),
@@ -236,7 +236,7 @@ TEST(MotionSummary, NamesWhatIsZeroAndTheKeyThatMovesIt) {
 TEST(MotionSummary, IsSilentWhereAllDegreesOfFreedomMove) {
   const Pipeline pipeline(
       bodies("model: ship, translations: true", "model: float, translations: true, yaw_rate_std_deg_s: 2"));
-  for (const TargetMotion& motion : target_motions(pipeline)) {
+  for (const TargetMotion& motion : target_motions(pipeline, trial_seas(pipeline))) {
     EXPECT_EQ(rest_text(motion), "");
     EXPECT_THAT(motion_text(motion),
                 ContainsRegex("yaw [0-9.]+ deg rms; surge [0-9.]+, sway [0-9.]+, heave [0-9.]+ m"));
@@ -246,11 +246,21 @@ TEST(MotionSummary, IsSilentWhereAllDegreesOfFreedomMove) {
 // A long-crested head sea excites neither roll nor yaw nor sway of a hull that is symmetric.
 TEST(MotionSummary, NamesTheSeaWhereItsDirectionLeavesADegreeOfFreedomAtRest) {
   const Pipeline pipeline(bodies("model: ship, translations: true", "model: fixed", ", propagation_deg: 180"));
-  const std::vector<TargetMotion> all = target_motions(pipeline);
+  const std::vector<TargetMotion> all = target_motions(pipeline, trial_seas(pipeline));
   EXPECT_THAT(rest_text(all[0]), StartsWith("roll, yaw, sway are 0 in these waves (sea.significant_wave_height_m, sea."
                                             "propagation_deg, sea.spreading)"));
   EXPECT_EQ(rest_text(all[1]), "does not move: targets.buoy.motion.model is fixed");
   EXPECT_EQ(motion_text(all[1]), "");
+}
+
+// The middle of the drawn directions is a head sea, which hardly any of the set's seas is.
+TEST(MotionSummary, OfDrawnSeasIsThatOfTheDataSetsSeas) {
+  const Pipeline pipeline(bodies("model: ship", "model: fixed", ", propagation_deg: \"uniform(0, 360)\""));
+  const std::vector<TrialSea> seas = trial_seas(pipeline);
+  ASSERT_EQ(seas.size(), 4u);
+  EXPECT_NE(seas[0].state.propagation_rad, seas[1].state.propagation_rad);
+  EXPECT_EQ(rest_text(target_motions(pipeline, seas)[0]),
+            "surge, sway, heave are 0 without targets.ship.motion.translations: true");
 }
 
 // A guarded target between two others; the decoy is `decoy_keys`.

@@ -2,6 +2,7 @@
 """Data sets of `seaglint generate`, read map by map."""
 from __future__ import annotations
 
+import difflib
 import hashlib
 import json
 import mmap
@@ -167,9 +168,15 @@ class Dataset:
             result[row] = self[index]
         return result
 
-    def torch_dataset(self, column: str = "label", transform=None):
-        """For torch.utils.data.DataLoader: items (map as a float32 tensor [1, velocity, range], value of the column)."""
-        return _TorchDataset(self, column, transform)
+    def torch_dataset(self, column: str | Sequence[str] = "label", transform=None):
+        """For torch.utils.data.DataLoader: items (map as a float32 tensor [1, velocity, range], value of the column), or with
+        several columns (map, value, value, ...)."""
+        columns = [column] if isinstance(column, str) else list(column)
+        for name in columns:
+            if name not in self.columns:
+                near = difflib.get_close_matches(str(name), list(self.columns), 1)
+                raise InputError(f"{self.folder}: no column {name!r}" + (f": did you mean {near[0]!r}?" if near else ""))
+        return _TorchDataset(self, columns, transform)
 
     def card(self, *, name: str | None = None, licence: str | None = None, creators: Sequence[str] = (), organisations: Sequence[str] = (), url: str | None = None,
              date: str | None = None, version: str | None = None) -> dict:
@@ -228,8 +235,8 @@ class Dataset:
 class _TorchDataset:
     """Map-style: torch accepts anything with __len__ and __getitem__, and is imported where an item is made."""
 
-    def __init__(self, data, column, transform):
-        self.data, self.values, self.transform = data, data.columns[column], transform
+    def __init__(self, data, columns, transform):
+        self.data, self.values, self.transform = data, [data.columns[name] for name in columns], transform
 
     def __len__(self):
         return len(self.data)
@@ -238,4 +245,4 @@ class _TorchDataset:
         import torch
 
         values = torch.from_numpy(self.data[index].copy()).unsqueeze(0)
-        return (values if self.transform is None else self.transform(values)), self.values[index].item()
+        return (values if self.transform is None else self.transform(values)), *(column[index].item() for column in self.values)
