@@ -350,6 +350,11 @@ Alignment fit_alignment(std::span<const AlignmentPoint> points, int threads) {
     Alignment& alignment = i == 0 ? direct : conjugate;
     alignment = fit(fitted, i == 1);
     complete(alignment, points);
+    // Phases of targets that differ have maxima of the correlation half a wavelength away from the true origin.
+    Alignment in_place = alignment;
+    in_place.origin_m = Vec3::Zero();
+    complete(in_place, points);
+    if (in_place.correlation >= alignment.correlation) alignment = in_place;
   });
   const bool better = 1 - conjugate.correlation < kClearlyBetter * (1 - direct.correlation);
   Alignment& chosen = better ? conjugate : direct;

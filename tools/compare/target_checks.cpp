@@ -358,10 +358,10 @@ RcsRequest in_unit(RcsRequest request, const MeshUnit& unit) {
   return request;
 }
 
-// The best of the units whose change of level fits the median difference; absent if none helps.
+// The best of the units whose change of level fits the median difference; absent if none leaves an agreement.
 std::optional<Trial> best_unit(const TrialRequest& request, Trials& trials) {
   constexpr double kLeast = 8, kMost = 50;  // dB per decade of size: from an edge's or less to a flat plate's and more
-  constexpr double kQuarter = 0.25, kLeastGain_db = 6;
+  constexpr double kQuarter = 0.25, kLeastGain_db = 6, kMostLeft_db = 3;
   std::optional<Trial> best;
   for (const MeshUnit& unit : kUnits) {
     const double decades = std::log10(unit.metres / metres_of(request.request.unit));
@@ -369,7 +369,8 @@ std::optional<Trial> best_unit(const TrialRequest& request, Trials& trials) {
     const double slope = -trials.median() / decades;
     if (slope < kLeast || slope > kMost) continue;
     std::optional<Trial> trial = trials.with(in_unit(request.request, unit));
-    if (!trial || trial->after_db > kQuarter * trial->before_db || trial->after_db > trial->before_db - kLeastGain_db)
+    if (!trial || trial->after_db > std::min(kQuarter * trial->before_db, kMostLeft_db) ||
+        trial->after_db > trial->before_db - kLeastGain_db)
       continue;
     trial->option = fmt::format("--unit {}", unit.name);
     trial->meaning = fmt::format("the mesh is in {}, not in {}", unit.name, request.request.unit);
