@@ -44,6 +44,7 @@ std::string axis_commands(const char* name, const FigureAxis& axis) {
     text += fmt::format("set {}range [{}:{}]\n", name, gnuplot_number(axis.range->first),
                         gnuplot_number(axis.range->second));
   }
+  if (axis.step > 0) text += fmt::format("set {}tics {:g}\n", name, axis.step);
   return text;
 }
 

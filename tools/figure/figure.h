@@ -21,6 +21,7 @@ struct FigureAxis {
   std::string label;               // with its unit, e.g. "range (m)"
   std::optional<AxisRange> range;  // absent: that of the data
   bool logarithmic = false;
+  double step = 0;  // between numbers; 0: by the range
 };
 
 // gnuplot's commands for the axis of this name, "x", "y", "cb": label, scale and range.

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <deque>
 #include <functional>
+#include <utility>
 
 #include "seaglint_version.h"
 #include "sim/core/numbers/constants.h"
@@ -76,25 +77,41 @@ double percentile(std::vector<double> values, double p) {
   return quantile(values, p);
 }
 
-// The median of the values within half a window on either side of each. x ascending.
+// The median of the values within half a window on either side of each. x ascending; a full turn of azimuths, degrees,
+// goes on at its other end.
 std::vector<double> moving_median(const std::vector<double>& x, const std::vector<double>& values, double window) {
+  constexpr double kTurn = 360;
+  const double span = x.back() - x.front(), step = span / static_cast<double>(x.size() - 1);
+  std::vector<std::pair<double, double>> around;  // x, value; ascending
+  for (const double shift : {-kTurn, 0.0, kTurn}) {
+    if (shift != 0 && span < kTurn - 1.5 * step) continue;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const double place = x[i] + shift;
+      if (shift == 0 || (shift < 0 ? place < x.front() - step / 2 : place > x.back() + step / 2))
+        around.emplace_back(place, values[i]);
+    }
+  }
   std::vector<double> medians;
   std::size_t first = 0, last = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    while (x[first] < x[i] - window / 2) ++first;
-    while (last < x.size() && x[last] <= x[i] + window / 2) ++last;
-    const auto begin = values.begin();
-    medians.push_back(
-        percentile({begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(last)}, 0.5));
+  for (const double place : x) {
+    while (around[first].first < place - window / 2) ++first;
+    while (last < around.size() && around[last].first <= place + window / 2) ++last;
+    std::vector<double> within;
+    for (std::size_t i = first; i < last; ++i) within.push_back(around[i].second);
+    medians.push_back(percentile(std::move(within), 0.5));
   }
   return medians;
 }
+
+// Between the numbers of an axis of azimuths, degrees; 0: as other axes.
+double azimuth_step(double span) { return span >= 270 ? 45 : span >= 120 ? 30 : span >= 60 ? 15 : 0; }
 
 LinePlot plot_of_levels(const LevelCurve& curve, DrawnAxis axis, bool polar) {
   constexpr std::array kLabels{"azimuth (deg)", "frequency (GHz)", "elevation (deg)"};
   LinePlot plot;
   plot.title = curve.title;
   plot.x = {kLabels[static_cast<std::size_t>(axis)], {}, false};
+  if (axis == DrawnAxis::kAzimuth) plot.x.step = azimuth_step(curve.x.back() - curve.x.front());
   double highest = -kMostLevelSpan, lowest = 0;
   for (const auto& levels : curve.dbsm) highest = std::max(highest, *std::ranges::max_element(levels));
   lowest = highest;

@@ -60,6 +60,12 @@ TEST(LevelPlots, HaveTheLongestAxisAndAtMostFourPanels) {
   EXPECT_TRUE(level_plots(rising(2)).plots.empty());
 }
 
+// At the first of the levels 0, 1, 2, ... over a full turn half of the window's values are the last ones.
+TEST(LevelPlots, HaveMediansThatGoOnOverAFullTurn) {
+  EXPECT_NEAR(level_plots(rising(360)).plots[0].series[2].y[0], 5, 1e-9);
+  EXPECT_NEAR(level_plots(rising(180)).plots[0].series[2].y[0], 2.5, 1e-9);
+}
+
 // A plate of 0.6 m by 0.8 m lies flat: 1 m from corner to corner; lambda = 0.03 m, lambda / 2D = 0.859 deg.
 TEST(LobeWarning, ComparesTheStepWithTheNarrowestLobe) {
   TriangleMesh mesh;
