@@ -20,7 +20,7 @@ def assert_columns(columns, rows):
 @pytest.mark.parametrize("kinematics", [False, True])
 def test_sea_is_that_of_the_program(tmp_path, kinematics):
     options = ["--kinematics"] if kinematics else []
-    assert program("sea", "quick.yaml", "--at", "40,-3", "--duration-s", "20", "--step-s", "0.3", "-o", tmp_path / "sea.csv", *options).returncode == 0
+    assert program("sea", "quick.yaml", "--state", "0", "--at", "40,-3", "--duration-s", "20", "--step-s", "0.3", "-o", tmp_path / "sea.csv", *options).returncode == 0
     series = seaglint.sea("quick.yaml", at_m=(40, -3), duration_s=20, step_s=0.3, kinematics=kinematics)
     assert_columns(series.columns(), rows_of(tmp_path / "sea.csv"))
     assert (series.velocity_mps is not None) == kinematics
@@ -38,7 +38,7 @@ def test_sea_has_the_wave_height_of_its_statistics():
 
 
 def test_motion_is_that_of_the_program(tmp_path):
-    made = program("motion", "quick.yaml", "--duration-s", "20", "--step-s", "0.3", "-o", tmp_path / "motion.csv")
+    made = program("motion", "quick.yaml", "--state", "0", "--duration-s", "20", "--step-s", "0.3", "-o", tmp_path / "motion.csv")
     assert made.returncode == 0, made.stderr
     rows = rows_of(tmp_path / "motion.csv")
     series = seaglint.motion("quick.yaml", duration_s=20, step_s=0.3)
