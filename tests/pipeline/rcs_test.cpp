@@ -170,6 +170,8 @@ TEST_F(RcsCommand, AveragesTheCrossSectionOverEveryStep) {
   expect_refused(rcs({"--frequency-ghz", "10", "--azimuth-deg", "0", "--average", "8"}), "--average 8: --azimuth-deg");
   expect_refused(rcs({"--frequency-ghz", "10", "--azimuth-deg", "-8:8:4", "--average", "8", "--uncertainty"}),
                  "--average");
+  expect_refused(rcs({"--frequency-ghz", "10", "--azimuth-deg", "-8:8:1", "--polar", "--uncertainty"}), "--polar");
+  expect_refused(rcs({"--frequency-ghz", "10", "--azimuth-deg", "-8:8:1", "--polar", "--figure", "off"}), "--polar");
 }
 
 // The curves of the comparison's figure are the levels of the table, and their differences from the reference.

@@ -101,6 +101,8 @@ void require_images(const RcsArguments& arguments, const RcsRequest& request, co
     require_turntable(request, option);
     require_window(request, mesh, option, file == &arguments.isar);
   }
+  if (arguments.polar && !arguments.reference.draws())
+    throw InputError("--polar: there is no figure with --figure off");
   if (arguments.polar && request.azimuth_deg.size() < kFewestDrawn)
     throw InputError(
         fmt::format("--azimuth-deg: {} values: --polar needs at least {}", request.azimuth_deg.size(), kFewestDrawn));
@@ -168,8 +170,10 @@ void show_images(const RcsArguments& arguments, const RcsRequest& request, const
     print_out("Turntable image: {}\n", arguments.isar);
   }
   if (arguments.profiles.empty()) return;
-  const Heatmap figure = profiles_figure(echo, turntable_profiles(echo, profiles_range(sampling, &extent)), caption,
-                                         part_names(request, target), style == FigureStyle::kPaper ? 6 : 12);
+  const bool has_names = !request.sea.reflection && request.cavities.parts.empty();
+  const Heatmap figure =
+      profiles_figure(echo, turntable_profiles(echo, profiles_range(sampling, &extent)), caption,
+                      has_names ? part_names(request, target) : PeakNames(), style == FigureStyle::kPaper ? 6 : 12);
   write_figure(figure, arguments.profiles, map_size(style));
   print_out("Range profiles: {}\n", arguments.profiles);
 }
@@ -285,6 +289,7 @@ void add_rcs(CommandOptions& program, CommandContext& context) {
     command.require_any_of("--export-dynamic-range-db", {"--export-scattering-centres", "--export-hot-spots"});
     command.require_any_of("--polarisation", {"--isar", "--profiles"});
     command.require_one_of({"--output", "--cross-check"});
+    command.refuse_with("--polar", {"--reference", "--uncertainty"});
     command.refuse_with("--average", {"--cross-check", "--converge", "--uncertainty", "--reference", "--export-as",
                                       "--export-scattering-centres", "--export-hot-spots", "--isar", "--profiles"});
     command.refuse_with("--cross-check",

@@ -47,8 +47,7 @@ struct SeaCase {
 };
 
 // Figure of elevation over time, realised and prescribed spectrum, exceedance of crests with Rayleigh's and
-// Forristall's distributions, and rms slope over the cut-off; of several states
-// the first kMostStates, a colour each.
+// Forristall's distributions, and rms slope over the cut-off; of several states the first kMostStates, a colour each.
 void write_sea_figure(std::span<const SeaCase> cases, const FigureText& text, const std::filesystem::path& file);
 
 }  // namespace seaglint

@@ -22,6 +22,7 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/printable.h"
+#include "sim/field_tables/field_table.h"
 #include "sim/scattering/geometry/look_basis.h"
 #include "sim/scenario/scenario.h"
 #include "sim/sea/realisation.h"
@@ -478,7 +479,6 @@ std::string clutter_line(const Pipeline& pipeline) {
                      .r_hat = direction_to_radar(view.azimuth_rad, view.elevation_rad),
                      .significant_wave_height_m = height_m};
   constexpr const char* kRatios[] = {"per pulse", "in the map's peak cell", "within the target's extent in the map"};
-  constexpr const char* kPolarisations[] = {"hh", "hv", "vh", "vv"};
 
   const auto against = [](double ratio_db) {
     return fmt::format("{:g} dB {}", std::abs(ratio_db), ratio_db < 0 ? "above" : "below");
@@ -496,9 +496,11 @@ std::string clutter_line(const Pipeline& pipeline) {
       text = fmt::format(
           "sigma0 {:.2f} dB ({}, elevation {:g} deg, Douglas sea state {:.2f}) on {:.4g} m x {:.4g} m: mean |Y|^2 "
           "{:.4g} m^2",
-          sigma0_db, kPolarisations[static_cast<std::size_t>(scenario.radar.polarisation)], view.elevation_deg, state,
-          extent_m, area_m2 / extent_m, std::pow(10, sigma0_db / 10) * area_m2 / (4 * kPi));
+          sigma0_db, kPolarisationNames[static_cast<std::size_t>(scenario.radar.polarisation)], view.elevation_deg,
+          state, extent_m, area_m2 / extent_m, std::pow(10, sigma0_db / 10) * area_m2 / (4 * kPi));
     }
+    const bool is_under_way =
+        std::ranges::any_of(scenario.targets, [](const TargetSpec& target) { return target.motion.speed_mps != 0; });
     VelocityMoments moments;
     if (spec.doppler != ClutterDoppler::kPrescribed) {
       const WaveField waves =
@@ -512,7 +514,8 @@ std::string clutter_line(const Pipeline& pipeline) {
         hundredths(std::hypot(spec.doppler_spread_mps, platform_doppler_spread_mps(scene), moments.spread_mps)),
         spec.doppler == ClutterDoppler::kPrescribed
             ? " in any sea"
-            : fmt::format(" at Hs {:.3g} m, azimuth {:g} deg", height_m, view.azimuth_deg));
+            : fmt::format(" at Hs {:.3g} m, azimuth {:g} deg{}", height_m, view.azimuth_deg,
+                          is_under_way ? ", of a target without its speed" : ""));
   }
   if (spec.noise_level == NoiseLevel::kCnr && !spec.enabled) return line("clutter", "none, and no noise");
   if (text.empty()) text = "none";

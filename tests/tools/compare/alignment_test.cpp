@@ -114,6 +114,25 @@ TEST(Alignment, TurnsTheStatedOriginOfTheOtherTimeFactor) {
   for (const AlignmentPoint& p : points) EXPECT_NEAR(std::abs(aligned(found, p) - p.computed_m), 0, 1e-3);
 }
 
+// A target whose reference has another scatterer at +-0.8 m: whatever origin fits its phases best, none at all is a
+// choice, too.
+TEST(Alignment, CorrelatesNoWorseThanWithoutAnOrigin) {
+  for (int seed = 0; seed < 40; ++seed) {
+    std::vector<AlignmentPoint> points = sweep(grid(9.8, 0.1, 5), grid(0, 1, 41), {5}, {3});
+    Random random({7, Stream::kTest, static_cast<std::uint64_t>(seed)});
+    const Vec3 place(1.6 * random.uniform() - 0.8, 1.6 * random.uniform() - 0.8, 0);
+    Complex sum = 0;
+    double computed = 0, reference = 0;
+    for (AlignmentPoint& p : points) {
+      p.reference_m += 3.0 * std::polar(1.0, p.path_gradient.dot(place));
+      sum += p.reference_m * std::conj(p.computed_m);
+      computed += std::norm(p.computed_m);
+      reference += std::norm(p.reference_m);
+    }
+    EXPECT_GE(fit_alignment(points, 1).correlation, std::abs(sum) / std::sqrt(computed * reference) - 1e-9) << seed;
+  }
+}
+
 // One elevation and one frequency: a shift along z is a constant phase.
 TEST(Alignment, NamesWhatTheDataDoNotDetermine) {
   auto points = sweep({10}, grid(0, 1, 360), {0}, {0});
