@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "radar/echo/sea_clutter.h"
+#include "radar/echo/sea_reflectivity.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/fourier.h"
 #include "sim/core/numbers/random.h"
@@ -33,15 +34,21 @@ std::vector<Complex> Echo::total() const {
 
 namespace {
 
-// Unscaled clutter echo: in m^2 per frequency for level nrl, else of mean power 1.
+// Unscaled clutter echo: in m^2 per frequency for an absolute level, else of mean power 1.
 std::vector<Complex> clutter_echo(const PulseTrain& train, const ClutterSpec& clutter, const ClutterScene& scene,
                                   std::uint64_t seed, std::uint64_t index) {
   double power = 1;
-  if (clutter.level == ClutterLevel::kNrl) {
+  if (is_absolute(clutter.level)) {
     const double grazing = std::asin(scene.r_hat.z());
-    const double state = clutter.sea_state.value_or(douglas_sea_state(scene.significant_wave_height_m));
-    const double sigma0 =
-        std::pow(10, nrl_reflectivity_db(scene.radar.polarisation, grazing, train.band_centre_hz(), state) / 10);
+    const double state = clutter.sea_state ? *clutter.sea_state : douglas_sea_state(scene.significant_wave_height_m);
+    const Vec2 to_radar = Vec2(scene.r_hat.x(), scene.r_hat.y()).normalized(),
+               wind(std::cos(scene.waves_towards_rad), std::sin(scene.waves_towards_rad));
+    const double sigma0 = std::pow(10, sea_reflectivity_db(clutter.level, {.polarisation = scene.radar.polarisation,
+                                                                           .grazing_rad = grazing,
+                                                                           .frequency_hz = train.band_centre_hz(),
+                                                                           .sea_state = state,
+                                                                           .upwind_cosine = to_radar.dot(wind)}) /
+                                           10);
     const double window_m = train.unambiguous_range_m() / train.grid_refinement;
     power = sigma0 * clutter_patch_area_m2(scene.radar, grazing, window_m) / (4 * kPi);
   }

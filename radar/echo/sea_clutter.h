@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Sea clutter: radial velocity of its scatterers from waves and wind, its absolute level, and its response, a
-// K-distributed sum of many scatterers with individual Doppler evolution.
+// Sea clutter: radial velocity of its scatterers from waves and wind, and its response, a K-distributed sum of many
+// scatterers with individual Doppler evolution.
 
 #include <cstdint>
 #include <vector>
@@ -20,6 +20,7 @@ struct ClutterScene {
   RadarSpec radar;             // polarisation, range, antenna beam, transmitter
   Vec3 r_hat = Vec3::UnitX();  // to the radar, target frame
   double significant_wave_height_m = 0;
+  double waves_towards_rad = 0;             // direction of propagation of waves and wind
   const WaveField* waves = nullptr;         // required unless clutter.doppler is prescribed
   double start_s = 0;                       // start of the interval on the time axis of the waves
   Vec3 target_velocity_mps = Vec3::Zero();  // of the target through the water; its frame and the radar move with it
@@ -56,19 +57,6 @@ struct FloatingScatterers {
 // both ends of the interval.
 FloatingScatterers floating_scatterers(const ClutterScene& scene, const std::vector<double>& range_m, double duration_s,
                                        std::uint64_t seed, std::uint64_t index);
-
-// Mean reflectivity sigma0 of the sea, dB m^2/m^2. Gregers-Hansen and Mital, "An improved empirical model for radar sea
-// clutter reflectivity", NRL/MR/5310-12-9346 (2012), its closed form and coefficients: fitted to measurements between
-// 0.5 and 35 GHz, 0.1 and 60 deg of grazing, Douglas sea state 0 to 6, within 2 to 3 dB. hh or vv.
-double nrl_reflectivity_db(Polarisation polarisation, double grazing_rad, double frequency_hz, double sea_state);
-
-// Douglas sea state of a significant wave height, WMO code table 3700: interpolated linearly between the limits of
-// class n, which have the values n - 1/2 and n + 1/2; 0 at 0 m. Up to 6 m (state 6.5).
-double douglas_sea_state(double significant_wave_height_m);
-
-// Area of the clutter patch within range_extent_m of slant range, m^2: range_extent_m r theta_e / cos(grazing), theta_e
-// the two-way width of a Gaussian antenna beam, sqrt(pi / (8 ln 2)) of its one-way half-power width.
-double clutter_patch_area_m2(const RadarSpec& radar, double grazing_rad, double range_extent_m);
 
 // Quantile Phi(normal) of the gamma distribution with mean 1 and the given shape (0.1 <= shape <= 1000); monotone in
 // normal, so that correlated normal values give correlated texture. Relative error below 1e-11 for |normal| <= 8.

@@ -78,37 +78,47 @@ void check_window(const Scenario& scenario, const ScenarioDocument& document) {
   }
 }
 
-// Absolute clutter level and sea-state Doppler require grazing angles within the fit of the reflectivity model.
+// Absolute clutter level and sea-state Doppler require grazing angles within the range of the reflectivity model.
 void check_grazing(const Scenario& scenario, const ScenarioDocument& document) {
   const ClutterSpec& clutter = scenario.clutter;
-  const bool own_level = clutter.level == ClutterLevel::kNrl,
-             own_motion = clutter.doppler != ClutterDoppler::kPrescribed;
+  const bool own_level = is_absolute(clutter.level), own_motion = clutter.doppler != ClutterDoppler::kPrescribed;
   if (!clutter.enabled || !(own_level || own_motion)) return;
-  const char* where = own_level                                      ? "level: nrl"
-                      : clutter.doppler == ClutterDoppler::kSeaState ? "doppler: sea_state"
-                                                                     : "doppler: wave_resolved";
+  const std::string where = own_level
+                                ? fmt::format("level: {}", kClutterLevels[static_cast<std::size_t>(clutter.level)])
+                            : clutter.doppler == ClutterDoppler::kSeaState ? "doppler: sea_state"
+                                                                           : "doppler: wave_resolved";
+  const ReflectivityRange range = reflectivity_range(clutter.level);
   for (const double elevation : scenario.view.elevation_deg) {
-    if (elevation < 0.1 || elevation > 60)
-      document.fail_at("view.elevation_deg", fmt::format("must be within 0.1 and 60 with clutter.{}", where));
+    if (elevation < range.lowest_deg || elevation > range.highest_deg)
+      document.fail_at("view.elevation_deg", fmt::format("must be within {:g} and {:g} with clutter.{}",
+                                                         range.lowest_deg, range.highest_deg, where));
   }
 }
 
-// The reflectivity model is valid within its fit. `states`: all of the sweeps.
+// The reflectivity model is valid within its range. `states`: all of the sweeps.
 void check_clutter(const Scenario& scenario, const std::vector<SeaState>& states, const ScenarioDocument& document) {
   const ClutterSpec& clutter = scenario.clutter;
-  if (!clutter.enabled || clutter.level != ClutterLevel::kNrl) return;
+  if (!clutter.enabled || !is_absolute(clutter.level)) return;
   const RadarSpec& radar = scenario.radar;
-  const char* where = "with clutter.level: nrl";
+  const std::string where =
+      fmt::format("with clutter.level: {}", kClutterLevels[static_cast<std::size_t>(clutter.level)]);
+  const ReflectivityRange range = reflectivity_range(clutter.level);
   if (radar.polarisation != Polarisation::kHh && radar.polarisation != Polarisation::kVv)
     document.fail_at("radar.polarisation", fmt::format("must be hh or vv {}", where));
-  if (lowest_ghz(radar) < 0.5 || highest_ghz(radar) > 35) {
+  if (lowest_ghz(radar) < range.lowest_ghz || highest_ghz(radar) > range.highest_ghz) {
     document.fail_at("radar.carrier_ghz",
-                     fmt::format("all carriers with their band, {:g} to {:g} GHz, must be within 0.5 and 35 {}",
-                                 lowest_ghz(radar), highest_ghz(radar), where));
+                     fmt::format("all carriers with their band, {:g} to {:g} GHz, must be within {:g} and {:g} {}",
+                                 lowest_ghz(radar), highest_ghz(radar), range.lowest_ghz, range.highest_ghz, where));
   }
+  if (clutter.sea_state && *clutter.sea_state < range.lowest_state)
+    document.fail_at("clutter.sea_state", fmt::format("must be at least {:g} {}", range.lowest_state, where));
   for (const SeaState& state : states) {
     if (!clutter.sea_state && total_wave_height(state) > 6)
       document.fail_at("sea.significant_wave_height_m", fmt::format("must be at most 6 {}, sea state 6", where));
+    constexpr double kStateOne_m = 0.1 / 1.5;  // height of sea state 1 (radar/echo/sea_reflectivity.h)
+    if (!clutter.sea_state && range.lowest_state == 1 && total_wave_height(state) < kStateOne_m)
+      document.fail_at("sea.significant_wave_height_m",
+                       fmt::format("must be at least {:.3g} {}, sea state 1", kStateOne_m, where));
   }
 }
 

@@ -472,8 +472,9 @@ void visit(TargetSpec& spec, FieldVisitor& v) {
 }
 
 void visit(ClutterSpec& spec, FieldVisitor& v) {
-  v.choice("level", spec.level, {"scr", "nrl"},
-           "Level of the clutter: scr (relative to the target) or nrl (by the sea's reflectivity, range and beam).");
+  v.choice("level", spec.level, kClutterLevels,
+           "Level of the clutter: scr (relative to the target), or by range, beam and the sea's reflectivity by the "
+           "model nrl, git, hyb or tsc.");
   v.number("scr_db", spec.scr_db, within(-60, 200), "Signal-to-clutter ratio, for level: scr.");
   v.choice("scr_definition", spec.scr_definition, {"per_pulse", "peak_cell", "extent"},
            "The ratio is that of one pulse, of the map's strongest cell, or of the target's extent in the map.");

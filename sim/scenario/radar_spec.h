@@ -76,8 +76,22 @@ struct ViewSpec {
 
 enum class ScrDefinition { kPerPulse, kPeakCell, kExtent };
 
-// kScr: relative to the target. kNrl: absolute, by the mean reflectivity of the sea, the range and the antenna beam.
-enum class ClutterLevel { kScr, kNrl };
+// kScr: relative to the target. Others: absolute, by the mean reflectivity of the sea by this model
+// (radar/echo/sea_reflectivity.h), the range and the antenna beam.
+enum class ClutterLevel { kScr, kNrl, kGit, kHyb, kTsc };
+inline constexpr const char* kClutterLevels[] = {"scr", "nrl", "git", "hyb", "tsc"};
+inline bool is_absolute(ClutterLevel level) { return level != ClutterLevel::kScr; }
+
+// Where a model of the reflectivity is valid: frequencies, grazing angles, Douglas sea states.
+struct ReflectivityRange {
+  double lowest_ghz, highest_ghz, lowest_deg, highest_deg, lowest_state, highest_state;
+};
+inline ReflectivityRange reflectivity_range(ClutterLevel model) {
+  if (model == ClutterLevel::kGit) return {1, 100, 0.1, 10, 1, 6};
+  if (model == ClutterLevel::kHyb) return {0.5, 35, 0.1, 30, 1, 6};
+  if (model == ClutterLevel::kTsc) return {0.5, 35, 0.1, 60, 1, 6};
+  return {0.5, 35, 0.1, 60, 0, 6};
+}
 // kCnr: relative to the clutter. kSnr: relative to the target. kThermal: by the radar equation.
 enum class NoiseLevel { kCnr, kSnr, kThermal };
 // Contribution of the waves to the prescribed mean and spread of the velocity. kPrescribed: none. kSeaState: mean and

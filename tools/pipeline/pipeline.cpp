@@ -165,6 +165,7 @@ ClutterScene Pipeline::clutter_scene(const SampleAddress& at, const Scene& scene
   return {scenario_.radar,
           direction_to_radar(view.azimuth_rad, view.elevation_rad),
           total_wave_height(scene.state),
+          scene.state.propagation_rad,
           &scene.sea,
           plan_.start_s(at),
           Vec3((*scene.targets)[static_cast<std::size_t>(at.target)].spec.motion.speed_mps, 0, 0),

@@ -86,7 +86,7 @@ const char* cause(const ProbeResult& probe) {
 }
 
 std::string not_scaled(const ClutterSpec& clutter) {
-  const bool sea = clutter.enabled && clutter.level == ClutterLevel::kNrl;
+  const bool sea = clutter.enabled && is_absolute(clutter.level);
   const bool receiver = clutter.noise_level == NoiseLevel::kThermal;
   if (sea && receiver) return "Clutter and receiver noise are";
   if (sea) return "The clutter is";

@@ -173,7 +173,7 @@ std::string sea_values(const Scenario& scenario, const SamplePlan& plan, const s
 std::string clutter_level(const Scenario& scenario) {
   const ClutterSpec& clutter = scenario.clutter;
   if (!clutter.enabled) return "There is no clutter.";
-  if (clutter.level == ClutterLevel::kNrl)
+  if (is_absolute(clutter.level))
     return "The clutter has the sea's own level, so its ratio to the target tells the target's size too (`scr_*_db`).";
   return fmt::format("The clutter is set relative to the target (SCR in dB: {}).",
                      markdown_text(value_text(scenario, "clutter.scr_db", fmt::format("{:g}", clutter.scr_db))));

@@ -264,42 +264,6 @@ TEST(GammaTexture, HasMeanOneAndVarianceOneOverShape) {
 
 // Clutter and noise of absolute level: reflectivity, area, radar equation, and the level of the echo.
 
-// Values of the model at 16 GHz, computed by hand from Gregers-Hansen and Mital (2012), to 0.01 dB.
-TEST(SeaReflectivity, HasTheModelsValuesAtSixteenGigahertz) {
-  const struct {
-    double grazing_deg, sea_state, hh_db, vv_db;
-  } rows[] = {{1, 1, -52.43, -49.02}, {1, 3, -39.62, -38.25}, {1, 5, -31.13, -31.11}, {3, 3, -37.85, -35.84}};
-  for (const auto& row : rows) {
-    EXPECT_NEAR(nrl_reflectivity_db(Polarisation::kHh, radians(row.grazing_deg), 16e9, row.sea_state), row.hh_db,
-                0.0051);
-    EXPECT_NEAR(nrl_reflectivity_db(Polarisation::kVv, radians(row.grazing_deg), 16e9, row.sea_state), row.vv_db,
-                0.0051);
-  }
-}
-
-TEST(SeaReflectivity, SeaStatesAreThoseOfTheCodeTable) {
-  EXPECT_EQ(douglas_sea_state(0), 0);
-  const double limits[] = {0.1, 0.5, 1.25, 2.5, 4, 6};
-  for (int state = 1; state <= 6; ++state) {
-    EXPECT_NEAR(douglas_sea_state(limits[state - 1]), state + 0.5, 1e-12);
-    EXPECT_NEAR(douglas_sea_state(limits[state - 1] - 1e-9), state + 0.5, 1e-6);  // no jump
-  }
-  EXPECT_NEAR(douglas_sea_state(0.875), 3, 1e-12);  // the middle of class 3
-}
-
-// Two-way beam of a Gaussian pattern by quadrature against the closed form of the area.
-TEST(SeaReflectivity, AreaIsThatOfTheTwoWayBeam) {
-  RadarSpec radar;
-  radar.range_km = 10;
-  radar.link_budget.beamwidth_deg = 2;
-  const double width = radians(2);
-  double sum = 0;
-  const double step = width / 1000;
-  for (double phi = -5 * width; phi < 5 * width; phi += step)
-    sum += std::exp(-8 * std::log(2.0) * phi * phi / (width * width)) * step;
-  EXPECT_NEAR(clutter_patch_area_m2(radar, radians(60), 3) / (10e3 * sum * 3 / 0.5), 1, 1e-9);
-}
-
 FrequencyResponse point_of_one_metre(const PulseTrain& train) {
   const PointSpec point{{7, 0, 0}, 1, {2, 0, 0}};
   return point_response({&point, 1}, Vec3(1, 0, 0), interval_sampling(train, 0));

@@ -71,7 +71,7 @@ TEST(ConstantKeys, ATargetThatAloneDoesNotFollowTheSeaIsNamed) {
 }
 
 TEST(ConstantKeys, ASeaThatMovesTheClutterAloneIsNamedAsThat) {
-  for (const std::string clutter : {"level: nrl", "doppler: sea_state", "doppler: wave_resolved"}) {
+  for (const std::string clutter : {"level: nrl", "level: tsc", "doppler: sea_state", "doppler: wave_resolved"}) {
     EXPECT_THAT(warnings(reflectors("", "",
                                     fmt::format("sea: {{significant_wave_height_m: [1, 2]}}\nclutter: {{{}}}\n"
                                                 "view: {{elevation_deg: 2}}",
