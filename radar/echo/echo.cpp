@@ -39,18 +39,9 @@ std::vector<Complex> clutter_echo(const PulseTrain& train, const ClutterSpec& cl
                                   std::uint64_t seed, std::uint64_t index) {
   double power = 1;
   if (is_absolute(clutter.level)) {
-    const double grazing = std::asin(scene.r_hat.z());
-    const double state = clutter.sea_state ? *clutter.sea_state : douglas_sea_state(scene.significant_wave_height_m);
-    const Vec2 to_radar = Vec2(scene.r_hat.x(), scene.r_hat.y()).normalized(),
-               wind(std::cos(scene.waves_towards_rad), std::sin(scene.waves_towards_rad));
-    const double sigma0 = std::pow(10, sea_reflectivity_db(clutter.level, {.polarisation = scene.radar.polarisation,
-                                                                           .grazing_rad = grazing,
-                                                                           .frequency_hz = train.band_centre_hz(),
-                                                                           .sea_state = state,
-                                                                           .upwind_cosine = to_radar.dot(wind)}) /
-                                           10);
+    const double sigma0 = std::pow(10, sea_reflectivity_db(clutter, scene, train.band_centre_hz()) / 10);
     const double window_m = train.unambiguous_range_m() / train.grid_refinement;
-    power = sigma0 * clutter_patch_area_m2(scene.radar, grazing, window_m) / (4 * kPi);
+    power = sigma0 * clutter_patch_area_m2(scene.radar, std::asin(scene.r_hat.z()), window_m) / (4 * kPi);
   }
   std::vector<Complex> echo = clutter_response(train, clutter, scene, seed, index);
   for (std::size_t i = 0; i < echo.size(); ++i)

@@ -9,6 +9,7 @@
 #include <deque>
 #include <span>
 
+#include "radar/echo/sea_reflectivity.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/fourier.h"
 #include "sim/core/numbers/random.h"
@@ -108,6 +109,20 @@ FloatingScatterers floating_scatterers(const ClutterScene& scene, const std::vec
     floating.acceleration_mps2.push_back((last - first) / duration_s);
   }
   return floating;
+}
+
+std::optional<double> k_shape(const ClutterScene& scene, double frequency_hz, double range_cell_m) {
+  const Polarisation polarisation = scene.radar.polarisation;
+  const bool is_co_polar = polarisation == Polarisation::kHh || polarisation == Polarisation::kVv;
+  const double grazing_rad = std::asin(scene.r_hat.z()), ghz = 1e-9 * frequency_hz, grazing_deg = degrees(grazing_rad);
+  const double area_m2 = clutter_patch_area_m2(scene.radar, grazing_rad, range_cell_m),
+               across_m = area_m2 * std::cos(grazing_rad) / range_cell_m;
+  if (!is_co_polar || ghz < 9 || ghz > 10 || grazing_deg < 0.1 || grazing_deg > 10 || across_m < 100 || across_m > 800)
+    return std::nullopt;
+  const double theta = std::atan2(scene.r_hat.y(), scene.r_hat.x()) - scene.waves_towards_rad;
+  const double of_polarisation = polarisation == Polarisation::kVv ? 1.39 : 2.09;
+  return std::pow(10, 2.0 / 3 * std::log10(grazing_deg) + 5.0 / 8 * std::log10(area_m2) - of_polarisation -
+                          std::cos(2 * theta) / 3);
 }
 
 double gamma_texture(double shape, double normal) {

@@ -5,6 +5,7 @@
 // scatterers with individual Doppler evolution.
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "radar/waveform/pulse_train.h"
@@ -61,6 +62,12 @@ FloatingScatterers floating_scatterers(const ClutterScene& scene, const std::vec
 // Quantile Phi(normal) of the gamma distribution with mean 1 and the given shape (0.1 <= shape <= 1000); monotone in
 // normal, so that correlated normal values give correlated texture. Relative error below 1e-11 for |normal| <= 8.
 double gamma_texture(double shape, double normal);
+
+// Shape of the K distribution of measured clutter, Ward, Tough and Watts, "Sea Clutter", 2nd ed. 2013, section 2.9:
+// log10 shape = 2/3 log10 grazing (deg) + 5/8 log10 A - k - cos(2 theta) / 3, A the area of a cell (m^2), k 1.39 for
+// vv, 2.09 for hh, theta the angle between the line of sight and the swell, here the waves. Absent outside of what it
+// was fitted to: 9 to 10 GHz, 0.1 to 10 deg, cells of 100 to 800 m across, hh and vv.
+std::optional<double> k_shape(const ClutterScene& scene, double frequency_hz, double range_cell_m);
 
 // Gamma-distributed texture of mean 1 and shape spec.texture_shape on `cells` points of a ring at one time. Correlation
 // of its Gaussian generator: e^{-d^2 / (2 l^2)} along the ring, d and l in cells, and e^{-(t /

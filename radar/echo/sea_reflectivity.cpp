@@ -103,6 +103,20 @@ double sea_reflectivity_db(ClutterLevel model, const SeaIllumination& sea) {
   return 0;
 }
 
+double sea_state_of(const ClutterSpec& clutter, const ClutterScene& scene) {
+  return clutter.sea_state ? *clutter.sea_state : douglas_sea_state(scene.significant_wave_height_m);
+}
+
+double sea_reflectivity_db(const ClutterSpec& clutter, const ClutterScene& scene, double frequency_hz) {
+  const Vec2 to_radar = Vec2(scene.r_hat.x(), scene.r_hat.y()).normalized(),
+             waves(std::cos(scene.waves_towards_rad), std::sin(scene.waves_towards_rad));
+  return sea_reflectivity_db(clutter.level, {.polarisation = scene.radar.polarisation,
+                                             .grazing_rad = std::asin(scene.r_hat.z()),
+                                             .frequency_hz = frequency_hz,
+                                             .sea_state = sea_state_of(clutter, scene),
+                                             .upwind_cosine = to_radar.dot(waves)});
+}
+
 double douglas_sea_state(double significant_wave_height_m) {
   constexpr std::array kUpperLimit{0.1, 0.5, 1.25, 2.5, 4.0, 6.0};  // m, upper limits of classes 1 to 6
   SEAGLINT_CHECK(significant_wave_height_m >= 0 && significant_wave_height_m <= kUpperLimit.back(),

@@ -4,6 +4,7 @@
 // Absolute level of the sea's echo: mean reflectivity sigma0 by four empirical models, and the area that it is
 // multiplied by.
 
+#include "radar/echo/sea_clutter.h"
 #include "sim/scenario/radar_spec.h"
 
 namespace seaglint {
@@ -29,6 +30,13 @@ struct SeaIllumination {
 //   (1998); its lengths are feet, its wind knots.
 // Mean over wind directions less Nathanson's tables: tests/radar/echo/sea_reflectivity_test.cpp.
 double sea_reflectivity_db(ClutterLevel model, const SeaIllumination& sea);
+
+// That of a scene at a frequency by the model of an absolute level; looking upwind where the waves travel towards the
+// radar.
+double sea_reflectivity_db(const ClutterSpec& clutter, const ClutterScene& scene, double frequency_hz);
+
+// The Douglas sea state that is given, or else that of the scene's waves.
+double sea_state_of(const ClutterSpec& clutter, const ClutterScene& scene);
 
 // Douglas sea state of a significant wave height, WMO code table 3700: interpolated linearly between the limits of
 // class n, which have the values n - 1/2 and n + 1/2; 0 at 0 m. Up to 6 m (state 6.5).

@@ -18,6 +18,7 @@
 #include "classify/dataset/directory/dataset_writer.h"
 #include "classify/dataset/format/hdf5_file.h"
 #include "radar/echo/echo.h"
+#include "radar/echo/sea_reflectivity.h"
 #include "radar/rvmap/rv_map.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
@@ -477,7 +478,8 @@ std::string clutter_line(const Pipeline& pipeline) {
   const double height_m = total_wave_height(*highest);
   ClutterScene scene{.radar = scenario.radar,
                      .r_hat = direction_to_radar(view.azimuth_rad, view.elevation_rad),
-                     .significant_wave_height_m = height_m};
+                     .significant_wave_height_m = height_m,
+                     .waves_towards_rad = highest->propagation_rad};
   constexpr const char* kRatios[] = {"per pulse", "in the map's peak cell", "within the target's extent in the map"};
 
   const auto against = [](double ratio_db) {
@@ -488,17 +490,18 @@ std::string clutter_line(const Pipeline& pipeline) {
     if (spec.level == ClutterLevel::kScr) {
       text = against(spec.scr_db) + " the target " + kRatios[static_cast<std::size_t>(spec.scr_definition)];
     } else {
-      const double state = spec.sea_state.value_or(douglas_sea_state(height_m));
-      const double sigma0_db =
-          nrl_reflectivity_db(scenario.radar.polarisation, view.elevation_rad, train.band_centre_hz(), state);
+      const double sigma0_db = sea_reflectivity_db(spec, scene, train.band_centre_hz());
       const double extent_m = train.unambiguous_range_m(),
                    area_m2 = clutter_patch_area_m2(scenario.radar, view.elevation_rad, extent_m);
       text = fmt::format(
-          "sigma0 {:.2f} dB ({}, elevation {:g} deg, Douglas sea state {:.2f}) on {:.4g} m x {:.4g} m: mean |Y|^2 "
+          "sigma0 {:.2f} dB ({}, {}, elevation {:g} deg, Douglas sea state {:.2f}) on {:.4g} m x {:.4g} m: mean |Y|^2 "
           "{:.4g} m^2",
-          sigma0_db, kPolarisationNames[static_cast<std::size_t>(scenario.radar.polarisation)], view.elevation_deg,
-          state, extent_m, area_m2 / extent_m, std::pow(10, sigma0_db / 10) * area_m2 / (4 * kPi));
+          sigma0_db, kClutterLevels[static_cast<std::size_t>(spec.level)],
+          kPolarisationNames[static_cast<std::size_t>(scenario.radar.polarisation)], view.elevation_deg,
+          sea_state_of(spec, scene), extent_m, area_m2 / extent_m, std::pow(10, sigma0_db / 10) * area_m2 / (4 * kPi));
     }
+    const std::optional<double> measured_shape =
+        height_m > 0 ? k_shape(scene, train.band_centre_hz(), train.range_resolution_m()) : std::nullopt;
     const bool is_under_way =
         std::ranges::any_of(scenario.targets, [](const TargetSpec& target) { return target.motion.speed_mps != 0; });
     VelocityMoments moments;
@@ -509,7 +512,8 @@ std::string clutter_line(const Pipeline& pipeline) {
       moments = clutter_velocity_moments(spec, scene, kSpeedOfLight / train.band_centre_hz());
     }
     text += fmt::format(
-        "; texture of shape {:.3g}; velocity {:g} m/s, spread {:g} m/s{}", spec.texture_shape,
+        "; texture of shape {:.3g}{}; velocity {:g} m/s, spread {:g} m/s{}", spec.texture_shape,
+        measured_shape ? fmt::format(" (Ward: {:.2g} in this scene)", *measured_shape) : "",
         hundredths(spec.doppler_mean_mps + moments.mean_mps),
         hundredths(std::hypot(spec.doppler_spread_mps, platform_doppler_spread_mps(scene), moments.spread_mps)),
         spec.doppler == ClutterDoppler::kPrescribed

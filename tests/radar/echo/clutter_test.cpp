@@ -324,6 +324,26 @@ TEST(ReceiverNoise, HasTheSpecifiedRatio) {
   EXPECT_NEAR(mean_power(thermal.noise) / thermal_noise_m2(train, {}), 1, 4 / std::sqrt(256 * 40.0));
 }
 
+// By hand: 2 deg, a cell of 1.5 m at 20 km in a beam of 1.5 deg, 394 m across, vv: 2/3 x 0.301 + 5/8 x 2.772 - 1.39 -+
+// 1/3 along and across the waves.
+TEST(Texture, HasTheShapeOfMeasuredClutter) {
+  ClutterScene scene;
+  scene.radar.range_km = 20;
+  scene.radar.link_budget.beamwidth_deg = 1.5;
+  scene.radar.polarisation = Polarisation::kVv;
+  scene.r_hat = Vec3(std::cos(radians(2)), 0, std::sin(radians(2)));
+  ASSERT_TRUE(k_shape(scene, 9.4e9, 1.5));
+  EXPECT_NEAR(std::log10(*k_shape(scene, 9.4e9, 1.5)), 0.2098, 2e-3);
+  scene.waves_towards_rad = radians(90);
+  EXPECT_NEAR(std::log10(*k_shape(scene, 9.4e9, 1.5)), 0.8765, 2e-3);
+  const double vv = *k_shape(scene, 9.4e9, 1.5);
+  scene.radar.polarisation = Polarisation::kHh;
+  EXPECT_NEAR(vv / *k_shape(scene, 9.4e9, 1.5), std::pow(10, 0.7), 1e-9);
+  EXPECT_FALSE(k_shape(scene, 16e9, 1.5));
+  scene.radar.range_km = 2;  // 39 m across
+  EXPECT_FALSE(k_shape(scene, 9.4e9, 1.5));
+}
+
 TEST(Texture, HasTheSpecifiedCorrelationTime) {
   ClutterSpec spec;
   spec.texture_shape = 1000;  // nearly Gaussian: the generator's correlation is the texture's
