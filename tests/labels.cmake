@@ -14,7 +14,7 @@ set(slow_tests
   --gtest_filter=CoatedTarget.IntervalFollowsTheCoefficientsOfACurvedSurface:ConstantKeys.AreInNoScenarioOfTheProject
   --gtest_filter=ContributionBound.Holds*:DrawnJob.*Done*
   --gtest_filter=EchoOverTime.HasTheFeaturesAndProbabilitiesOfItsSampleToRounding:EchoOverTime.WithNoise*
-  --gtest_filter=EdgeContributionBound.*:InjectedFaults.LoseNothing
+  --gtest_filter=EdgeContributionBound.*:InjectedFaults.LoseNothing:MeasuredClutter.*
   --gtest_filter=IntervalResponse.MatchesIndependentTracesInRandomDirections:IntervalResponse.OfTheRollingShip*
   --gtest_filter=MechanismWorth.ShipAndDecoyChangeWithoutAMechanism:MemoryLimit.OfTheAddressSpaceEndsARunWithOneLine
   --gtest_filter=MeshInvariance.OfRandomBodies:Motion.DrawsRaosInTheScenariosUnitsAndDepth
@@ -31,7 +31,8 @@ set(medium_tests
   --gtest_filter=Benchmark.EveryShippedOne*:BodiesInWater.OfA*:BodyOnDeck.*:Bombs.*:CavityEcho.*:CentresInClutter.*
   --gtest_filter=CleanCentres.Outside*:Clutter.*:ClutterFalseAlarms.*:CoatedTarget.*:ContributionBound.*
   --gtest_filter=CurvedSurface.*:CylinderBeforeAPatch.*:EdgeDiffraction.*:Evaluation.*:FieldExport.*
-  --gtest_filter=FloatingScatterers.*:FuzzInputs.*:InfinitePrism.*:Interpolation.HasTheStated*:IntervalResponse.*
+  --gtest_filter=FuzzInputs.*:InfinitePrism.*:Interpolation.HasTheStated*:IntervalResponse.*
+  --gtest_filter=ClutterBoundToTheWaves.*:ModulatedScatterers.*:ScatterersOnTheWaves.*:ClutterLevel.*
   --gtest_filter=MatchedTraining.*:MechanismWorth.*:MergedDataSet.HasTheSameBytes*:MergedFacets.*
   --gtest_filter=MeshFile.SixtyThousand*:MotionSummary.*:MultipleDiffraction.*:Network.*:Pedestal.*:PermutedLabels.*
   --gtest_filter=PlateEdges.*:Progress.*:Rays.*:RigidRaft.Moves*:RoundTrip.EveryField*:SampleCrossCheck.*

@@ -132,9 +132,4 @@ double douglas_sea_state(double significant_wave_height_m) {
   return state;
 }
 
-double clutter_patch_area_m2(const RadarSpec& radar, double grazing_rad, double range_extent_m) {
-  const double two_way_rad = radians(radar.link_budget.beamwidth_deg) * std::sqrt(kPi / (8 * std::log(2.0)));
-  return radar.range_km * 1e3 * two_way_rad * range_extent_m / std::cos(grazing_rad);
-}
-
 }  // namespace seaglint

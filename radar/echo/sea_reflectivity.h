@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Absolute level of the sea's echo: mean reflectivity sigma0 by four empirical models, and the area that it is
-// multiplied by.
+// Absolute level of the sea's echo: mean reflectivity sigma0 by four empirical models.
 
-#include "radar/echo/sea_clutter.h"
+#include "radar/echo/clutter_scene.h"
 #include "sim/scenario/radar_spec.h"
 
 namespace seaglint {
@@ -41,9 +40,5 @@ double sea_state_of(const ClutterSpec& clutter, const ClutterScene& scene);
 // Douglas sea state of a significant wave height, WMO code table 3700: interpolated linearly between the limits of
 // class n, which have the values n - 1/2 and n + 1/2; 0 at 0 m. Up to 6 m (state 6.5).
 double douglas_sea_state(double significant_wave_height_m);
-
-// Area of the clutter patch within range_extent_m of slant range, m^2: range_extent_m r theta_e / cos(grazing), theta_e
-// the two-way width of a Gaussian antenna beam, sqrt(pi / (8 ln 2)) of its one-way half-power width.
-double clutter_patch_area_m2(const RadarSpec& radar, double grazing_rad, double range_extent_m);
 
 }  // namespace seaglint

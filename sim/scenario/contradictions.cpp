@@ -95,6 +95,12 @@ void check_grazing(const Scenario& scenario, const ScenarioDocument& document) {
   }
 }
 
+// Power that follows the waves belongs to scatterers that move with them.
+void check_texture(const Scenario& scenario, const ScenarioDocument& document) {
+  if (scenario.clutter.texture == ClutterTexture::kWaves && scenario.clutter.doppler != ClutterDoppler::kWaveResolved)
+    document.fail_at("clutter.texture", "waves needs clutter.doppler: wave_resolved");
+}
+
 // The reflectivity model is valid within its range. `states`: all of the sweeps.
 void check_clutter(const Scenario& scenario, const std::vector<SeaState>& states, const ScenarioDocument& document) {
   const ClutterSpec& clutter = scenario.clutter;
@@ -459,6 +465,7 @@ void check_contradictions(const Scenario& scenario, const ScenarioDocument& docu
   check_pulse_train(scenario.radar, document, errors);
   errors.check({"map.range_span_m", "radar.pulse_width_us", "radar.pri_us"}, [&] { check_window(scenario, document); });
   errors.check({"view.elevation_deg", "clutter"}, [&] { check_grazing(scenario, document); });
+  errors.check({"clutter"}, [&] { check_texture(scenario, document); });
   errors.check({"view", "sea"}, [&] { check_case_count(scenario, document); });
   errors.check({"view", "sea", "targets", "dataset.maps_per_case"}, [&] { check_map_count(scenario, document); });
   errors.check({"view.azimuth_deg"},

@@ -484,15 +484,28 @@ void visit(ClutterSpec& spec, FieldVisitor& v) {
       "Level of the noise: cnr (relative to the clutter), snr (relative to the target) or thermal (radar equation).");
   v.number("cnr_db", spec.cnr_db, within(-60, 200), "Clutter-to-noise ratio, for noise_level: cnr.");
   v.number("snr_db", spec.snr_db, within(-100, 200), "Signal-to-noise ratio of one pulse, for noise_level: snr.");
-  v.number("texture_shape", spec.texture_shape, within(0.1, 1000), "Shape of the gamma texture of the K distribution.");
-  v.number("texture_correlation_time_s", spec.texture_correlation_time_s, within(0.1, 1000),
-           "Time in which the correlation of the texture falls to e^{-1/2}.");
+  if (v.optional("texture", spec.texture.has_value())) {
+    if (!spec.texture) spec.texture.emplace();
+    v.choice("texture", *spec.texture, {"independent", "waves"},
+             "Local power of the sea: apart from the waves, or bound to the waves that move the scatterers; default: "
+             "waves with doppler: wave_resolved, else independent.");
+  }
+  visit_given(v, "texture_shape", spec.texture_shape, within(0.1, 1000),
+              "Shape of the K distribution of a range cell; default: 2, with texture: waves by grazing angle, cell, "
+              "polarisation and direction of the waves.");
+  visit_given(v, "texture_correlation_time_s", spec.texture_correlation_time_s, within(0.1, 1000),
+              "Time in which the correlation of the texture that is not of the waves falls to e^{-1/2}; default: 3 s, "
+              "with texture: waves 1 s.");
+  visit_given(v, "texture_correlation_m", spec.texture_correlation_m, within(0.1, 1e4),
+              "Likewise the distance in range; default: five range cells, with texture: waves 8 m.");
   v.choice(
       "doppler", spec.doppler, {"prescribed", "sea_state", "wave_resolved"},
       "Velocity of the clutter: prescribed; with the mean and spread of the sea state; or per scatterer by the waves.");
   v.number("doppler_mean_mps", spec.doppler_mean_mps, within(-20, 20),
            "Mean velocity of the clutter, positive = receding.");
-  v.number("doppler_spread_mps", spec.doppler_spread_mps, within(0, 20), "Standard deviation of its velocity.");
+  visit_given(v, "doppler_spread_mps", spec.doppler_spread_mps, within(0, 20),
+              "Standard deviation of its velocity; with texture: waves the mean of that of a scatterer on the moving "
+              "water; default: 0.5 m/s, with texture: waves 0.15 m/s.");
   v.number("hh_velocity_factor", spec.hh_velocity_factor, within(0, 5),
            "Mean velocity by waves and wind of hh, hv and vh relative to vv.");
   visit_given(v, "sea_state", spec.sea_state, within(0, 6),

@@ -98,7 +98,11 @@ enum class NoiseLevel { kCnr, kSnr, kThermal };
 // spread for the sea state. kWaveResolved: mean for the sea state, and per scatterer the velocity of the water at its
 // position in the sea realisation of the target.
 enum class ClutterDoppler { kPrescribed, kSeaState, kWaveResolved };
+// Local power of the sea. kIndependent: a random texture apart from the waves. kWaves: raised and lowered by the waves
+// that move the scatterers.
+enum class ClutterTexture { kIndependent, kWaves };
 
+// Absent values: by the scene (radar/echo/clutter_scene.h, texture_parameters).
 struct ClutterSpec {
   ClutterLevel level = ClutterLevel::kScr;
   double scr_db = 20;
@@ -107,16 +111,23 @@ struct ClutterSpec {
   NoiseLevel noise_level = NoiseLevel::kCnr;
   double cnr_db = 30;
   double snr_db = 20;
-  double texture_shape = 2;
-  double texture_correlation_time_s = 3;
+  std::optional<ClutterTexture> texture;
+  std::optional<double> texture_shape;
+  std::optional<double> texture_correlation_time_s;
+  std::optional<double> texture_correlation_m;
   ClutterDoppler doppler = ClutterDoppler::kPrescribed;
   double doppler_mean_mps = 0;
-  double doppler_spread_mps = 0.5;
+  std::optional<double> doppler_spread_mps;
   double hh_velocity_factor = 1.5;
   std::optional<double> sea_state;
 
   bool operator==(const ClutterSpec&) const = default;
 };
+inline bool texture_is_by_waves(const ClutterSpec& clutter) {
+  return clutter.texture.value_or(clutter.doppler == ClutterDoppler::kWaveResolved
+                                      ? ClutterTexture::kWaves
+                                      : ClutterTexture::kIndependent) == ClutterTexture::kWaves;
+}
 
 enum class Compression { kInverse, kMatched };
 enum class Taper { kNone, kHann, kHamming, kTaylor };

@@ -500,8 +500,6 @@ std::string clutter_line(const Pipeline& pipeline) {
           kPolarisationNames[static_cast<std::size_t>(scenario.radar.polarisation)], view.elevation_deg,
           sea_state_of(spec, scene), extent_m, area_m2 / extent_m, std::pow(10, sigma0_db / 10) * area_m2 / (4 * kPi));
     }
-    const std::optional<double> measured_shape =
-        height_m > 0 ? k_shape(scene, train.band_centre_hz(), train.range_resolution_m()) : std::nullopt;
     const bool is_under_way =
         std::ranges::any_of(scenario.targets, [](const TargetSpec& target) { return target.motion.speed_mps != 0; });
     VelocityMoments moments;
@@ -511,15 +509,21 @@ std::string clutter_line(const Pipeline& pipeline) {
       scene.waves = &waves;
       moments = clutter_velocity_moments(spec, scene, kSpeedOfLight / train.band_centre_hz());
     }
-    text += fmt::format(
-        "; texture of shape {:.3g}{}; velocity {:g} m/s, spread {:g} m/s{}", spec.texture_shape,
-        measured_shape ? fmt::format(" (Ward: {:.2g} in this scene)", *measured_shape) : "",
-        hundredths(spec.doppler_mean_mps + moments.mean_mps),
-        hundredths(std::hypot(spec.doppler_spread_mps, platform_doppler_spread_mps(scene), moments.spread_mps)),
-        spec.doppler == ClutterDoppler::kPrescribed
-            ? " in any sea"
-            : fmt::format(" at Hs {:.3g} m, azimuth {:g} deg{}", height_m, view.azimuth_deg,
-                          is_under_way ? ", of a target without its speed" : ""));
+    const TextureParameters texture =
+        texture_parameters(spec, scene, train.band_centre_hz(), train.range_resolution_m());
+    const FittedFigure measured = k_shape(scene, train.band_centre_hz(), train.range_resolution_m());
+    text +=
+        fmt::format("; texture {}, of shape {:.3g}{}; velocity {:g} m/s, spread {:g} m/s{}",
+                    texture_is_by_waves(spec) ? "bound to the waves" : "independent", texture.shape,
+                    height_m > 0 && spec.texture_shape && measured.is_within_range
+                        ? fmt::format(" (measured clutter: {:.2g} in this scene)", measured.value)
+                        : "",
+                    hundredths(spec.doppler_mean_mps + moments.mean_mps),
+                    hundredths(std::hypot(texture.spread_mps, platform_doppler_spread_mps(scene), moments.spread_mps)),
+                    spec.doppler == ClutterDoppler::kPrescribed
+                        ? " in any sea"
+                        : fmt::format(" at Hs {:.3g} m, azimuth {:g} deg{}", height_m, view.azimuth_deg,
+                                      is_under_way ? ", of a target without its speed" : ""));
   }
   if (spec.noise_level == NoiseLevel::kCnr && !spec.enabled) return line("clutter", "none, and no noise");
   if (text.empty()) text = "none";

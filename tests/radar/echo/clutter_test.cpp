@@ -6,6 +6,7 @@
 
 #include "radar/echo/echo.h"
 #include "radar/echo/sea_clutter.h"
+#include "radar/echo/sea_scatterers.h"
 #include "sim/canonical/point_response.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/dispersion.h"
@@ -23,6 +24,23 @@ SeaState waves_towards(double degrees) {
   state.propagation_rad = radians(degrees);
   state.order = 1;
   return state;
+}
+
+// Velocity of the water at places in range within -window / 2 and window / 2, at the start of an interval and at its
+// end, 0.064 s later: [moment][place].
+std::vector<double> water_velocities(const ClutterScene& scene, double window_m, int count, std::uint64_t index) {
+  ClutterSpec spec;
+  spec.doppler = ClutterDoppler::kWaveResolved;
+  spec.texture = ClutterTexture::kIndependent;
+  return sea_scatterers({.spec = spec,
+                         .scene = scene,
+                         .texture = {},
+                         .count = count,
+                         .window_m = window_m,
+                         .duration_s = 0.064,
+                         .seed = 1,
+                         .index = index})
+      .velocity_mps;
 }
 
 ClutterScene scene_of(const WaveField& waves) {
@@ -98,30 +116,28 @@ TEST(SeaVelocity, SpreadIsThatOfTheWaterAndOfFloatingScatterers) {
   scene.radar.range_km = 2;
   const double spread = clutter_velocity_moments({}, scene, kWavelength).spread_mps;
   // The velocity of the water at many places and times.
-  std::vector<double> ranges;
-  for (int i = 0; i < 400; ++i) ranges.push_back(-4000 + 20.0 * i);
   double square = 0, count = 0;
   for (int moment = 0; moment < 25; ++moment) {
     scene.start_s = 37.0 * moment;
-    for (const double v : floating_scatterers(scene, ranges, 0.064, 1, moment).velocity_mps) square += v * v, ++count;
+    for (const double v : water_velocities(scene, 8000, 400, moment)) square += v * v, ++count;
   }
   std::printf("spread %.4f m/s, of the water %.4f\n", spread, std::sqrt(square / count));
   // 8 km hold about 80 waves of 100 m, 25 times: 2000 independent values.
   EXPECT_NEAR(std::sqrt(square / count) / spread, 1, 4 / std::sqrt(2 * 2000.0));
 }
 
-TEST(FloatingScatterers, MoveWithTheWaves) {
+TEST(ScatterersOnTheWaves, MoveWithThem) {
   // One wave of 1 m amplitude and 8 s towards the radar: u = a w cos(w t - k x) along it; the radial velocity is -u.
   const double omega = 2 * kPi / 8, k = omega * omega / kGravity;
   const WaveField wave({WaveComponent{omega, 1, 0, k, {1, 0}}}, 1, 10);
   ClutterScene scene = scene_of(wave);
   scene.radar.link_budget.beamwidth_deg = 0.01;
   scene.start_s = 3;
-  const FloatingScatterers floating = floating_scatterers(scene, {0, 25}, 0.064, 1, 1);
+  const std::vector<double> velocity = water_velocities(scene, 50, 2, 1);
   for (const int i : {0, 1}) {
-    const double phase = omega * 3 + k * 25 * i;  // x = -range
-    EXPECT_NEAR(floating.velocity_mps[i], -omega * std::cos(phase), 1e-9);
-    EXPECT_NEAR(floating.acceleration_mps2[i], omega * omega * std::sin(phase),
+    const double phase = omega * 3 - k * 25 * i;  // x = -range, the second is 25 m nearer
+    EXPECT_NEAR(velocity[i], -omega * std::cos(phase), 1e-9);
+    EXPECT_NEAR((velocity[2 + i] - velocity[i]) / 0.064, omega * omega * std::sin(phase),
                 0.5 * 0.064 * std::pow(omega, 3) + 1e-9);
   }
 }
@@ -129,7 +145,7 @@ TEST(FloatingScatterers, MoveWithTheWaves) {
 // At order 2 the water's velocity at the moving surface has a mean, that of eta1 du1/dz: 1/2 a^2 w k of every component
 // in the quadratic sums. It is part of the Stokes drift, which clutter_velocity_moments contains, and is therefore
 // not contained in the scatterers' own velocity.
-TEST(FloatingScatterers, HaveZeroMeanRelativeToTheSea) {
+TEST(ScatterersOnTheWaves, HaveZeroMeanRelativeToTheSea) {
   SeaState state = waves_towards(180);
   state.significant_wave_height_m = 2;
   state.peak_period_s = 6.5;
@@ -144,15 +160,13 @@ TEST(FloatingScatterers, HaveZeroMeanRelativeToTheSea) {
   scene.radar.link_budget.beamwidth_deg = 1e-9;
   // Over 40 km and 10 moments, each range weighted by Hann's window: the residual of a wave is its spectrum's side
   // lobe.
-  std::vector<double> ranges;
-  for (int i = 0; i < 4000; ++i) ranges.push_back(10.0 * (i - 2000));
   double sum = 0, weights = 0;
   for (int moment = 0; moment < 10; ++moment) {
     scene.start_s = 37.0 * moment;
-    const std::vector<double> velocity = floating_scatterers(scene, ranges, 0.064, 1, moment).velocity_mps;
-    for (std::size_t i = 0; i < velocity.size(); ++i) {
-      const double weight =
-          1 - std::cos(2 * kPi * (static_cast<double>(i) + 0.5) / static_cast<double>(velocity.size()));
+    constexpr int kPlaces = 4000;
+    const std::vector<double> velocity = water_velocities(scene, 40000, kPlaces, moment);
+    for (int i = 0; i < kPlaces; ++i) {
+      const double weight = 1 - std::cos(2 * kPi * (place_of(i, kPlaces) + kPlaces / 2 + 0.5) / kPlaces);
       sum += weight * velocity[i];
       weights += weight;
     }
@@ -184,11 +198,11 @@ TEST(ClutterOfMovingShip, HasTheVelocityOfTheWaterRelativeToTheShip) {
 
   // The waves are those at the ship's present position: 200 m further along x, x = -range cos(azimuth) without beam.
   scene.radar.link_budget.beamwidth_deg = sailing.radar.link_budget.beamwidth_deg = 1e-9;
-  const FloatingScatterers floating = floating_scatterers(sailing, {0, 70}, 0.064, 1, 1);
+  const std::vector<double> velocity = water_velocities(sailing, 140, 2, 1);
   for (const int i : {0, 1}) {
-    const double x = 200 - 70 * i / std::cos(grazing) * std::cos(azimuth),
-                 y = -70 * i / std::cos(grazing) * std::sin(azimuth);
-    EXPECT_NEAR(floating.velocity_mps[i], -scene.r_hat.dot(waves.surface(x, y, 20).velocity), 1e-6);
+    const double x = 200 + 70 * i / std::cos(grazing) * std::cos(azimuth),
+                 y = 70 * i / std::cos(grazing) * std::sin(azimuth);
+    EXPECT_NEAR(velocity[i], -scene.r_hat.dot(waves.surface(x, y, 20).velocity), 1e-6);
   }
   // The velocity across the line of sight spreads the Doppler over the whole beam.
   EXPECT_EQ(platform_doppler_spread_mps(scene), 0);
@@ -210,6 +224,7 @@ TEST(ClutterDoppler, EqualsTheVelocityMomentsOfTheSea) {
   for (const ClutterDoppler doppler : {ClutterDoppler::kSeaState, ClutterDoppler::kWaveResolved}) {
     ClutterSpec spec;
     spec.doppler = doppler;
+    spec.texture = ClutterTexture::kIndependent;
     spec.doppler_spread_mps = 0.1;
     Complex sum;
     double power = 0;
@@ -269,7 +284,7 @@ FrequencyResponse point_of_one_metre(const PulseTrain& train) {
   return point_response({&point, 1}, Vec3(1, 0, 0), interval_sampling(train, 0));
 }
 
-TEST(SeaReflectivity, IsThatOfTheEcho) {
+TEST(ClutterLevel, IsTheReflectivityOfTheScene) {
   RadarSpec radar;
   radar.pulses = 64;
   const PulseTrain train = make_pulse_train(radar, 239.8, 1, 2);
@@ -332,32 +347,30 @@ TEST(Texture, HasTheShapeOfMeasuredClutter) {
   scene.radar.link_budget.beamwidth_deg = 1.5;
   scene.radar.polarisation = Polarisation::kVv;
   scene.r_hat = Vec3(std::cos(radians(2)), 0, std::sin(radians(2)));
-  ASSERT_TRUE(k_shape(scene, 9.4e9, 1.5));
-  EXPECT_NEAR(std::log10(*k_shape(scene, 9.4e9, 1.5)), 0.2098, 2e-3);
+  const auto shape = [&](double frequency_hz) { return k_shape(scene, frequency_hz, 1.5); };
+  EXPECT_TRUE(shape(9.4e9).is_within_range);
+  EXPECT_NEAR(std::log10(shape(9.4e9).value), 0.2098, 2e-3);
   scene.waves_towards_rad = radians(90);
-  EXPECT_NEAR(std::log10(*k_shape(scene, 9.4e9, 1.5)), 0.8765, 2e-3);
-  const double vv = *k_shape(scene, 9.4e9, 1.5);
+  EXPECT_NEAR(std::log10(shape(9.4e9).value), 0.8765, 2e-3);
+  const double vv = shape(9.4e9).value;
   scene.radar.polarisation = Polarisation::kHh;
-  EXPECT_NEAR(vv / *k_shape(scene, 9.4e9, 1.5), std::pow(10, 0.7), 1e-9);
-  EXPECT_FALSE(k_shape(scene, 16e9, 1.5));
+  EXPECT_NEAR(vv / shape(9.4e9).value, std::pow(10, 0.7), 1e-9);
+  EXPECT_FALSE(shape(16e9).is_within_range);
   scene.radar.range_km = 2;  // 39 m across
-  EXPECT_FALSE(k_shape(scene, 9.4e9, 1.5));
+  EXPECT_FALSE(shape(9.4e9).is_within_range);
 }
 
 TEST(Texture, HasTheSpecifiedCorrelationTime) {
-  ClutterSpec spec;
-  spec.texture_shape = 1000;  // nearly Gaussian: the generator's correlation is the texture's
-  spec.texture_correlation_time_s = 2;
+  const int cells = 64;
   for (const double lag_s : {0.0, 1.0, 2.0, 5.0}) {
     double first = 0, second = 0, both = 0;
-    const int keys = 200, cells = 64;
+    const int keys = 200;
     for (int key = 0; key < keys; ++key) {
-      const std::vector<double> a = sea_texture(cells, 2, spec, 100, 3, key),
-                                b = sea_texture(cells, 2, spec, 100 + lag_s, 3, key);
+      const std::vector<double> a = ring_field(cells, 2, 2, 100, key), b = ring_field(cells, 2, 2, 100 + lag_s, key);
       for (int k = 0; k < cells; ++k) {
-        first += (a[k] - 1) * (a[k] - 1);
-        second += (b[k] - 1) * (b[k] - 1);
-        both += (a[k] - 1) * (b[k] - 1);
+        first += a[k] * a[k];
+        second += b[k] * b[k];
+        both += a[k] * b[k];
       }
     }
     const double law = std::exp(-lag_s * lag_s / 8);

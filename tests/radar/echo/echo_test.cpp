@@ -206,7 +206,7 @@ TEST(Clutter, HasTheSpecifiedDopplerMeanAndSpread) {
         }
       }
     }
-    const double tau = lag * train.pri_s, spread = 4 * kPi * spec.doppler_spread_mps * tau / wavelength;
+    const double tau = lag * train.pri_s, spread = 4 * kPi * *spec.doppler_spread_mps * tau / wavelength;
     const Complex expected =
         std::polar(std::exp(-spread * spread / 2), -4 * kPi * spec.doppler_mean_mps * tau / wavelength);
     std::printf("lag %d: %.4f %+.4fj, law %.4f %+.4fj\n", lag, (sum / power).real(), (sum / power).imag(),
