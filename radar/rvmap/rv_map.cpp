@@ -329,28 +329,34 @@ ReceivedInterval form_received_interval(const Echo& echo, const PulseTrain& trai
   };
 
   double gain_db = 0;
+  const double target_power = mean_power(echo.target);
+  const bool has_target = target_power > 0;
   if (!echo.clutter.empty()) {
     const RvMap clutter_map = form_rv_map(echo.clutter, train, spec, intra_pulse_motion);
     const double clutter_cell = mean_power(clutter_map.values);
     const double target_peak = largest_power(received.map);
-    if (!(target_peak > 0 && clutter_cell > 0)) {
+    if (!((target_peak > 0 || !has_target) && clutter_cell > 0)) {
       throw InputError(
           fmt::format("map: no power in the map's window (target {} m^2, clutter {} m^2)", target_peak, clutter_cell));
     }
     MeasuredRatios& scr = received.scr;
-    scr.per_pulse_db = decibel(mean_power(echo.target) / mean_power(echo.clutter));
-    scr.peak_cell_db = decibel(target_peak / clutter_cell);
-    scr.scr_extent_db = decibel(box_power(received.map, target_extent(received.map)) / clutter_cell);
-    const double measured = clutter.scr_definition == ScrDefinition::kPerPulse   ? scr.per_pulse_db
-                            : clutter.scr_definition == ScrDefinition::kPeakCell ? scr.peak_cell_db
-                                                                                 : scr.scr_extent_db;
-    if (clutter.level == ClutterLevel::kScr) gain_db = measured - clutter.scr_db;
-    for (double* ratio : {&scr.per_pulse_db, &scr.peak_cell_db, &scr.scr_extent_db}) *ratio -= gain_db;
+    if (has_target) {
+      scr.per_pulse_db = decibel(target_power / mean_power(echo.clutter));
+      scr.peak_cell_db = decibel(target_peak / clutter_cell);
+      scr.scr_extent_db = decibel(box_power(received.map, target_extent(received.map)) / clutter_cell);
+      const double measured = clutter.scr_definition == ScrDefinition::kPerPulse   ? scr.per_pulse_db
+                              : clutter.scr_definition == ScrDefinition::kPeakCell ? scr.peak_cell_db
+                                                                                   : scr.scr_extent_db;
+      if (clutter.level == ClutterLevel::kScr) gain_db = measured - clutter.scr_db;
+      for (double* ratio : {&scr.per_pulse_db, &scr.peak_cell_db, &scr.scr_extent_db}) *ratio -= gain_db;
+    }
+    received.clutter_power_m2 = mean_power(echo.clutter) * std::pow(10, gain_db / 10);
     add(echo.clutter, clutter_map, std::pow(10, gain_db / 20));
   }
   if (!echo.noise.empty()) {
     const double noise_db = clutter.noise_level == NoiseLevel::kCnr ? gain_db : 0;
-    received.scr.snr_per_pulse_db = decibel(mean_power(echo.target) / mean_power(echo.noise)) - noise_db;
+    if (has_target) received.scr.snr_per_pulse_db = decibel(target_power / mean_power(echo.noise)) - noise_db;
+    received.noise_power_m2 = mean_power(echo.noise) * std::pow(10, noise_db / 10);
     add(echo.noise, form_rv_map(echo.noise, train, spec, intra_pulse_motion), std::pow(10, noise_db / 20));
   }
   return received;

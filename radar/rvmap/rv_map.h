@@ -73,9 +73,10 @@ MapExtent target_extent(const RvMap& target);
 
 // Received signal of an interval with the clutter at the level of the scenario.
 struct ReceivedInterval {
-  std::vector<Complex> echo;  // target + clutter + noise, [pulse][frequency]
-  RvMap map;                  // map of that echo
-  MeasuredRatios scr;
+  std::vector<Complex> echo;                        // target + clutter + noise, [pulse][frequency]
+  RvMap map;                                        // map of that echo
+  MeasuredRatios scr;                               // NaN without clutter or noise, and of a target without an echo
+  double clutter_power_m2 = 0, noise_power_m2 = 0;  // mean |Y|^2 of the clutter and the noise in it
 };
 
 // Sum of target, clutter and noise with its map, and the measured target-to-clutter ratio in three definitions and
@@ -84,7 +85,8 @@ struct ReceivedInterval {
 //   per_pulse  mean |Y_target|^2 over mean |Y_clutter|^2, all pulses and in-band frequencies
 //   peak_cell  maximum |RV|^2 of the target over the mean |RV|^2 of the clutter's map
 //   extent     mean |RV|^2 of the target inside target_extent over the mean |RV|^2 of the clutter's map
-// Throws InputError when clutter is present and the target or the clutter is zero in the map.
+// A target whose echo is zero has no ratios: the level must be absolute. Throws InputError when clutter is present and
+// zero in the map, or the target with an echo is.
 ReceivedInterval form_received_interval(const Echo& echo, const PulseTrain& train, const ClutterSpec& clutter,
                                         const MapSpec& spec, bool intra_pulse_motion);
 

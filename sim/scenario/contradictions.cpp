@@ -346,6 +346,7 @@ void check_layout(const TargetSpec& target, const ScenarioDocument& document) {
 }
 
 void check_target(const TargetSpec& target, const ScenarioDocument& document) {
+  if (document.root.find("targets")->find(target.name) == nullptr) return;  // the sea alone
   const std::string path = "targets." + target.name;
   if (target.forward.back() == target.up.back())
     document.fail_at(path + ".orientation", fmt::format("forward {} and up {} must be perpendicular to each other",
@@ -374,6 +375,21 @@ void check_intra_pulse_motion(const Scenario& scenario, const ScenarioDocument& 
           "radar.intra_pulse_motion",
           fmt::format("must be false with a mesh, here targets.{}: only points move during a pulse", target.name));
     }
+  }
+}
+
+// The sea alone has an absolute level, and an echo.
+void check_sea_alone(const Scenario& scenario, const ScenarioDocument& document) {
+  if (!is_sea_alone(scenario)) return;
+  const ClutterSpec& clutter = scenario.clutter;
+  if (clutter.enabled && !is_absolute(clutter.level)) {
+    document.fail_at("clutter.level", "must be nrl, git, hyb or tsc with targets: {}; scr is a ratio to a target");
+  }
+  if (clutter.noise_level == NoiseLevel::kSnr)
+    document.fail_at("clutter.noise_level", "must be cnr or thermal with targets: {}; snr is a ratio to a target");
+  if (!clutter.enabled && clutter.noise_level == NoiseLevel::kCnr) {
+    document.fail_at("clutter.enabled",
+                     "must be true, or noise_level thermal, with targets: {}; nothing else has an echo");
   }
 }
 
@@ -493,6 +509,8 @@ void check_contradictions(const Scenario& scenario, const ScenarioDocument& docu
   });
   errors.check({"targets"}, [&] { check_roles(scenario, document); });
   errors.check({"targets", "dataset.classes"}, [&] { check_labels(scenario, document); });
+  errors.check({"targets", "clutter.level", "clutter.noise_level", "clutter.enabled"},
+               [&] { check_sea_alone(scenario, document); });
   errors.check({"targets", "radar.intra_pulse_motion"}, [&] { check_intra_pulse_motion(scenario, document); });
   errors.check({"dataset.maps_per_case", "dataset.realisations_per_case", "dataset.maps_per_interval"},
                [&] { check_dataset(scenario, document); });

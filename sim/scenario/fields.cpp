@@ -88,7 +88,7 @@ void visit(RadarSpec& spec, FieldVisitor& v) {
   v.number("pri_us", spec.pri_us, within(0.01, 1e7), "Pulse repetition interval.");
   v.number("pri_jitter_us", spec.pri_jitter_us, within(0, 1e7),
            "Uniform jitter of the pulses' times within +- this; the first pulse has none.");
-  v.integer("pulses", spec.pulses, within(1, 65536), "Pulses N of one coherent interval, one map.");
+  v.integer("pulses", spec.pulses, within(1, kMaxPulses), "Pulses N of one coherent interval, one map.");
   v.choice("polarisation", spec.polarisation, {"hh", "hv", "vh", "vv"}, "Received, then transmitted polarisation.");
   v.flag("intra_pulse_motion", spec.intra_pulse_motion,
          "Doppler within the pulse (range-Doppler coupling of the LFM pulse), in echo and map; with points as targets "
@@ -545,7 +545,7 @@ void visit(DatasetSpec& spec, FieldVisitor& v) {
   v.flag(
       "echoes", spec.echoes,
       "Also store the target's echoes, of which `seaglint features` makes maps with other clutter, map and features.");
-  if (v.optional("classes", spec.classes != default_classes()))
+  if (v.optional("classes", spec.classes != default_classes() && spec.classes.size() >= kMinClasses))
     v.value("classes", NamesField{spec.classes, kMinClasses, kMaxClasses},
             "Names of the classes by label, 0 first: [array, ship] by default.");
 }
@@ -651,15 +651,17 @@ void visit_fields(Scenario& scenario, FieldVisitor& v) {
   v.section("sea", scenario.sea, visit, "Waves.");
   v.section("sea_reflection", scenario.sea_reflection, visit,
             "Specular reflection by the mean sea surface between radar and target.");
-  v.require("targets");
-  FieldItems targets{.most = 100};
-  for (const TargetSpec& target : scenario.targets) targets.names.push_back(target.name);
+  v.require("targets", true, "; targets: {} is the sea alone");
+  FieldItems targets{.most = 100, .when_empty = "the sea alone"};
+  for (const TargetSpec& target : scenario.targets) {
+    if (!is_sea_alone(scenario)) targets.names.push_back(target.name);
+  }
   targets.resize = [&](const std::vector<std::string>& names) {
     scenario.targets.resize(names.size());
     for (std::size_t i = 0; i < names.size(); ++i) scenario.targets[i].name = names[i];
   };
   targets.item = [&](std::size_t i, FieldVisitor& target) { visit(scenario.targets[i], target); };
-  v.items("targets", targets, "Targets by their names: letters, digits, '_' and '-'.");
+  v.items("targets", targets, "Targets by their names: letters, digits, '_' and '-'; {}: the sea alone.");
   v.section("clutter", scenario.clutter, visit, "Sea clutter and noise.");
   v.section("map", scenario.map, visit, "Range-velocity map.");
   v.section("dataset", scenario.dataset, visit, "Size and division of the data set.");

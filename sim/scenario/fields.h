@@ -107,6 +107,7 @@ struct FieldItems {
   bool is_list = false;
   std::vector<std::string> names = {};                               // keys of the items; of a list "0", "1", ...
   std::size_t most = 0;                                              // 1 to `most` items
+  const char* when_empty = nullptr;                                  // what no item means; null: not allowed
   std::function<void(const std::vector<std::string>&)> resize = {};  // makes the items of these names
   std::function<void(std::size_t, FieldVisitor&)> item = {};         // visits the fields of an item
 };
@@ -119,8 +120,8 @@ class FieldVisitor {
   virtual void value(const char* key, const KeyField& value, const char* meaning) = 0;
   virtual void section(const char* key, const Fields& fields, const char* meaning) = 0;
   virtual void items(const char* key, const FieldItems& items, const char* meaning) = 0;
-  // The key must be in the file; always: whatever the other keys are.
-  virtual void require(const char*, bool /*always*/ = true) {}
+  // The key must be in the file; always: whatever the other keys are; note: ends the message of its absence.
+  virtual void require(const char*, bool /*always*/ = true, const char* /*note*/ = "") {}
   // Returns whether to visit an optional field. present: whether it has a value; when reading, the result is whether
   // the file has the key.
   virtual bool optional(const char*, bool present) { return present; }

@@ -80,7 +80,7 @@ class Lister : public PathVisitor {
     below(std::string(key) + "." + name, [&](FieldVisitor& v) { items.item(0, v); });
     if (items.is_list) items.resize({});
   }
-  void require(const char* key, bool) override { required_ = path_of(key); }
+  void require(const char* key, bool, const char*) override { required_ = path_of(key); }
   bool optional(const char*, bool present) override {
     is_optional_ = !present;
     return true;
@@ -279,11 +279,11 @@ class SchemaWriter : public PathVisitor {
       schema.update({{"type", "object"},
                      {"propertyNames", {{"pattern", "^[A-Za-z0-9_-]{1,64}$"}}},
                      {"additionalProperties", item},
-                     {"minProperties", 1},
+                     {"minProperties", items.when_empty == nullptr ? 1 : 0},
                      {"maxProperties", items.most}});
     }
   }
-  void require(const char* key, bool always) override {
+  void require(const char* key, bool always, const char*) override {
     if (always) map_["required"].push_back(key);
   }
   bool optional(const char*, bool) override { return true; }

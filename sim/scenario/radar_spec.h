@@ -37,6 +37,7 @@ struct PlatformSpec {
   bool operator==(const PlatformSpec&) const = default;
 };
 
+inline constexpr int kMaxPulses = 1 << 20;  // of an interval; its echo is bounded by memory (make_pulse_train())
 struct RadarSpec {
   double carrier_ghz = 16;
   int carrier_count = 8;

@@ -308,10 +308,12 @@ class Reader : public FieldVisitor {
     const bool is_read = errors_.attempt({path}, [&] {
       const bool is_right = node->kind == (items.is_list ? YamlNode::Kind::kList : YamlNode::Kind::kMap);
       const std::size_t size = items.is_list ? node->items.size() : node->entries.size();
-      if (!is_right || size == 0 || size > items.most)
+      const bool is_empty_allowed = items.when_empty != nullptr;
+      if (!is_right || (size == 0 && !is_empty_allowed) || size > items.most)
         refuse(document_, *node, path,
-               fmt::format("must be a {} 1 to {} {}", items.is_list ? "list of" : "map of", items.most,
-                           items.is_list ? "maps" : "named maps"));
+               fmt::format("must be a {} 1 to {} {}{}", items.is_list ? "list of" : "map of", items.most,
+                           items.is_list ? "maps" : "named maps",
+                           is_empty_allowed ? fmt::format(", or {{}}: {}", items.when_empty) : ""));
       check_duplicates(document_, *node, path);
     });
     if (!is_read) return;
@@ -329,9 +331,10 @@ class Reader : public FieldVisitor {
       read_map(*maps[i], path + "." + names[i], [&](FieldVisitor& visitor) { items.item(i, visitor); });
   }
 
-  void require(const char* key, bool) override {
+  void require(const char* key, bool, const char* note) override {
     if (map_.find(key) != nullptr || !needs_are_known_) return;
-    errors_.attempt({path_of(key)}, [&] { document_.fail(map_.location, path_of(key), "this key is missing"); });
+    errors_.attempt({path_of(key)},
+                    [&] { document_.fail(map_.location, path_of(key), fmt::format("this key is missing{}", note)); });
   }
 
   bool optional(const char* key, bool) override { return map_.find(key) != nullptr; }

@@ -79,10 +79,19 @@ void complete(Scenario& scenario, const ScenarioDocument& document, ErrorList& e
   check_contradictions(scenario, document, errors);
 }
 
+// `targets: {}`: one target without bodies, which has a class of its own.
+void add_sea_alone(Scenario& scenario) {
+  TargetSpec sea;
+  sea.name = kSeaAlone;
+  scenario.targets.push_back(std::move(sea));
+  scenario.dataset.classes = {kSeaAlone};
+}
+
 // Reads a document without distributions.
 Scenario read_values(const ScenarioDocument& document, ErrorList& errors, const Scenario* known = nullptr) {
   Scenario scenario = read_fields(document, errors);
   scenario.folder = fs::path(document.file_name).parent_path();
+  if (scenario.targets.empty() && !errors.concerns("targets")) add_sea_alone(scenario);
   complete(scenario, document, errors, known);
   if (scenario.name.empty()) scenario.name = name_of_file(document.file_name);
   return scenario;

@@ -38,7 +38,7 @@ struct Scenario : ScenarioOrigin {
   ViewSpec view;
   SeaSpec sea;
   SeaReflectionSpec sea_reflection;
-  std::vector<TargetSpec> targets;  // in the order of the file
+  std::vector<TargetSpec> targets;  // in the order of the file; for `targets: {}` the one of is_sea_alone()
   ClutterSpec clutter;
   MapSpec map;
   DatasetSpec dataset;
@@ -50,6 +50,11 @@ struct Scenario : ScenarioOrigin {
 
   bool operator==(const Scenario&) const = default;
 };
+
+// Whether the scenario has `targets: {}`: the sea alone. Its class is then kSeaAlone, whatever dataset.classes states.
+inline bool is_sea_alone(const Scenario& scenario) {
+  return scenario.targets.size() == 1 && is_sea_alone(scenario.targets.front());
+}
 
 // Reads and checks a scenario. Throws InputError "file:line:col: key.path: value ...: bound", SeveralInputErrors where
 // there are several: unknown or duplicate keys, wrong types, values out of range, inconsistencies of what is read

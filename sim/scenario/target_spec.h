@@ -147,4 +147,8 @@ struct TargetSpec : MeshPlacement {
   bool operator==(const TargetSpec&) const = default;
 };
 
+// The target of a scenario with `targets: {}`: no bodies and no points, thus no echo; name and class are "sea".
+inline constexpr const char* kSeaAlone = "sea";
+inline bool is_sea_alone(const TargetSpec& target) { return target.mesh.empty() && target.points.empty(); }
+
 }  // namespace seaglint

@@ -128,7 +128,7 @@ class Writer : public ValueVisitor {
   }
   void items(const char* key, const FieldItems& items, const char* meaning) override {
     if (!comment(key, meaning)) return;
-    write(key, "");
+    write(key, items.names.empty() ? "{}" : "");
     for (std::size_t i = 0; i < items.names.size(); ++i) {
       out += std::string(indent_ + 2, ' ') + (items.is_list ? "-" : text_as_yaml(items.names[i]) + ":") + "\n";
       indent_ += 2;

@@ -231,8 +231,8 @@ TEST(Check, RefusesAllMistakesOfAScenarioInOneRunALineEach) {
   EXPECT_EQ(result.code, 2);
   EXPECT_EQ(result.out, "");
   EXPECT_EQ(result.err,
-            "seaglint: " + file + ":3:3: radar.bandwidth: unknown key: did you mean 'bandwidth_mhz'?\n" +
-                "seaglint: " + file + ":4:11: radar.pulses: value 'many': must be a whole number within 1 and 65536\n" +
+            "seaglint: " + file + ":3:3: radar.bandwidth: unknown key: did you mean 'bandwidth_mhz'?\n" + "seaglint: " +
+                file + ":4:11: radar.pulses: value 'many': must be a whole number within 1 and 1048576\n" +
                 "seaglint: " + file + ":5:45: targets.a.scale: value '-1': must be a number within 0.001 and 1000\n" +
                 "seaglint: --set seed: value 'x': must be a whole number within 0 and 9223372036854775807\n");
 }

@@ -44,7 +44,9 @@ void bind_scenario(py::module_& module) {
       .def_property_readonly("targets",
                              [](const Scenario& scenario) {
                                std::vector<std::string> names;
-                               for (const TargetSpec& target : scenario.targets) names.push_back(target.name);
+                               for (const TargetSpec& target : scenario.targets) {
+                                 if (!is_sea_alone(target)) names.push_back(target.name);
+                               }
                                return names;
                              })
       .def("yaml", [](const Scenario& scenario) { return effective_yaml(scenario); })

@@ -80,9 +80,8 @@ void make_data_set(const Pipeline& pipeline, const std::string& directory, const
               result.missing);
   else
     print_out(
-        "Next: `seaglint verify {0}`, `seaglint look {0} -o look.png`, `seaglint train {0} -o MODEL`, or "
-        "seaglint.Dataset(\"{0}\") in Python\n",
-        directory);
+        "Next: `seaglint verify {0}`, `seaglint look {0} -o look.png`, {1}or seaglint.Dataset(\"{0}\") in Python\n",
+        directory, is_sea_alone(pipeline.scenario()) ? "" : fmt::format("`seaglint train {} -o MODEL`, ", directory));
 }
 
 void generate(const GenerateArguments& arguments, const CommandContext& context) {

@@ -26,9 +26,10 @@ namespace {
 std::string summary(const Scenario& scenario, const SamplePlan& plan) {
   const std::size_t seas = plan.sea_states().size(), aspects = plan.views().size();
   const std::size_t parts = scenario.targets.size() - plan.classes().size();
-  return fmt::format("{}: {} targets{}, {} sea states x {} views = {} cases, {} maps\n", scenario.name,
-                     plan.classes().size(), parts > 0 ? fmt::format(" and {} parts", parts) : "", seas, aspects,
-                     seas * aspects, plan.size());
+  const std::string targets =
+      is_sea_alone(scenario) ? "the sea alone" : fmt::format("{} targets", plan.classes().size());
+  return fmt::format("{}: {}{}, {} sea states x {} views = {} cases, {} maps\n", scenario.name, targets,
+                     parts > 0 ? fmt::format(" and {} parts", parts) : "", seas, aspects, seas * aspects, plan.size());
 }
 
 // A line for each class that several targets share: it has the maps of all of them. Empty where each has one target.

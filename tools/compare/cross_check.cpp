@@ -351,6 +351,7 @@ SampleCrossCheck cross_check_samples(const Scenario& scenario, std::span<const s
       },
       stop);
   SampleCrossCheck check;
+  check.is_sea_alone = is_sea_alone(scenario);
   for (const auto& one : found) {
     if (one) {
       check.differences.push_back(*one);
@@ -369,8 +370,9 @@ double relative_difference_db(const FrequencyResponse& reference, const Frequenc
 
 std::string text_of(const SampleCrossCheck& check) {
   const std::vector<SampleDifference>& all = check.differences;
-  std::string left_out = check.points > 0 ? fmt::format("{} sample{} of ideal points left out, which have no solver\n",
-                                                        check.points, check.points == 1 ? "" : "s")
+  std::string left_out = check.points > 0 ? fmt::format("{} sample{} of {} left out, which have no solver\n",
+                                                        check.points, check.points == 1 ? "" : "s",
+                                                        check.is_sea_alone ? "the sea alone" : "ideal points")
                                           : "";
   if (all.empty()) return left_out;
   std::size_t width = std::string_view("target").size();

@@ -114,8 +114,9 @@ struct SampleDifference {
 
 struct SampleCrossCheck {
   std::vector<SampleDifference> differences;  // in the order of the samples
-  std::size_t points = 0;                     // samples of ideal points alone, which have no solver
-  double median_response_db() const;          // of the differences; NaN without any
+  std::size_t points = 0;                     // samples of ideal points alone or of the sea alone, without a solver
+  bool is_sea_alone = false;
+  double median_response_db() const;  // of the differences; NaN without any
 };
 
 // `count` of `size` samples in the middles of equal parts of the set: (2 n + 1) size / (2 count), 0 < count <= size.

@@ -412,13 +412,14 @@ Heatmap rv_figure(const RvFigureRequest& request) {
   const Sample& sample = request.sample;
   const SampleRecord& record = sample.record;
   Heatmap figure;
-  figure.title = fmt::format("{}, azimuth {:g} deg, Hs {:g} m", record.target_name, record.azimuth_deg,
-                             record.significant_wave_height_m);
+  const bool has_target = record.bodies > 0;
+  figure.title = fmt::format("{}, azimuth {:g} deg, Hs {:g} m", has_target ? record.target_name : "sea alone",
+                             record.azimuth_deg, record.significant_wave_height_m);
   figure.x.label = "range (m)";
   figure.y.label = "velocity (m/s)";
   figure.colour = level_axis("|RV|");
   figure.map = levels_in(request.axes, sample.magnitude, {});
-  if (!request.whole) {
+  if (!request.whole && has_target) {
     const TargetWindow target = target_window(sample, request.axes);
     if (target.window) {
       figure.whole = std::move(figure.map);

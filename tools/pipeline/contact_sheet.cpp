@@ -168,8 +168,9 @@ ContactSheet contact_sheet(const ContactSheetRequest& request) {
                                  request.reader.size()));
   }
   const ReadSamples read = read_samples(request, chosen_samples(scenario, plan, request.samples));
-  const auto [window, window_text] =
-      request.whole ? std::pair{std::optional<MapWindow>(), std::string("whole maps")} : common_window(read);
+  const auto [window, window_text] = request.whole || is_sea_alone(scenario)
+                                         ? std::pair{std::optional<MapWindow>(), std::string("whole maps")}
+                                         : common_window(read);
   const bool one_elevation = std::ranges::all_of(read.samples, [&](const Sample& s) {
     return s.record.elevation_deg == read.samples.front().record.elevation_deg;
   });
@@ -203,7 +204,8 @@ ContactSheet contact_sheet(const ContactSheetRequest& request) {
   notes = radar_print(scenario.radar);
   if (one_elevation) notes.push_back(fmt::format("elevation {:.3g} deg", read.samples.front().record.elevation_deg));
   notes.push_back("positive velocity = receding");
-  notes.push_back("SCR per pulse, of each map");
+  if (std::ranges::any_of(read.samples, [](const Sample& s) { return std::isfinite(s.record.scr_per_pulse_db); }))
+    notes.push_back("SCR per pulse, of each map");
   if (scenario.radar.carrier_count > 1 && !scenario.map.clean)
     notes.push_back("bands along the velocity: pedestal of the hop code");
   notes.push_back(window_text);

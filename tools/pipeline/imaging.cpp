@@ -225,7 +225,11 @@ bool has_series(const Scenario& scenario) {
 }  // namespace
 
 IsarPlan isar_plan(const Pipeline& pipeline, std::size_t sample) {
-  constexpr int kMostPulses = 65536;  // bound of radar.pulses
+  if (is_sea_alone(pipeline.scenario())) {
+    throw InputError(fmt::format("{}: the sea alone: an image and a range profile need a target",
+                                 place_of(pipeline.scenario(), "targets")));
+  }
+  constexpr int kMostPulses = 65536;
   constexpr double kCalm_s = 4, kCells = 4, kLeastCells = 8;
   const SampleAddress at = pipeline.plan().address(sample);
   const double pri_s = 1e-6 * pipeline.scenario_of(at).radar.pri_us;

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <variant>
 
 #include "classify/dataset/directory/dataset_writer.h"
 #include "classify/features/scattering_centres.h"
@@ -191,6 +193,14 @@ Echo Pipeline::echo(std::size_t sample, const PulseTrain& train, const IntervalR
                     const ClutterSpec& clutter) const {
   const SampleAddress at = plan_.address(sample);
   const std::shared_ptr<const Scene> moving = scene(at.sea_state, at.realisation);
+  if (is_sea_alone(scenario_)) {
+    // Absolute levels do not depend on the target: they are those beside a point, which is then removed.
+    FrequencyResponse point = response.response;
+    std::ranges::fill(point.values, Complex(1));
+    Echo echo = synthesise_echo(train, point, clutter, scenario_.seed, sample, clutter_scene(at, *moving));
+    std::ranges::fill(echo.target, Complex());
+    return echo;
+  }
   try {
     return synthesise_echo(train, response.response, clutter, scenario_.seed, sample, clutter_scene(at, *moving));
   } catch (const InputError& error) {
@@ -299,6 +309,26 @@ IntervalResult at_map_frequencies(const IntervalResult& fine_response, const Pul
   return result;
 }
 
+// Powers of clutter and noise at the map's frequencies, and the row of the sample.
+struct LevelsOfMap {
+  double clutter_m2 = 0, noise_m2 = 0;
+  SampleRecord record;
+};
+
+LevelsOfMap levels_of(const GeneratedSample& made) {
+  return {made.received.clutter_power_m2, made.received.noise_power_m2, made.stored.record};
+}
+
+// Those of an absolute level: no map is made, whose time grows with the square of the pulses. What is measured in it is
+// NaN.
+LevelsOfMap levels_without_map(const Echo& echo, SampleRecord record) {
+  for (const SampleColumn& column : sample_columns().subspan(planned_columns().size())) {
+    if (const auto* member = std::get_if<double SampleRecord::*>(&column.member))
+      record.** member = std::numeric_limits<double>::quiet_NaN();
+  }
+  return {mean_power(echo.clutter), mean_power(echo.noise), std::move(record)};
+}
+
 void scale(SampledEcho& sampled, double power_gain) {
   for (Complex& value : sampled.values) value *= std::sqrt(power_gain);
 }
@@ -313,21 +343,23 @@ SampledInterval sampled_interval(const Pipeline& pipeline, std::size_t sample) {
   check_size(scenario, fine, sampling_hz);
   const IntervalResult response = pipeline.response(at, fine);
   const Echo echo = pipeline.echo(sample, fine, response, scenario.clutter);
-  const GeneratedSample made = pipeline.received_sample(sample, train, at_map_frequencies(response, train, fine));
 
   SampledInterval interval;
   interval.train = train;
-  interval.record = made.stored.record;
+  const IntervalResult of_map = at_map_frequencies(response, train, fine);
+  const LevelsOfMap levels = is_sea_alone(scenario)
+                                 ? levels_without_map(pipeline.echo(sample, train, of_map, scenario.clutter),
+                                                      planned_record(scenario, pipeline.plan(), sample, at))
+                                 : levels_of(pipeline.received_sample(sample, train, of_map));
+  interval.record = levels.record;
   interval.target = sample_echo(echo.target, fine, sampling_hz);
-  const double target_power = power_of_map(interval.target, train);
-  const auto with_level = [&](const std::vector<Complex>& part, double ratio_db, double more) {
+  const auto with_level = [&](const std::vector<Complex>& part, double power_m2) {
     SampledEcho sampled = sample_echo(part, fine, sampling_hz);
-    scale(sampled, more * target_power / power_of_map(sampled, train) * std::pow(10, -ratio_db / 10));
+    scale(sampled, power_m2 / power_of_map(sampled, train));
     return sampled;
   };
-  if (!echo.clutter.empty()) interval.clutter = with_level(echo.clutter, made.received.scr.per_pulse_db, 1);
-  if (!echo.noise.empty())
-    interval.noise = with_level(echo.noise, made.received.scr.snr_per_pulse_db, fine.grid_refinement);
+  if (!echo.clutter.empty()) interval.clutter = with_level(echo.clutter, levels.clutter_m2);
+  if (!echo.noise.empty()) interval.noise = with_level(echo.noise, fine.grid_refinement * levels.noise_m2);
   return interval;
 }
 

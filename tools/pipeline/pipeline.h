@@ -70,7 +70,7 @@ class Pipeline {
 
   // Its steps after one another: the pulses of a sample; the response of its target with its companions at their times
   // and frequencies; the echo; the map and its features. The last two throw InputError, naming target and sample, when
-  // the response has no power.
+  // the response has no power; that of the sea alone is zero.
   PulseTrain pulse_train(std::size_t sample) const;
   IntervalResult response(const SampleAddress& at, const PulseTrain& train, const StopFlag* stop = nullptr) const;
   Echo echo(std::size_t sample, const PulseTrain& train, const IntervalResult& response,
@@ -116,7 +116,8 @@ struct SampledInterval {
   PulseTrain train;                           // of the map
   SampledEcho target;                         // of the target with its companions
   std::optional<SampledEcho> clutter, noise;  // absent where the scenario has none
-  SampleRecord record;                        // row of the sample in a data set
+  SampleRecord record;  // row of the sample in a data set; of the sea alone, of which no map is made, without what
+                        // is measured in the map (NaN)
 };
 
 // Throws InputError when radar.sampling_mhz fits no frequency grid, or the echo would hold more than 2^27 samples.

@@ -268,6 +268,7 @@ class EffectSearch {
 
 // Why the sea does not change the echo of a target; empty where that does not follow from its model.
 std::string sea_reason(const TargetSpec& target) {
+  if (is_sea_alone(target)) return "";
   const std::string path = "targets." + target.name;
   if (target.mesh.empty()) return fmt::format("{} is of points, which do not follow the sea", path);
   if (target.motion.model == MotionModel::kFixed) return fmt::format("{} does not move ({}.motion)", path, path);
@@ -324,7 +325,7 @@ std::vector<std::string> constant_key_warnings(const Pipeline& pipeline, const T
       if (!effect.changes_clutter) {
         lines.push_back(fmt::format("{} changes nothing: maps that differ in it alone are equal{}", name,
                                     reasons(scenario, effect, true)));
-      } else if (!effect.key.key_path.starts_with("clutter.")) {
+      } else if (!effect.key.key_path.starts_with("clutter.") && !is_sea_alone(scenario)) {
         lines.push_back(fmt::format("{} changes clutter and noise alone, the echo of no target{}", name,
                                     reasons(scenario, effect, true)));
       }
@@ -445,6 +446,7 @@ std::string motion_lines(const Pipeline& pipeline) {
   const std::string where =
       seas.size() == 1 ? fmt::format("Hs {:.3g} m", highest_m)
                        : fmt::format("Hs {:.3g} to {:.3g} m, over {} drawn seas", lowest_m, highest_m, seas.size());
+  if (is_sea_alone(pipeline.scenario())) return line("moves", "the sea alone");
   std::string text;
   const auto add = [&](const std::string& of) { text += line(text.empty() ? "moves" : "", of); };
   for (const TargetMotion& motion : target_motions(pipeline, seas)) {

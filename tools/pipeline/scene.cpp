@@ -475,6 +475,8 @@ std::vector<NamedTrajectory> named_bodies(const std::vector<Target>& targets, co
                         mean_speed(*model.motion)});
     }
   }
+  if (targets.size() == 1 && is_sea_alone(targets.front().spec))
+    throw InputError("targets: {} is the sea alone: a motion needs a target with a mesh");
   if (bodies.empty()) throw InputError("targets: none of them is a mesh, so nothing moves in the waves");
   return bodies;
 }

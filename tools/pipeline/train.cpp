@@ -217,6 +217,10 @@ TrainedModel train_model(const TrainRequest& request) {
   [[maybe_unused]] const DatasetReader is_data_set(data_sets.front());
   Scenario scenario = request.scenario != nullptr ? *request.scenario
                                                   : read_scenario(data_sets.front() / kScenarioFile, request.overrides);
+  if (is_sea_alone(scenario)) {
+    throw InputError(
+        fmt::format("{}: maps of the sea alone: learning needs targets of two classes", joined(data_sets)));
+  }
   SplitSpec& split = scenario.learning.split;
   if (request.division.by) split.by = *request.division.by;
   if (!request.division.hold_out.empty()) split.hold_out = request.division.hold_out;

@@ -315,7 +315,9 @@ std::vector<std::string> map_coverage_warnings(const Pipeline& pipeline) {
         const double own_mps = r_hat.dot(Vec3(platform.velocity_mps));
         reach.velocity_mps = {reach.velocity_mps.low + own_mps, reach.velocity_mps.high + own_mps};
       }
-      const std::string who = fmt::format("targets.{} at azimuth {:g} deg", scenario.targets[t].name, view.azimuth_deg);
+      const std::string who =
+          fmt::format("{} at azimuth {:g} deg",
+                      is_sea_alone(scenario) ? "the sea" : "targets." + scenario.targets[t].name, view.azimuth_deg);
       if (!reach.range_m.within(grid.range_m)) {
         add_line(
             fmt::format("{} reaches from {:.1f} to {:.1f} m, the map from {:.1f} to {:.1f} m: raise map.range_span_m",

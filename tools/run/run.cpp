@@ -60,7 +60,7 @@ bool is_planned(const std::string& name) {
 void check_division(const Scenario& scenario, const SamplePlan& plan) {
   const SplitSpec& split = scenario.learning.split;
   const DivisionRequest request = division_request(split);
-  if (request.is_default()) return;
+  if (request.is_default() || is_sea_alone(scenario)) return;
   std::vector<DataRow> rows;
   std::vector<int> labels;
   for (std::size_t sample = 0; sample < plan.size(); ++sample) {
@@ -82,6 +82,10 @@ void check_division(const Scenario& scenario, const SamplePlan& plan) {
 }
 
 void check_learnable(const Scenario& scenario, const SamplePlan& plan) {
+  if (is_sea_alone(scenario)) {
+    throw InputError(
+        fmt::format("{}: the sea alone: learning needs targets of two classes", place_of(scenario, "targets")));
+  }
   const std::vector<std::string>& classes = scenario.dataset.classes;
   for (int label = 0; label < static_cast<int>(classes.size()); ++label) {
     const bool has = std::ranges::any_of(

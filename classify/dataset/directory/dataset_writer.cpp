@@ -47,7 +47,7 @@ SampleRecord planned_record(const Scenario& scenario, const SamplePlan& plan, st
   record.target = at.target;
   record.target_name = target.name;
   record.layout = layout_name(target.layout);
-  record.bodies = static_cast<std::int64_t>(body_count(target.layout));
+  record.bodies = is_sea_alone(target) ? 0 : static_cast<std::int64_t>(body_count(target.layout));
   record.group = plan.group(at);
   record.sea_state = at.sea_state;
   record.significant_wave_height_m = state.significant_wave_height_m;
@@ -116,8 +116,9 @@ std::string label_text(const Scenario& scenario, int label) {
 std::string targets_table(const Scenario& scenario, const SamplePlan& plan) {
   std::string table = "| target | label | samples | made of |\n|---|---|---|---|\n";
   for (const TargetSpec& target : scenario.targets) {
-    std::string made_of =
-        target.mesh.empty() ? fmt::format("{} ideal points", target.points.size()) : markdown_text(target.mesh);
+    std::string made_of = is_sea_alone(target)  ? "nothing: the sea alone"
+                          : target.mesh.empty() ? fmt::format("{} ideal points", target.points.size())
+                                                : markdown_text(target.mesh);
     const std::string scale = value_text(scenario, "targets." + target.name + ".scale",
                                          target.scale == 1 ? "" : fmt::format("{:g}", target.scale));
     if (!scale.empty()) made_of += ", scale " + markdown_text(scale);
@@ -221,13 +222,14 @@ std::string data_set_summary(const Scenario& scenario, const SamplePlan& plan, c
   const std::size_t seas = plan.sea_states().size() * static_cast<std::size_t>(scenario.dataset.realisations_per_case);
   const bool draws_views = std::ranges::any_of(
       scenario.variations, [](const Variation& variation) { return variation.key_path.starts_with("view."); });
+  const bool has_targets = !is_sea_alone(scenario);
   return fmt::format(
-      "{} range-velocity maps of {} radar targets at sea ({} independent sea realisations, {}), for the "
-      "classification of targets by their label. Synthetic: simulated by seaglint {} with seed {}; nothing was "
-      "measured.",
-      manifest.samples, plan.classes().size(), seas,
+      "{} range-velocity maps of {} ({} independent sea realisations, {}){}. Synthetic: simulated by seaglint {} with "
+      "seed {}; nothing was measured.",
+      manifest.samples,
+      has_targets ? fmt::format("{} radar targets at sea", plan.classes().size()) : "the sea without a target", seas,
       draws_views ? "a view drawn for each observation" : fmt::format("{} views", plan.views().size()),
-      manifest.program_version, manifest.seed);
+      has_targets ? ", for the classification of targets by their label" : "", manifest.program_version, manifest.seed);
 }
 
 // The data card in Markdown: content, arrays, reading, splits, limitations.

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -10,6 +11,7 @@
 #include "sim/canonical/point_response.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/random.h"
+#include "sim/core/process/error.h"
 #include "tests/map_levels.h"
 #include "tests/measured.h"
 
@@ -410,6 +412,24 @@ TEST(Scr, TheReceivedMapIsTheMapOfTheReceivedEcho) {
   const RvMap again = form_rv_map(received.echo, train, {}, false);
   for (std::size_t i = 0; i < again.values.size(); ++i)
     EXPECT_NEAR(std::abs(again.values[i] - received.map.values[i]), 0, 1e-12);
+}
+
+// Without a target there is no ratio to it, and an absolute level remains as it is.
+TEST(Scr, OfNoTargetIsNaN) {
+  const PulseTrain train = make_pulse_train({}, 239.8, 1, 2);
+  ClutterSpec clutter;
+  clutter.level = ClutterLevel::kNrl;
+  Echo echo = echo_with_clutter(train, clutter);
+  std::ranges::fill(echo.target, Complex());
+  const ReceivedInterval received = form_received_interval(echo, train, clutter, {}, false);
+  for (const double ratio : {received.scr.per_pulse_db, received.scr.peak_cell_db, received.scr.scr_extent_db,
+                             received.scr.snr_per_pulse_db})
+    EXPECT_TRUE(std::isnan(ratio));
+  EXPECT_EQ(received.clutter_power_m2, mean_power(echo.clutter));
+  EXPECT_EQ(received.noise_power_m2, mean_power(echo.noise));
+  EXPECT_NEAR(mean_power(received.echo) / (received.clutter_power_m2 + received.noise_power_m2), 1, 0.05);
+  std::ranges::fill(echo.clutter, Complex());
+  EXPECT_THROW(form_received_interval(echo, train, clutter, {}, false), InputError);
 }
 
 TEST(Scr, TheTargetsExtentContainsItsTwoPoints) {

@@ -209,7 +209,7 @@ TEST(KeySchema, RefusesWhatTheReaderRefuses) {
   }
   for (const std::string wrong :
        {"targets: {a: {label: 1, mesh: a.obj}}\n", "seaglint: 2\ntargets: {a: {label: 1, mesh: a.obj}}\n",
-        "seaglint: 1\n", "seaglint: 1\ntargets: {}\n", "seaglint: 1\ntargets: {a b: {label: 1, mesh: a.obj}}\n"}) {
+        "seaglint: 1\n", "seaglint: 1\ntargets: []\n", "seaglint: 1\ntargets: {a b: {label: 1, mesh: a.obj}}\n"}) {
     EXPECT_NE(validator.fault(wrong), "") << wrong;
     EXPECT_THROW(parse_scenario(wrong, "wrong.yaml"), InputError) << wrong;
   }

@@ -51,6 +51,48 @@ TEST(ScenarioReading, WhatIsNotGivenKeepsItsDefault) {
   EXPECT_EQ(scenario.targets[0].motion.model, MotionModel::kFixed);
 }
 
+// `targets: {}` is one target without an echo, of a class of its own, which the effective file has again as {}.
+TEST(ScenarioReading, NoTargetsAreTheSeaAlone) {
+  const std::string sea = "seaglint: 1\ntargets: {}\nclutter: {level: tsc}\n";
+  const Scenario scenario = parse(sea);
+  EXPECT_TRUE(is_sea_alone(scenario));
+  EXPECT_EQ(scenario.targets.front().name, "sea");
+  EXPECT_EQ(scenario.targets.front().label, 0);
+  EXPECT_THAT(scenario.dataset.classes, ElementsAre("sea"));
+  EXPECT_HAS(effective_yaml(scenario), "\ntargets: {}\n");
+  EXPECT_TRUE(parse(effective_yaml(scenario)) == scenario);
+  EXPECT_HAS(commented_yaml(scenario, ""), "\ntargets: {}\n");
+  EXPECT_TRUE(parse(sea + "dataset: {classes: [a, b, c]}\n") == scenario);
+  EXPECT_TRUE(is_sea_alone(parse(kShort + "clutter: {level: git}\n", {{"targets", "{}"}})));
+  EXPECT_FALSE(is_sea_alone(parse(kShort)));
+  EXPECT_TRUE(is_sea_alone(parse(sea + "view: {azimuth_deg: uniform(0 90)}\n")));
+}
+
+TEST(ScenarioReading, TheSeaAloneHasAnAbsoluteLevel) {
+  const std::string sea = "seaglint: 1\ntargets: {}\n";
+  EXPECT_EQ(complaint_about(sea),
+            "folder/file.yaml:1:1: clutter.level: must be nrl, git, hyb or tsc with targets: {}; scr is a ratio to a "
+            "target");
+  EXPECT_EQ(
+      complaint_about(sea + "clutter: {level: scr}\n"),
+      "folder/file.yaml:3:18: clutter.level: value 'scr': must be nrl, git, hyb or tsc with targets: {}; scr is a "
+      "ratio to a target");
+  EXPECT_EQ(
+      complaint_about(sea + "clutter: {level: nrl, noise_level: snr}\n"),
+      "folder/file.yaml:3:36: clutter.noise_level: value 'snr': must be cnr or thermal with targets: {}; snr is a "
+      "ratio to a target");
+  EXPECT_EQ(
+      complaint_about(sea + "clutter: {enabled: false}\n"),
+      "folder/file.yaml:3:20: clutter.enabled: value 'false': must be true, or noise_level thermal, with targets: "
+      "{}; nothing else has an echo");
+  EXPECT_HAS(complaint_about(sea + "clutter: {level: 'choice(nrl, scr)'}\n"), "scr is a ratio to a target");
+  parse(sea + "clutter: {enabled: false, noise_level: thermal}\n");
+  EXPECT_EQ(complaint_about("seaglint: 1\ntargets:\n"),
+            "folder/file.yaml:2:1: targets: no value: must be a map of 1 to 100 named maps, or {}: the sea alone");
+  EXPECT_EQ(complaint_about("seaglint: 1\ntargets: {}\nclutter: {level: nrl}\n", {{"targets.sea.label", "0"}}),
+            "--set targets.sea.label: targets.sea: must have a mesh or points");
+}
+
 // Names are written into JSON, which contains only UTF-8.
 TEST(ScenarioReading, TextIsUtf8) {
   EXPECT_EQ(parse(kShort + "name: caf\xc3\xa9\n").name, "caf\xc3\xa9");
@@ -211,9 +253,9 @@ TEST(ScenarioReading, EveryMistakeIsNamedWithItsPlaceValueAndBound) {
       {"radar: {carrier_ghz: nan}", "22: radar.carrier_ghz: value 'nan': must be a number within 0.1 and 300"},
       {"radar: {carrier_ghz: .inf}", "22: radar.carrier_ghz: value '.inf': must be a number within 0.1 and 300"},
       {"radar: {hop_step_mhz: inf}", "23: radar.hop_step_mhz: value 'inf': must be a number greater than 0"},
-      {"radar: {pulses: 2.5}", "17: radar.pulses: value '2.5': must be a whole number within 1 and 65536"},
+      {"radar: {pulses: 2.5}", "17: radar.pulses: value '2.5': must be a whole number within 1 and 1048576"},
       {"radar: {pulses: 99999999999999999999}",
-       "17: radar.pulses: value '99999999999999999999': must be a whole number within 1 and 65536"},
+       "17: radar.pulses: value '99999999999999999999': must be a whole number within 1 and 1048576"},
       {"radar: {polarisation: xx}", "23: radar.polarisation: value 'xx': must be one of hh, hv, vh, vv"},
       {"radar: {intra_pulse_motion: yes}", "29: radar.intra_pulse_motion: value 'yes': must be true or false"},
       {"learning: {fusion: both}", "20: learning.fusion: value 'both': must be split or in_sample"},
@@ -227,7 +269,7 @@ TEST(ScenarioReading, EveryMistakeIsNamedWithItsPlaceValueAndBound) {
       {"radar: {pulses: !!int 5}", "17: tag 'tag:yaml.org,2002:int': tags are not used here"},
       // Bounds.
       {"radar: {carrier_ghz: 400}", "22: radar.carrier_ghz: value '400': must be a number within 0.1 and 300"},
-      {"radar: {pulses: 0}", "17: radar.pulses: value '0': must be a whole number within 1 and 65536"},
+      {"radar: {pulses: 0}", "17: radar.pulses: value '0': must be a whole number within 1 and 1048576"},
       {"learning: {map_floor_db: 0}",
        "26: learning.map_floor_db: value '0': must be a number at least -120 and less than 0"},
       {"learning: {subsample: 0}", "23: learning.subsample: value '0': must be a number greater than 0 and at most 1"},
@@ -318,9 +360,10 @@ TEST(ScenarioReading, EveryMistakeInATargetIsNamed) {
     EXPECT_EQ(complaint_about(kShort + mistake.line + "\n"), fmt::format("folder/file.yaml:4:{}", mistake.complaint))
         << mistake.line;
   }
-  EXPECT_EQ(complaint_about("seaglint: 1\n"), "folder/file.yaml:1:1: targets: this key is missing");
-  EXPECT_EQ(complaint_about("seaglint: 1\ntargets: {}\n"),
-            "folder/file.yaml:2:10: targets: a map: must be a map of 1 to 100 named maps");
+  EXPECT_EQ(complaint_about("seaglint: 1\n"),
+            "folder/file.yaml:1:1: targets: this key is missing; targets: {} is the sea alone");
+  EXPECT_EQ(complaint_about("seaglint: 1\ntargets: []\n"),
+            "folder/file.yaml:2:10: targets: a list: must be a map of 1 to 100 named maps, or {}: the sea alone");
   EXPECT_EQ(complaint_about("targets: {}\n"), "folder/file.yaml:1:1: seaglint: this key is missing");
   EXPECT_EQ(complaint_about("seaglint: 2\ntargets: {}\n"), "folder/file.yaml:1:11: seaglint: value '2': must be 1");
 }

@@ -347,8 +347,10 @@ def _description(data, first, targets):
     manifest, columns = data.manifest, data.columns
     views = "a view drawn for each observation" if any(key.startswith("view.") for key in first.drawn) else f"{len(np.unique(columns['view']))} views"
     arrays = ", ".join(f"/{path} ({description}; {unit})" for path, (unit, description) in first.text.items() if not path.startswith(("samples/", "drawn/")))
-    return (f"{manifest['samples']} range-velocity maps of {targets} radar targets at sea ({len(np.unique(columns['sea_key']))} independent sea realisations, {views}), for the "
-            f"classification of targets by their label. Synthetic: simulated by seaglint {manifest['program_version']} with seed {manifest['seed']}; nothing was measured. "
+    has_targets = columns["bodies"].any()
+    what = f"{targets} radar targets at sea" if has_targets else "the sea without a target"
+    use = ", for the classification of targets by their label" if has_targets else ""
+    return (f"{manifest['samples']} range-velocity maps of {what} ({len(np.unique(columns['sea_key']))} independent sea realisations, {views}){use}. Synthetic: simulated by seaglint {manifest['program_version']} with seed {manifest['seed']}; nothing was measured. "
             f"A map has {data.map_shape[0]} velocity cells and {data.map_shape[1]} range cells. Arrays of the HDF5 shards: {arrays}, and the columns of the record set samples in "
             "/samples. All samples of one group (one sea realisation) belong on one side of a split.")
 

@@ -26,7 +26,7 @@ class Scenario:
 
     name = property(lambda self: self._core.name, doc="Its name, by default that of the file.")
     seed = property(lambda self: self._core.seed)
-    targets = property(lambda self: self._core.targets, doc="Names of the targets.")
+    targets = property(lambda self: self._core.targets, doc="Names of the targets; none for the sea alone.")
 
     def yaml(self) -> str:
         """The scenario with all defaults, as YAML."""

@@ -191,15 +191,16 @@ TEST(Overrides, AreCheckedLikeTheFile) {
   const auto complaint = [](const std::string& path, const std::string& value) {
     return complaint_about(kPaper, {{path, value}});
   };
-  EXPECT_EQ(complaint("radar.pulses", "0"), "--set radar.pulses: value '0': must be a whole number within 1 and 65536");
+  EXPECT_EQ(complaint("radar.pulses", "0"),
+            "--set radar.pulses: value '0': must be a whole number within 1 and 1048576");
   EXPECT_EQ(complaint("radar.pulse", "5"), "--set radar.pulse: unknown key: did you mean 'pulses'?");
   EXPECT_EQ(complaint("rader.pulses", "5"), "--set rader.pulses: rader: unknown key: did you mean 'radar'?");
   EXPECT_EQ(complaint("radar", "{pulses: x}"),
-            "--set radar: radar.pulses: value 'x': must be a whole number within 1 and 65536");
+            "--set radar: radar.pulses: value 'x': must be a whole number within 1 and 1048576");
   EXPECT_EQ(complaint("radar", "{pulses: 1, pulses: 2}"),
             "--set radar: radar.pulses: this key appears twice, first in line 1");
   EXPECT_EQ(complaint("radar.pulses.x", "5"), "--set radar.pulses.x: there is nothing below the value '256'");
-  EXPECT_EQ(complaint("radar.pulses", ""), "--set radar.pulses: no value: must be a whole number within 1 and 65536");
+  EXPECT_EQ(complaint("radar.pulses", ""), "--set radar.pulses: no value: must be a whole number within 1 and 1048576");
   EXPECT_EQ(complaint("radar.pulses", "[1"), "--set radar.pulses: value '[1': not valid YAML");
   EXPECT_EQ(complaint("radar.pulse_width_us", "300"),
             "--set radar.pulse_width_us: value '300': must be shorter than radar.pri_us, 250");
