@@ -70,7 +70,9 @@ ResidualEcho::ResidualEcho(std::span<const Complex> echo, const PulseTrain& trai
   }
 }
 
-RvMap ResidualEcho::map() const { return form_rv_map(echo_, train_, spec_, intra_pulse_motion_); }
+RvMap ResidualEcho::map(const StopFlag* stop) const {
+  return form_rv_map(echo_, train_, spec_, intra_pulse_motion_, stop);
+}
 
 Complex ResidualEcho::value(double range_m, double velocity_mps) const {
   Complex sum;

@@ -25,7 +25,7 @@ class ResidualEcho {
  public:
   ResidualEcho(std::span<const Complex> echo, const PulseTrain& train, const MapSpec& spec, bool intra_pulse_motion);
 
-  RvMap map() const;                                         // exact map of the residual
+  RvMap map(const StopFlag* stop = nullptr) const;           // exact map of the residual (form_rv_map())
   Complex value(double range_m, double velocity_mps) const;  // value of that map at one point
 
   // Nearest maximum of the residual's |RV|, at most reach_r and reach_v from (range_m, velocity_mps); its amplitude is

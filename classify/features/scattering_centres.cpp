@@ -9,6 +9,7 @@
 #include "classify/features/residual_echo.h"
 #include "radar/rvmap/rv_map.h"
 #include "sim/core/numbers/constants.h"
+#include "sim/core/process/error.h"
 
 namespace seaglint {
 
@@ -124,7 +125,7 @@ std::vector<CleanComponent> merge(std::vector<CleanComponent> components, double
 }  // namespace
 
 CleanedMap clean_map(std::span<const Complex> echo, const PulseTrain& train, const MapSpec& map_spec,
-                     bool intra_pulse_motion, const FeatureSpec& spec) {
+                     bool intra_pulse_motion, const FeatureSpec& spec, const StopFlag* stop) {
   const double cell_r = train.range_resolution_m(), cell_v = train.velocity_resolution_mps();
   const double lobe_r = cell_r * lobe_width(map_spec.range_taper),
                lobe_v = cell_v * lobe_width(map_spec.velocity_taper);
@@ -132,7 +133,7 @@ CleanedMap clean_map(std::span<const Complex> echo, const PulseTrain& train, con
   const auto max_components = static_cast<std::size_t>(std::ceil(4 * spec.max_centres / spec.clean_gain));
 
   ResidualEcho residual(echo, train, map_spec, intra_pulse_motion);
-  RvMap map = residual.map();
+  RvMap map = residual.map(stop);
   const double step_r = step_of(map.range_m, cell_r), step_v = step_of(map.velocity_mps, cell_v);
   const double factor = threshold_factor(static_cast<double>(map.values.size()) /
                                          (map_spec.range_oversampling * map_spec.velocity_oversampling));
@@ -150,6 +151,7 @@ CleanedMap clean_map(std::span<const Complex> echo, const PulseTrain& train, con
     double round_floor = 0;
     std::size_t fits = 0;
     for (const Maximum& cell : maxima) {
+      if (stop != nullptr && *stop) throw Interrupted();
       if (cell.power < round_floor) break;
       if (++fits > kMaxFitsPerRound || components.size() >= max_components) break;
       CleanComponent point = residual.fit(map.range_m[cell.r], map.velocity_mps[cell.v], step_r, step_v);
@@ -166,13 +168,13 @@ CleanedMap clean_map(std::span<const Complex> echo, const PulseTrain& train, con
     if (!found) break;
     if (merge(components, lobe_r, lobe_v).size() >= static_cast<std::size_t>(spec.max_centres) && spec.clean_gain == 1)
       break;
-    map = residual.map();
+    map = residual.map(stop);
     floor = residual_floor(map);
   }
 
   // Accepted by the final residual, in which no centre's pedestal raises the floor.
   if (!components.empty()) {
-    map = residual.map();
+    map = residual.map(stop);
     floor = residual_floor(map);
   }
   std::vector<CleanComponent> points = merge(components, lobe_r, lobe_v);

@@ -24,14 +24,14 @@ struct ScatteringCentre {
 // with the exact point response of the map's code, holes and tapers (classify/features/README.md). A centre is inside
 // the map or less than a cell outside, within dynamic_range_db of the strongest, more than a main lobe's width from
 // every stronger one, and above the floor and the clutter around it (exceeds_local_level()) by a threshold that noise
-// or textured clutter exceeds in 1 % of maps.
+// or textured clutter exceeds in 1 % of maps. Throws Interrupted when *stop becomes true.
 struct CleanedMap {
   std::vector<ScatteringCentre> centres;   // strongest first
   std::vector<CleanComponent> components;  // subtracted from the echo, in that order
   RvMap residual;                          // exact map of the residual echo
 };
 CleanedMap clean_map(std::span<const Complex> echo, const PulseTrain& train, const MapSpec& map_spec,
-                     bool intra_pulse_motion, const FeatureSpec& spec);
+                     bool intra_pulse_motion, const FeatureSpec& spec, const StopFlag* stop = nullptr);
 
 // Residual plus all components with a clean point response (Hogbom 1974, section 2). The components return with the
 // point response of a radar that transmits the whole band with every pulse: main and side lobes of the tapers, without

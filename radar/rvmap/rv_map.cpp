@@ -203,8 +203,8 @@ MapGrid map_grid(const PulseTrain& train, const MapSpec& spec) {
   return grid;
 }
 
-RvMap form_rv_map(std::span<const Complex> echo, const PulseTrain& train, const MapSpec& spec,
-                  bool intra_pulse_motion) {
+RvMap form_rv_map(std::span<const Complex> echo, const PulseTrain& train, const MapSpec& spec, bool intra_pulse_motion,
+                  const StopFlag* stop) {
   const std::vector<Complex> compressed = compress_pulses(echo, train, spec.compression);
   const MapWeights weights = map_weights(train, spec);
   const MapGrid grid = map_grid(train, spec);
@@ -237,6 +237,7 @@ RvMap form_rv_map(std::span<const Complex> echo, const PulseTrain& train, const 
   const std::size_t max_rows = std::min(kBlock, grid.velocity_mps.size());
   FourierBatch profile(length, max_rows, Fourier::kInverse);
   for (std::size_t first = 0; first < grid.velocity_mps.size(); first += kBlock) {
+    if (stop != nullptr && *stop) throw Interrupted();
     const std::size_t rows = std::min(kBlock, grid.velocity_mps.size() - first);
     const double velocity = grid.velocity_mps[first];
     std::fill(profile.row(0), profile.row(0) + max_rows * length, Complex{});
@@ -317,11 +318,11 @@ MapExtent target_extent(const RvMap& target) {
 }
 
 ReceivedInterval form_received_interval(const Echo& echo, const PulseTrain& train, const ClutterSpec& clutter,
-                                        const MapSpec& spec, bool intra_pulse_motion) {
+                                        const MapSpec& spec, bool intra_pulse_motion, const StopFlag* stop) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   ReceivedInterval received;
   received.echo = echo.target;
-  received.map = form_rv_map(echo.target, train, spec, intra_pulse_motion);
+  received.map = form_rv_map(echo.target, train, spec, intra_pulse_motion, stop);
   received.scr = {kNone, kNone, kNone, kNone};
   const auto add = [&](const std::vector<Complex>& part, const RvMap& map, double gain) {
     for (std::size_t i = 0; i < part.size(); ++i) received.echo[i] += gain * part[i];
@@ -332,7 +333,7 @@ ReceivedInterval form_received_interval(const Echo& echo, const PulseTrain& trai
   const double target_power = mean_power(echo.target);
   const bool has_target = target_power > 0;
   if (!echo.clutter.empty()) {
-    const RvMap clutter_map = form_rv_map(echo.clutter, train, spec, intra_pulse_motion);
+    const RvMap clutter_map = form_rv_map(echo.clutter, train, spec, intra_pulse_motion, stop);
     const double clutter_cell = mean_power(clutter_map.values);
     const double target_peak = largest_power(received.map);
     if (!((target_peak > 0 || !has_target) && clutter_cell > 0)) {
@@ -357,7 +358,7 @@ ReceivedInterval form_received_interval(const Echo& echo, const PulseTrain& trai
     const double noise_db = clutter.noise_level == NoiseLevel::kCnr ? gain_db : 0;
     if (has_target) received.scr.snr_per_pulse_db = decibel(target_power / mean_power(echo.noise)) - noise_db;
     received.noise_power_m2 = mean_power(echo.noise) * std::pow(10, noise_db / 10);
-    add(echo.noise, form_rv_map(echo.noise, train, spec, intra_pulse_motion), std::pow(10, noise_db / 20));
+    add(echo.noise, form_rv_map(echo.noise, train, spec, intra_pulse_motion, stop), std::pow(10, noise_db / 20));
   }
   return received;
 }

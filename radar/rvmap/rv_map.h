@@ -11,6 +11,7 @@
 #include "radar/echo/echo.h"
 #include "radar/waveform/pulse_train.h"
 #include "sim/core/numbers/linear.h"
+#include "sim/core/process/parallel.h"
 #include "sim/scenario/radar_spec.h"
 
 namespace seaglint {
@@ -37,8 +38,10 @@ struct MapGrid {
 MapGrid map_grid(const PulseTrain& train, const MapSpec& spec);
 
 // Map of an echo [pulse][frequency] (README.md). A point scatterer of amplitude a (m) has the peak |RV| = a for all
-// tapers and gaps; its phase there is that of its response at the band centre at the first pulse.
-RvMap form_rv_map(std::span<const Complex> echo, const PulseTrain& train, const MapSpec& spec, bool intra_pulse_motion);
+// tapers and gaps; its phase there is that of its response at the band centre at the first pulse. Throws Interrupted
+// between velocities when *stop becomes true.
+RvMap form_rv_map(std::span<const Complex> echo, const PulseTrain& train, const MapSpec& spec, bool intra_pulse_motion,
+                  const StopFlag* stop = nullptr);
 
 // Weights of the map as an explicit sum, for the map at one point or the response of one scatterer:
 //   RV(r, v) = sum_n sum_b w_n u_k X_n(f_b) e^{+j 4 pi (f_n + f_b) v (t_n + f_b/mu) / c} e^{+j 4 pi (f_n + f_b - f_c) r
@@ -86,8 +89,8 @@ struct ReceivedInterval {
 //   peak_cell  maximum |RV|^2 of the target over the mean |RV|^2 of the clutter's map
 //   extent     mean |RV|^2 of the target inside target_extent over the mean |RV|^2 of the clutter's map
 // A target whose echo is zero has no ratios: the level must be absolute. Throws InputError when clutter is present and
-// zero in the map, or the target with an echo is.
+// zero in the map, or the target with an echo is; Interrupted as form_rv_map().
 ReceivedInterval form_received_interval(const Echo& echo, const PulseTrain& train, const ClutterSpec& clutter,
-                                        const MapSpec& spec, bool intra_pulse_motion);
+                                        const MapSpec& spec, bool intra_pulse_motion, const StopFlag* stop = nullptr);
 
 }  // namespace seaglint

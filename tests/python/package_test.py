@@ -153,6 +153,18 @@ def test_samples_are_those_of_the_data_set(data_set):
     assert len(ships) == 20 and np.array_equal(data.maps(ships)[3], data[ships[3]])
 
 
+def test_the_sea_alone_has_samples_and_no_target():
+    scenario = seaglint.Scenario("clutter.yaml", set={"radar.pulses": 64})
+    assert scenario.targets == [] and len(scenario) == 16 and "\ntargets: {}\n" in scenario.yaml()
+    sample = seaglint.Simulator(scenario)[3]
+    assert np.isfinite(sample.map).all() and np.abs(sample.map).max() > 0
+    assert sample.columns["target_name"] == "sea" and sample.columns["label"] == 0 and np.isnan(sample.columns["scr_per_pulse_db"])
+    for call in (lambda: seaglint.motion(scenario), lambda: seaglint.Scenario("clutter.yaml", set={"clutter.noise_level": "snr"})):
+        with pytest.raises(seaglint.InputError, match="targets: {}"):
+            call()
+    assert seaglint.Scenario({"seaglint": 1, "targets": {}, "clutter": {"level": "git"}}).targets == []
+
+
 def test_damaged_and_closed_data_sets(data_set, tmp_path):
     import shutil
 

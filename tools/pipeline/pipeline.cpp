@@ -224,12 +224,12 @@ PulseTrain Pipeline::nominal_train() const {
 GeneratedSample Pipeline::generate_sample(std::size_t sample, const StopFlag* stop) const {
   const PulseTrain train = pulse_train(sample);
   const auto made = [&] { return response(plan_.address(sample), train, stop); };
-  if (plan_.maps_per_interval() == 1) return received_sample(sample, train, made());
-  return received_sample(sample, train, *responses_.get(plan_.first_of_interval(sample), made));
+  if (plan_.maps_per_interval() == 1) return received_sample(sample, train, made(), stop);
+  return received_sample(sample, train, *responses_.get(plan_.first_of_interval(sample), made), stop);
 }
 
-GeneratedSample Pipeline::received_sample(std::size_t sample, const PulseTrain& train,
-                                          const IntervalResult& response) const {
+GeneratedSample Pipeline::received_sample(std::size_t sample, const PulseTrain& train, const IntervalResult& response,
+                                          const StopFlag* stop) const {
   const SampleAddress at = plan_.address(sample);
   SampleRecord record = planned_record(scenario_, plan_, sample, at);
   record.aspect_traces = response.traces;
@@ -239,7 +239,7 @@ GeneratedSample Pipeline::received_sample(std::size_t sample, const PulseTrain& 
   if (!bodies.empty()) store_motion(bodies.front(), middle_s, record);  // points have velocities only
   const ClutterSpec clutter = scenario_of(at).clutter;
   GeneratedSample made =
-      sample_of_echo(echo(sample, train, response, clutter), train, scenario_, clutter, std::move(record));
+      sample_of_echo(echo(sample, train, response, clutter), train, scenario_, clutter, std::move(record), stop);
   made.address = at;
   if (scenario_.dataset.echoes) {
     for (const Complex& value : response.response.values) {
@@ -251,12 +251,12 @@ GeneratedSample Pipeline::received_sample(std::size_t sample, const PulseTrain& 
 }
 
 GeneratedSample sample_of_echo(const Echo& echo, const PulseTrain& train, const Scenario& scenario,
-                               const ClutterSpec& clutter, SampleRecord record) {
+                               const ClutterSpec& clutter, SampleRecord record, const StopFlag* stop) {
   GeneratedSample made;
   made.train = train;
   const bool intra_pulse_motion = scenario.radar.intra_pulse_motion;
-  made.received = form_received_interval(echo, train, clutter, scenario.map, intra_pulse_motion);
-  CleanedMap cleaned = clean_map(made.received.echo, train, scenario.map, intra_pulse_motion, scenario.features);
+  made.received = form_received_interval(echo, train, clutter, scenario.map, intra_pulse_motion, stop);
+  CleanedMap cleaned = clean_map(made.received.echo, train, scenario.map, intra_pulse_motion, scenario.features, stop);
   if (scenario.map.clean) made.received.map.values = restored_map(cleaned, train, scenario.map).values;
   made.centres = std::move(cleaned.centres);
   made.features = compute_features(made.centres, scenario.features);
@@ -309,24 +309,13 @@ IntervalResult at_map_frequencies(const IntervalResult& fine_response, const Pul
   return result;
 }
 
-// Powers of clutter and noise at the map's frequencies, and the row of the sample.
-struct LevelsOfMap {
-  double clutter_m2 = 0, noise_m2 = 0;
-  SampleRecord record;
-};
-
-LevelsOfMap levels_of(const GeneratedSample& made) {
-  return {made.received.clutter_power_m2, made.received.noise_power_m2, made.stored.record};
-}
-
-// Those of an absolute level: no map is made, whose time grows with the square of the pulses. What is measured in it is
-// NaN.
-LevelsOfMap levels_without_map(const Echo& echo, SampleRecord record) {
+// NaN in the place of what is measured in a map.
+SampleRecord without_map(SampleRecord record) {
   for (const SampleColumn& column : sample_columns().subspan(planned_columns().size())) {
     if (const auto* member = std::get_if<double SampleRecord::*>(&column.member))
-      record.** member = std::numeric_limits<double>::quiet_NaN();
+      record.*(*member) = std::numeric_limits<double>::quiet_NaN();
   }
-  return {mean_power(echo.clutter), mean_power(echo.noise), std::move(record)};
+  return record;
 }
 
 void scale(SampledEcho& sampled, double power_gain) {
@@ -346,20 +335,26 @@ SampledInterval sampled_interval(const Pipeline& pipeline, std::size_t sample) {
 
   SampledInterval interval;
   interval.train = train;
-  const IntervalResult of_map = at_map_frequencies(response, train, fine);
-  const LevelsOfMap levels = is_sea_alone(scenario)
-                                 ? levels_without_map(pipeline.echo(sample, train, of_map, scenario.clutter),
-                                                      planned_record(scenario, pipeline.plan(), sample, at))
-                                 : levels_of(pipeline.received_sample(sample, train, of_map));
-  interval.record = levels.record;
   interval.target = sample_echo(echo.target, fine, sampling_hz);
+  if (is_sea_alone(scenario)) {
+    // Absolute levels are those of any grid, but for noise below the clutter, which is so at the map's frequencies. No
+    // map is made: its time grows with the square of the pulses.
+    interval.record = without_map(planned_record(scenario, pipeline.plan(), sample, at));
+    if (!echo.clutter.empty()) interval.clutter = sample_echo(echo.clutter, fine, sampling_hz);
+    if (!echo.noise.empty()) interval.noise = sample_echo(echo.noise, fine, sampling_hz);
+    if (interval.noise && scenario.clutter.noise_level == NoiseLevel::kCnr)
+      scale(*interval.noise, fine.grid_refinement);
+    return interval;
+  }
+  const GeneratedSample made = pipeline.received_sample(sample, train, at_map_frequencies(response, train, fine));
+  interval.record = made.stored.record;
   const auto with_level = [&](const std::vector<Complex>& part, double power_m2) {
     SampledEcho sampled = sample_echo(part, fine, sampling_hz);
     scale(sampled, power_m2 / power_of_map(sampled, train));
     return sampled;
   };
-  if (!echo.clutter.empty()) interval.clutter = with_level(echo.clutter, levels.clutter_m2);
-  if (!echo.noise.empty()) interval.noise = with_level(echo.noise, fine.grid_refinement * levels.noise_m2);
+  if (!echo.clutter.empty()) interval.clutter = with_level(echo.clutter, made.received.clutter_power_m2);
+  if (!echo.noise.empty()) interval.noise = with_level(echo.noise, fine.grid_refinement * made.received.noise_power_m2);
   return interval;
 }
 

@@ -38,7 +38,7 @@ struct GeneratedSample {
 // features are those of `scenario`; `clutter` sets its level (form_received_interval()). `record`: the columns of the
 // row that are not measured in the map.
 GeneratedSample sample_of_echo(const Echo& echo, const PulseTrain& train, const Scenario& scenario,
-                               const ClutterSpec& clutter, SampleRecord record);
+                               const ClutterSpec& clutter, SampleRecord record, const StopFlag* stop = nullptr);
 
 // The axes of a map.
 StoredAxes stored_axes(const RvMap& map);
@@ -64,8 +64,7 @@ class Pipeline {
   // That of another scenario with the same targets.
   double window_m_of(const Scenario& other) const;
 
-  // sample < plan().size(). Throws InputError when the target has no power, Interrupted when *stop becomes true while
-  // its response is computed.
+  // sample < plan().size(). Throws InputError when the target has no power, Interrupted when *stop becomes true.
   GeneratedSample generate_sample(std::size_t sample, const StopFlag* stop = nullptr) const;
 
   // Its steps after one another: the pulses of a sample; the response of its target with its companions at their times
@@ -75,7 +74,8 @@ class Pipeline {
   IntervalResult response(const SampleAddress& at, const PulseTrain& train, const StopFlag* stop = nullptr) const;
   Echo echo(std::size_t sample, const PulseTrain& train, const IntervalResult& response,
             const ClutterSpec& clutter) const;
-  GeneratedSample received_sample(std::size_t sample, const PulseTrain& train, const IntervalResult& response) const;
+  GeneratedSample received_sample(std::size_t sample, const PulseTrain& train, const IntervalResult& response,
+                                  const StopFlag* stop = nullptr) const;
 
   // A pulse train with drawn keys at the middles of their distributions: band, frequencies and number of pulses of all
   // maps, and the hop code of the first.

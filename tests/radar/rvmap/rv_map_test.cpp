@@ -419,7 +419,7 @@ TEST(Scr, OfNoTargetIsNaN) {
   const PulseTrain train = make_pulse_train({}, 239.8, 1, 2);
   ClutterSpec clutter;
   clutter.level = ClutterLevel::kNrl;
-  Echo echo = echo_with_clutter(train, clutter);
+  Echo echo = echo_with_clutter(train, {});
   std::ranges::fill(echo.target, Complex());
   const ReceivedInterval received = form_received_interval(echo, train, clutter, {}, false);
   for (const double ratio : {received.scr.per_pulse_db, received.scr.peak_cell_db, received.scr.scr_extent_db,

@@ -350,7 +350,8 @@ def _description(data, first, targets):
     has_targets = columns["bodies"].any()
     what = f"{targets} radar targets at sea" if has_targets else "the sea without a target"
     use = ", for the classification of targets by their label" if has_targets else ""
-    return (f"{manifest['samples']} range-velocity maps of {what} ({len(np.unique(columns['sea_key']))} independent sea realisations, {views}){use}. Synthetic: simulated by seaglint {manifest['program_version']} with seed {manifest['seed']}; nothing was measured. "
+    return (f"{manifest['samples']} range-velocity maps of {what} ({len(np.unique(columns['sea_key']))} independent sea realisations, {views}){use}. "
+            f"Synthetic: simulated by seaglint {manifest['program_version']} with seed {manifest['seed']}; nothing was measured. "
             f"A map has {data.map_shape[0]} velocity cells and {data.map_shape[1]} range cells. Arrays of the HDF5 shards: {arrays}, and the columns of the record set samples in "
             "/samples. All samples of one group (one sea realisation) belong on one side of a split.")
 
