@@ -398,6 +398,21 @@ TEST(S175, ResponsesMatchStripTheoryAtTwentyKnots) {
   EXPECT_LT(misfit.worst.z(), 0.40);
 }
 
+// Pitch in head waves at 20 knots, where it rises steeply from waves of 0.75 to 1.15 of the length; the true lines for
+// the form, 14 % (the worst of all headings), and 0.01 of the slope.
+TEST(S175, PitchInHeadWavesMatchesStripTheory) {
+  const double speed = 20 * 1852.0 / 3600;
+  const RaoTable table = read_veres_rao(kVeresFile, speed);
+  const ShipParticulars ship = s175(speed);
+  for (const double ratio : {0.65, 0.75, 0.85, 1.0, 1.15, 1.37, 1.95}) {
+    const double k = 2 * kPi / (ratio * 175), omega = std::sqrt(k * kGravity);
+    const double ours = std::abs(ship_rao(ship, {omega, k, kPi}).pitch) / k;
+    const double theirs = std::abs(table.at(omega, k, kPi).pitch) / k;
+    std::printf("wave length %.2f L: pitch over slope %.3f, VERES %.3f\n", ratio, ours, theirs);
+    EXPECT_NEAR(ours, theirs, 0.14 * theirs + 0.01) << ratio;
+  }
+}
+
 // Signs and phases, in waves longer than the ship (shorter ones pass through zeros).
 TEST(S175, PhasesMatchStripTheory) {
   for (const double speed : {0.0, 20 * 1852.0 / 3600}) {
