@@ -15,7 +15,7 @@ S175 = {"sections": "tests/reference/ship_motion/s175_sections.csv", "metacentri
 KCS_ABOUT = """The container ship KCS from its published coefficients against two models of the Tokyo 2015 workshop at Fr 0.26 (<code>tests/reference/ship_motion/kcs</code>), measured to about 5 %: heave over wave amplitude, pitch over wave slope, roll. Heading 0 is a head sea."""
 KCS_LIMITS = """Strip theory has no flow along the hull: in head and bow seas waves no longer than the ship pitch it too much. Roll of less than a degree depends on how the model is held in sway and yaw."""
 BUOY_ABOUT = """Tilt over wave slope of two moored buoys of 6 m in the ocean (<code>tests/reference/ship_motion/doe_buoy</code>), by band. Natural period, damping and draught of the float are fitted to the first half of a record of 30 minutes ({fits}); the second half and the whole of z06 are computed with them. Error bars: standard error of the record."""
-BUOY_LIMITS = """The mooring of z05 keeps it from rolling with the slope of swell (below 0.17 Hz), which its accelerometers confirm; the float has none."""
+BUOY_LIMITS = """In swell (below 0.17 Hz) z05 rolls by 0.8 of the slope, as its accelerometers confirm, by a force that the float lacks, presumably of the mooring."""
 
 
 def printed_rows():

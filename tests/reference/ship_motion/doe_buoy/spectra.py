@@ -5,8 +5,8 @@
     spectra.py FOLDER      reads FOLDER/buoy_z05_imu.csv.gz and buoy_z06_imu.csv.gz, writes spectra.csv and bands.csv here
 
 The wave slope is that of linear waves on deep water with the vertical acceleration of the buoy: their spectra differ by
-g^2. The tilt is the integral of the gyroscopes' rates about both horizontal axes; the sensor's own roll and pitch are
-too small in swell. Both are spectra of Welch's method with Hann windows of 204.8 s, half overlapping.
+g^2. The tilt is that of the integrals of the gyroscopes' rates; the sensor's own roll and pitch are too small in swell.
+Both are spectra of Welch's method with Hann windows of 204.8 s, half overlapping.
 """
 import gzip
 import pathlib
@@ -20,7 +20,6 @@ WINDOW = 2048
 LOWEST_HZ, HIGHEST_HZ = 0.045, 0.55
 BANDS_HZ = ((0.045, 0.07), (0.07, 0.10), (0.10, 0.13), (0.13, 0.17), (0.17, 0.22), (0.22, 0.27), (0.27, 0.32), (0.32, 0.38), (0.38, 0.45), (0.45, 0.55))
 FREQUENCY = np.fft.rfftfreq(WINDOW, 1 / RATE_HZ)
-OMEGA = 2 * np.pi * np.maximum(FREQUENCY, 1e-9)
 
 
 def segments(x):
@@ -38,6 +37,15 @@ def integral(rate):
     spectrum[f < 0.03] = 0
     spectrum[f >= 0.03] /= 2j * np.pi * f[f >= 0.03]
     return np.fft.irfft(spectrum, len(rate))
+
+
+def attitude(mean_roll, mean_pitch, gx, gy, gz):
+    """Roll and pitch of R = Rz(yaw) Ry(pitch) Rx(roll) about their means from body rates, by iteration from small angles."""
+    roll, pitch = mean_roll, mean_pitch
+    for _ in range(4):
+        about_z = gy * np.sin(roll) + gz * np.cos(roll)
+        roll, pitch = mean_roll + integral(gx + np.tan(pitch) * about_z), mean_pitch + integral(gy * np.cos(roll) - gz * np.sin(roll))
+    return roll, pitch
 
 
 def accelerations(roll, pitch, ax, ay, az):
@@ -65,13 +73,13 @@ def main():
              "buoy,part,low_hz,high_hz,slope_deg,tilt_deg,tilt_per_slope,standard_error,orbit,roll_per_orbit,pitch_per_orbit"]
     for buoy in ("z05", "z06"):
         with gzip.open(pathlib.Path(sys.argv[1]) / f"buoy_{buoy}_imu.csv.gz", "rt") as file:
-            _, roll, pitch, _, gx, gy, _, ax, ay, az = np.loadtxt(file, delimiter=",", skiprows=1).T
-        down = accelerations(roll, pitch, ax, ay, az)[2]
-        forward, across, _ = accelerations(roll.mean() + integral(gx), pitch.mean() + integral(gy), ax, ay, az)
+            _, own_roll, own_pitch, _, gx, gy, gz, ax, ay, az = np.loadtxt(file, delimiter=",", skiprows=1).T
+        roll, pitch = attitude(own_roll.mean(), own_pitch.mean(), gx, gy, gz)
+        forward, across, down = accelerations(roll, pitch, ax, ay, az)
         half = len(down) // 2
         for part, rows in (("first", slice(0, half)), ("second", slice(half, None)), ("whole", slice(0, None))):
             slope, along, side = segments(down[rows]), segments(forward[rows]), segments(across[rows])
-            rolled, pitched = segments(gx[rows]) / OMEGA**2, segments(gy[rows]) / OMEGA**2
+            rolled, pitched = segments(roll[rows]), segments(pitch[rows])
             tilt = rolled + pitched
             for i in np.flatnonzero((FREQUENCY >= LOWEST_HZ) & (FREQUENCY < HIGHEST_HZ)):
                 spectra.append(f"{buoy},{part},{FREQUENCY[i]:.6f},{slope[:, i].mean():.4g},{tilt[:, i].mean():.4g}")

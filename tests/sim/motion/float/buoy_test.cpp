@@ -174,9 +174,9 @@ FloatFit fit_to(const std::vector<SpectrumLine>& lines, const std::vector<Band>&
 constexpr double kModel = 0.15;
 // The error of a ratio of the half record that is computed, and of the one that was fitted.
 constexpr double kStandardErrors = 2;
-// In swell z05 rolls by 0.80 to 0.84 of the acceleration across it over g (bands.csv, roll_per_orbit) on round orbits,
-// its pitch follows that along it: a force of the mooring, which a free float does not have.
-constexpr double kMooring = 1 / 0.80 - 1;
+// In swell z05 rolls by 0.81 to 0.86 of the acceleration across it over g (bands.csv, roll_per_orbit) on round orbits,
+// and later than it, while its pitch follows that along it: a force that a free float does not have.
+constexpr double kMooring = 1 / 0.81 - 1;
 constexpr double kSwellHz = 0.17;
 
 // Largest |computed / measured - 1| over all bands, and over those above the swell, in percent.
