@@ -225,15 +225,24 @@ TEST(MeasuredClutter, OfAHighSeaIsFasterAndBroaderWhereItIsBright) {
   EXPECT_LT(mean("power over 3.1 s, correlation"), 0);
   EXPECT_GT(mean("power over 6.1 s, correlation"), 0.1);
   EXPECT_NEAR(mean("velocity, deviation (m/s)") / named(measured("high"), "velocity, deviation (m/s)"), 1, 0.15);
-  record_figure(mean("power and velocity, correlation"), 2, "clutter_high_power_velocity");
-  record_figure(mean("log power and width, correlation"), 2, "clutter_high_power_width");
-  record_figure(mean("velocity, deviation (m/s)"), 2, "clutter_high_velocity_mps");
-  record_figure(mean("width, mean (m/s)"), 2, "clutter_high_width_mps");
-  record_figure(mean("width, deviation over mean"), 2, "clutter_high_width_ratio");
-  record_figure(mean("fourth moment over K's"), 2, "clutter_high_fourth_moment");
-  record_figure(mean("power over 1 s, correlation"), 2, "clutter_high_power_1_s");
-  record_figure(mean("power over 3.1 s, correlation"), 2, "clutter_high_power_3_s");
-  record_figure(mean("power over 6.1 s, correlation"), 2, "clutter_high_power_6_s");
+  const double power_velocity = mean("power and velocity, correlation");
+  const double power_width = mean("log power and width, correlation");
+  const double velocity_mps = mean("velocity, deviation (m/s)");
+  const double width_mps = mean("width, mean (m/s)");
+  const double width_ratio = mean("width, deviation over mean");
+  const double fourth_moment = mean("fourth moment over K's");
+  const double power_1_s = mean("power over 1 s, correlation");
+  const double power_3_s = mean("power over 3.1 s, correlation");
+  const double power_6_s = mean("power over 6.1 s, correlation");
+  record_figure(power_velocity, 2, "clutter_high_power_velocity");
+  record_figure(power_width, 2, "clutter_high_power_width");
+  record_figure(velocity_mps, 2, "clutter_high_velocity_mps");
+  record_figure(width_mps, 2, "clutter_high_width_mps");
+  record_figure(width_ratio, 2, "clutter_high_width_ratio");
+  record_figure(fourth_moment, 2, "clutter_high_fourth_moment");
+  record_figure(power_1_s, 2, "clutter_high_power_1_s");
+  record_figure(power_3_s, 2, "clutter_high_power_3_s");
+  record_figure(power_6_s, 2, "clutter_high_power_6_s");
 }
 
 TEST(MeasuredClutter, OfALowSeaIsNot) {
@@ -247,13 +256,20 @@ TEST(MeasuredClutter, OfALowSeaIsNot) {
   EXPECT_NEAR(mean("velocity, deviation (m/s)") / named(measured("low"), "velocity, deviation (m/s)"), 1, 0.15);
   EXPECT_NEAR(mean("width, mean (m/s)") / named(measured("low"), "width, mean (m/s)"), 1, 0.15);
   EXPECT_NEAR(mean("third moment over K's"), 1, 0.15);
-  record_figure(mean("power and velocity, correlation"), 2, "clutter_low_power_velocity");
-  record_figure(mean("log power and width, correlation"), 2, "clutter_low_power_width");
-  record_figure(mean("velocity, deviation (m/s)"), 3, "clutter_low_velocity_mps");
-  record_figure(mean("width, mean (m/s)"), 2, "clutter_low_width_mps");
-  record_figure(mean("width, deviation over mean"), 2, "clutter_low_width_ratio");
-  record_figure(mean("fourth moment over K's"), 2, "clutter_low_fourth_moment");
-  record_figure(mean("power over 1 s, correlation"), 2, "clutter_low_power_1_s");
+  const double power_velocity = mean("power and velocity, correlation");
+  const double power_width = mean("log power and width, correlation");
+  const double velocity_mps = mean("velocity, deviation (m/s)");
+  const double width_mps = mean("width, mean (m/s)");
+  const double width_ratio = mean("width, deviation over mean");
+  const double fourth_moment = mean("fourth moment over K's");
+  const double power_1_s = mean("power over 1 s, correlation");
+  record_figure(power_velocity, 2, "clutter_low_power_velocity");
+  record_figure(power_width, 2, "clutter_low_power_width");
+  record_figure(velocity_mps, 3, "clutter_low_velocity_mps");
+  record_figure(width_mps, 2, "clutter_low_width_mps");
+  record_figure(width_ratio, 2, "clutter_low_width_ratio");
+  record_figure(fourth_moment, 2, "clutter_low_fourth_moment");
+  record_figure(power_1_s, 2, "clutter_low_power_1_s");
 }
 
 // Today's alternative: its texture has neither the velocity nor the period of the waves.
@@ -266,8 +282,10 @@ TEST(MeasuredClutter, OfIndependentTextureHasNoPeriod) {
   const Spread simulated = over_seeds(spec, sea_of(2.2, 6.5), 4);
   print_beside(simulated, measured("high"));
   EXPECT_NEAR(named(simulated.mean, "power and velocity, correlation"), 0, 0.1);
-  record_figure(named(simulated.mean, "power and velocity, correlation"), 2, "clutter_independent_power_velocity");
-  record_figure(named(simulated.mean, "width, deviation over mean"), 2, "clutter_independent_width_ratio");
+  const double power_velocity = named(simulated.mean, "power and velocity, correlation");
+  const double width_ratio = named(simulated.mean, "width, deviation over mean");
+  record_figure(power_velocity, 2, "clutter_independent_power_velocity");
+  record_figure(width_ratio, 2, "clutter_independent_width_ratio");
 }
 
 }  // namespace

@@ -452,7 +452,7 @@ dataset: {maps_per_case: 40, realisations_per_case: 40}
     noise += mean_power(echo.noise) / static_cast<double>(samples);
   }
   // Speckle of 528 scatterers in 80 maps: 0.5 %; the mean of |P|^2 over the band is 1 within 1 %.
-  EXPECT_HAS(text, "(vv, elevation 3 deg, Douglas sea state 3.70) on 197.9 m x 39");
+  EXPECT_HAS(text, "(nrl, vv, elevation 3 deg, Douglas sea state 3.70) on 197.9 m x 39");
   EXPECT_NEAR(number_after(": mean |Y|^2 ") / clutter, 1, 0.03);
   EXPECT_NEAR(number_after("thermal noise, mean |Y|^2 ") / noise, 1, 0.02);
   EXPECT_HAS(text, "; velocity -");
