@@ -177,4 +177,14 @@ SurfaceSeries::SurfaceSeries(const WaveField& field, double x, double y, double 
                              SurfaceQuantities detail)
     : field_(&field), detail_(detail), phasors_(phasors_at(field, x, y, start, step)) {}
 
+SurfaceSeries SurfaceSeries::along_line(const WaveField& field, const Vec2& start, const Vec2& step, double t,
+                                        SurfaceQuantities detail) {
+  std::vector<double> rate, phase;
+  for (const WaveComponent& c : field.components()) {
+    rate.push_back(-c.wavenumber * c.direction.dot(step));
+    phase.push_back(wrapped_angle(c.omega * t - c.wavenumber * c.direction.dot(start) + c.phase));
+  }
+  return {field, UniformPhasors(std::move(rate), std::move(phase), 0, 1), detail};
+}
+
 }  // namespace seaglint

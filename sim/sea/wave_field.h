@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "sim/core/numbers/linear.h"
@@ -64,17 +65,24 @@ class WaveField {
   std::shared_ptr<const PairInteractions> pairs_;  // null where the quadratic sums have a closed form
 };
 
-// The surface at one fixed point at t = start + n step, n = 0, 1, 2, ...: equal to WaveField::surface to 1e-12 of the
-// significant wave height, at 60 % of its cost (a quarter for kElevationAndSlope). The field must outlive it.
+// The surface at one fixed point at t = start + n step, n = 0, 1, 2, ..., or along a line at one time: equal to
+// WaveField::surface to 1e-12 of the significant wave height, at 60 % of its cost (a quarter for kElevationAndSlope).
+// The field must outlive it.
 class SurfaceSeries {
  public:
   SurfaceSeries(const WaveField& field, double x, double y, double start, double step,
                 SurfaceQuantities detail = SurfaceQuantities::kKinematics);
+  // At the points start + n step, m, at time t.
+  static SurfaceSeries along_line(const WaveField& field, const Vec2& start, const Vec2& step, double t,
+                                  SurfaceQuantities detail = SurfaceQuantities::kKinematics);
 
   SurfaceState state() const { return field_->state(phasors_.cosine(), phasors_.sine(), detail_); }
   void advance() { phasors_.advance(); }
 
  private:
+  SurfaceSeries(const WaveField& field, UniformPhasors phasors, SurfaceQuantities detail)
+      : field_(&field), detail_(detail), phasors_(std::move(phasors)) {}
+
   const WaveField* field_;
   SurfaceQuantities detail_;
   UniformPhasors phasors_;

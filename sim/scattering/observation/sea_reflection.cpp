@@ -15,8 +15,9 @@ RadarBasis image_basis(const RadarBasis& radar) {
   return {r, h, r.cross(h)};
 }
 
-SeaReflection::SeaReflection(const SeaReflectionSpec& spec, double significant_wave_height_m)
-    : spec_(spec), rms_m_(significant_wave_height_m / 4) {}
+SeaReflection::SeaReflection(const SeaReflectionSpec& spec, double significant_wave_height_m,
+                             std::optional<WavesBelow> waves)
+    : spec_(spec), rms_m_(significant_wave_height_m / 4), waves_(waves) {}
 
 SeaReflectionCoefficients SeaReflection::at(double k, double sin_grazing) const {
   SEAGLINT_CHECK(sin_grazing > 0 && sin_grazing <= 1 + 1e-12, fmt::format("sine of grazing angle {}", sin_grazing));
@@ -38,6 +39,12 @@ bool SeaReflection::is_enabled(const PropagationPath& path) const {
 Complex SeaReflection::path_factor(const PropagationPath& path, const SeaReflectionCoefficients& rho, int element) {
   const Complex received = element < 2 ? rho.h : rho.v, transmitted = element % 2 == 0 ? rho.h : rho.v;
   return (path.return_via_sea ? received : 1.0) * (path.outbound_via_sea ? transmitted : 1.0);
+}
+
+Complex SeaReflection::path_factor(const PropagationPath& path, const OneWayPaths& amplitudes, int element) {
+  const SeaReflectionCoefficients &received = path.return_via_sea ? amplitudes.image : amplitudes.direct,
+                                  &transmitted = path.outbound_via_sea ? amplitudes.image : amplitudes.direct;
+  return (element < 2 ? received.h : received.v) * (element % 2 == 0 ? transmitted.h : transmitted.v);
 }
 
 BistaticGeometry antennas_on(const PropagationPath& path, const RadarBasis& radar, const RadarBasis& image) {

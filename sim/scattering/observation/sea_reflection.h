@@ -11,12 +11,14 @@
 // rho_v = +1, is equivalent to image theory.
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "sim/core/numbers/linear.h"
 #include "sim/scattering/observation/observation.h"
 #include "sim/scenario/radar_spec.h"
 #include "sim/scenario/sea_spec.h"
+#include "sim/sea/wave_field.h"
 
 namespace seaglint {
 
@@ -43,10 +45,25 @@ struct SeaReflectionCoefficients {
   Complex h = -1, v = 1;
 };
 
+// One-way amplitudes of the direct wave and of the wave from the radar's image: 1 and rho over the mean plane.
+struct OneWayPaths {
+  SeaReflectionCoefficients direct{1, 1}, image;
+};
+
+// Waves below a body, of `surface_profile: waves`. The point x of the target frame is at x + origin + t velocity of the
+// wave field.
+struct WavesBelow {
+  const WaveField* field = nullptr;  // must outlive the reflection
+  Vec3 origin_m = Vec3::Zero();
+  Vec3 velocity_mps = Vec3::Zero();
+  double rms_above_cutoff_m = 0;  // of the waves shorter than those of the field
+};
+
 class SeaReflection {
  public:
   // Standard deviation of the surface elevation: significant_wave_height / 4.
-  SeaReflection(const SeaReflectionSpec& spec, double significant_wave_height_m);
+  SeaReflection(const SeaReflectionSpec& spec, double significant_wave_height_m,
+                std::optional<WavesBelow> waves = std::nullopt);
 
   // Coherent reflection coefficients at wavenumber k; sin_grazing = r^_z, 0 < x <= 1.
   SeaReflectionCoefficients at(double k, double sin_grazing) const;
@@ -54,10 +71,19 @@ class SeaReflection {
   bool is_enabled(const PropagationPath& path) const;
   // Factor of the path on element 0..3, hh, hv, vh, vv (received, transmitted).
   static Complex path_factor(const PropagationPath& path, const SeaReflectionCoefficients& rho, int element);
+  // The same with one-way amplitudes of both waves.
+  static Complex path_factor(const PropagationPath& path, const OneWayPaths& amplitudes, int element);
+
+  // The waves over which the field propagates (surface_propagation.h); null: the mean plane alone.
+  const WavesBelow* waves() const { return waves_ ? &*waves_ : nullptr; }
+  double significant_wave_height_m() const { return 4 * rms_m_; }
+  // The same surface with another roughness.
+  SeaReflection with_rms_height(double rms_m) const { return {spec_, 4 * rms_m}; }
 
  private:
   SeaReflectionSpec spec_;
   double rms_m_;
+  std::optional<WavesBelow> waves_;
 };
 
 // The paths that the sea enables; without a sea the direct one.
