@@ -23,6 +23,7 @@ set(slow_tests
   --gtest_filter=SmallBenchmark.HasAccuraciesInTheirIntervals*:SmallBenchmark.HasTheFiguresAndTheModelOfARun
   --gtest_filter=Spreading.CorrelationAcrossTheWavesEqualsItsIntegral:Stopped.*:Surroundings.OfMissingFolders*
   --gtest_filter=Surroundings.WithoutAnEnvironment*:Sweep.HasTheCoefficientsOfMaterialsAtEveryFrequency
+  --gtest_filter=SurfacePropagation.FloatInWavesFadesAsTheMeasuredOne
   --gtest_filter=Sweep.HasTheEchoOfEveryFrequencyAlone:ThreeClasses.OfAnotherDataSetOrModelAreRefused
   --gtest_filter=WavefrontCurvature.OfATrihedralIsThatOfItsAperture
 )
@@ -37,6 +38,6 @@ set(medium_tests
   --gtest_filter=MeshFile.SixtyThousand*:MotionSummary.*:MultipleDiffraction.*:Network.*:Pedestal.*:PermutedLabels.*
   --gtest_filter=PlateEdges.*:Progress.*:Rays.*:RigidRaft.Moves*:RoundTrip.EveryField*:SampleCrossCheck.*
   --gtest_filter=ScenarioFuzzing.*:SeaReflection.*:SeaReflectivity.*:ShardFile.*:ShipRao.*:SimulateRao.*
-  --gtest_filter=SimulateShip.*:Sweep.*:TextTableFuzzing.*:TopHat.*:Training.*:ViewEstimate.*:WallCurrents.*
-  --gtest_filter=WallPatches.*:WallPenumbra.*:WavefrontCurvature.*:WorkEstimate.*
+  --gtest_filter=SimulateShip.*:SurfacePropagation.*:Sweep.*:TextTableFuzzing.*:TopHat.*:Training.*:ViewEstimate.*:WallCurrents.*
+  --gtest_filter=WallPatches.*:WallPenumbra.*:WavefrontCurvature.*:WavesBetween.*:WorkEstimate.*
 )

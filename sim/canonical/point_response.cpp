@@ -6,6 +6,7 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/scattering/observation/look_directions.h"
+#include "sim/scattering/observation/surface_propagation.h"
 
 namespace seaglint {
 namespace {
@@ -45,6 +46,16 @@ void add_point_to_pulse(Complex* pulse, const IntervalSampling& sampling, int fi
 FrequencyResponse point_response_over_sea(std::span<const PointSpec> points, const Vec3& r_hat,
                                           const IntervalSampling& sampling, Polarisation polarisation,
                                           const SeaReflection& sea) {
+  const auto place = [](const PointSpec& point, double elapsed_s) {
+    return as_vector(point.position_m) + elapsed_s * as_vector(point.velocity_mps);
+  };
+  std::vector<OneWayAmplitudes> over_waves;  // of each point
+  if (sea.waves() != nullptr) {
+    const double start_s = sampling.pulse_time_s.front();
+    for (const PointSpec& point : points)
+      over_waves.emplace_back(sea, BodyOverWaves{[&](double time_s) { return place(point, time_s - start_s); }, 0, 0},
+                              sampling, r_hat);
+  }
   FrequencyResponse response;
   response.pulses = static_cast<int>(sampling.pulse_first.size());
   response.frequencies_per_pulse = sampling.frequencies_per_pulse;
@@ -57,12 +68,13 @@ FrequencyResponse point_response_over_sea(std::span<const PointSpec> points, con
       const double elapsed_s = sampling.pulse_time_s[n] - sampling.pulse_time_s.front() +
                                (sampling.chirp_rate_hz_s == 0 ? 0 : baseband_hz / sampling.chirp_rate_hz_s);
       const SeaReflectionCoefficients rho = sea.at(k, line_of_sight.radar.r.z());
-      for (const PointSpec& point : points) {
-        const Vec3 x = as_vector(point.position_m) + elapsed_s * as_vector(point.velocity_mps);
+      for (std::size_t p = 0; p < points.size(); ++p) {
+        const Vec3 x = place(points[p], elapsed_s);
+        const OneWayPaths amplitudes = over_waves.empty() ? OneWayPaths{{1, 1}, rho} : over_waves[p].at(n, b);
         for (const PropagationPath& path : kFourPaths) {
           if (!sea.is_enabled(path)) continue;
-          response.at(n, b) += point.amplitude_m *
-                               SeaReflection::path_factor(path, rho, static_cast<int>(polarisation)) *
+          response.at(n, b) += points[p].amplitude_m *
+                               SeaReflection::path_factor(path, amplitudes, static_cast<int>(polarisation)) *
                                std::polar(1.0, k * line_of_sight.path_advance(path, x));
         }
       }

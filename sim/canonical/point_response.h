@@ -18,7 +18,8 @@ FrequencyResponse point_response(std::span<const PointSpec> points, const Vec3& 
 
 // The same with specular sea reflection at z = 0 of the target frame (sea_reflection.h): H = sum of amplitude (e^{jk
 // r^.x} + rho_p e^{jk r'.x}) (e^{jk r^.x} + rho_q e^{jk r'.x}) for p received and q transmitted, restricted to the
-// enabled propagation paths.
+// enabled propagation paths; over waves (surface_propagation.h) each point has its own amplitudes in the place of 1 and
+// rho.
 FrequencyResponse point_response_over_sea(std::span<const PointSpec> points, const Vec3& r_hat,
                                           const IntervalSampling& sampling, Polarisation polarisation,
                                           const SeaReflection& sea);

@@ -249,6 +249,29 @@ void check_sea(const SeaSpec& sea, const std::vector<SeaState>& states, const Sc
   }
 }
 
+// Propagation over the waves is computed at low grazing angles and to 40 GHz, in the waves that move the bodies.
+void check_waves_between(const Scenario& scenario, const std::vector<SeaState>& states,
+                         const ScenarioDocument& document) {
+  const SeaReflectionSpec& reflection = scenario.sea_reflection;
+  if (!reflection.enabled || reflection.surface_profile != SurfaceProfileKind::kWaves) return;
+  const std::string_view with = "with sea_reflection.surface_profile: waves";
+  for (const double elevation : scenario.view.elevation_deg) {
+    if (elevation > 10) document.fail_at("view.elevation_deg", fmt::format("must be at most 10 {}", with));
+  }
+  if (highest_ghz(scenario.radar) > 40)
+    document.fail_at("radar.carrier_ghz", fmt::format("the highest carrier with its band must be at most 40 {}", with));
+  if (reflection.paths != SeaPaths::kAll)
+    document.fail_at("sea_reflection.paths", fmt::format("must be all {}, whose field is not divided", with));
+  for (const SeaState& state : states) {
+    if (total_wave_height(state) == 0)
+      document.fail_at("sea.significant_wave_height_m", fmt::format("must be greater than 0 {}", with));
+  }
+  for (const TargetSpec& target : scenario.targets) {
+    if (target.motion.waves == WaveSharing::kIndependent)
+      document.fail_at(fmt::format("targets.{}.motion.waves", target.name), fmt::format("must be same_field {}", with));
+  }
+}
+
 // The sea reflection requires a radar above the horizon; the sea-water model is valid to 90 GHz.
 void check_sea_reflection(const Scenario& scenario, const ScenarioDocument& document) {
   if (!scenario.sea_reflection.enabled) return;
@@ -494,6 +517,8 @@ void check_contradictions(const Scenario& scenario, const ScenarioDocument& docu
                   "radar.hop_step_mhz"},
                  [&] { check_clutter(scenario, states, document); });
     errors.check({"sea"}, [&] { check_sea(scenario.sea, states, document); });
+    errors.check({"sea_reflection", "view.elevation_deg", "radar", "targets"},
+                 [&] { check_waves_between(scenario, states, document); });
   }
   errors.check({"sea.propagation_deg"},
                [&] { check_directions("sea.propagation_deg", scenario.sea.propagation_deg, document); });

@@ -214,6 +214,9 @@ void visit(SeaReflectionSpec& spec, FieldVisitor& v) {
            "Coherent loss by roughness: Miller, Brown and Vegh; Ament; or none.");
   v.choice("paths", spec.paths, {"all", "direct_only", "multipath_only"},
            "All four paths, the direct one alone, or only those by the sea surface.");
+  v.choice("surface_profile", spec.surface_profile, {"mean", "waves"},
+           "Surface between radar and target: the mean plane, or the waves of the sea realisation with shadowing, "
+           "diffraction and multipath.");
 }
 
 void visit(LineLayout& layout, FieldVisitor& v) {

@@ -90,10 +90,11 @@ struct SeaSpec {
 enum class SeaSurface { kSeaWater, kConductor };
 enum class SeaRoughness { kMillerBrownVegh, kAment, kNone };
 enum class SeaPaths { kAll, kDirect, kMultipath };
+enum class SurfaceProfileKind { kMean, kWaves };
 
-// The `sea_reflection` section: specular reflection by the mean sea surface between radar and target
-// (sim/scattering/solver/README.md, "Sea reflection"). The roughness factor follows the significant wave height of
-// the sea state.
+// The `sea_reflection` section: specular reflection by the mean sea surface between radar and target, or propagation
+// over its waves (sim/scattering/solver/README.md, "Sea reflection"). The roughness factor follows the significant wave
+// height of the sea state.
 struct SeaReflectionSpec {
   bool enabled = false;
   SeaSurface surface = SeaSurface::kSeaWater;
@@ -101,6 +102,7 @@ struct SeaReflectionSpec {
   double salinity_psu = 35;
   SeaRoughness roughness = SeaRoughness::kMillerBrownVegh;
   SeaPaths paths = SeaPaths::kAll;
+  SurfaceProfileKind surface_profile = SurfaceProfileKind::kMean;
 
   bool operator==(const SeaReflectionSpec&) const = default;
 };

@@ -147,6 +147,7 @@ const std::vector<DrawnKey>& drawn_job_keys() {
       {"sea_reflection.salinity_psu", "uniform(5, 35)", "", {reflection}},
       {"sea_reflection.roughness", "choice(miller_brown_vegh, ament, none)", "", {reflection}},
       {"sea_reflection.paths", "choice(all, direct_only)", "", {reflection}},
+      {"sea_reflection.surface_profile", "choice(mean, waves)", "", {reflection}},
       {"targets.NAME.points.N.amplitude_m", "loguniform(0.5, 2)", "dots"},
       {"targets.NAME.mesh", "choice(hull.obj, corner.obj)", "hull", {fixed}},
       {"targets.NAME.unit", "choice(m, ft)", "corner"},

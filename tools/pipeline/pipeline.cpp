@@ -14,6 +14,7 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
 #include "sim/scattering/observation/observation.h"
+#include "sim/sea/spectrum.h"
 
 namespace seaglint {
 
@@ -60,6 +61,19 @@ void store_signal(const GeneratedSample& made, bool complex_maps, Sample& stored
 Scenario with_files(Scenario scenario) {
   input_files(scenario);
   return scenario;
+}
+
+// The waves below the bodies of a target, of surface_profile: waves. The frame of a ship under way moves with it; a
+// companion moves from its place at the start of the interval relative to that frame.
+std::optional<WavesBelow> waves_below(const Scenario& scenario, const Scene& scene, const Target& target,
+                                      double start_s) {
+  if (scenario.sea_reflection.surface_profile == SurfaceProfileKind::kMean) return std::nullopt;
+  const auto wind_sea = wind_sea_spectrum(scene.state);
+  const double above_m2 = wind_sea ? wind_sea->energy_above(linear_cutoff(scene.state)) : 0;
+  return WavesBelow{.field = &scene.sea,
+                    .origin_m = start_s * target.relative_velocity_mps,
+                    .velocity_mps = Vec3(target.spec.motion.speed_mps, 0, 0) - target.relative_velocity_mps,
+                    .rms_above_cutoff_m = std::sqrt(above_m2)};
 }
 
 // Throws InputError for an observation whose drawn values contradict each other.
@@ -125,10 +139,11 @@ IntervalResult Pipeline::target_response(std::size_t index, const ObservedInterv
   const auto& [scenario, scene, view, sampling] = seen;
   const Target& target = (*scene->targets)[index];
   const Vec3 r_hat = direction_to_radar(view.azimuth_rad, view.elevation_rad);
-  const SeaReflection mirror(scenario.sea_reflection, total_wave_height(scene->state));
-  const SeaReflection* sea = scenario.sea_reflection.enabled ? &mirror : nullptr;
   const TargetSpec& spec = target.spec;
   const Vec3& relative_velocity_mps = target.relative_velocity_mps;
+  const SeaReflection mirror(scenario.sea_reflection, total_wave_height(scene->state),
+                             waves_below(scenario, *scene, target, sampling.pulse_time_s.front()));
+  const SeaReflection* sea = scenario.sea_reflection.enabled ? &mirror : nullptr;
   if (target.models.empty()) {
     if (sea != nullptr)
       return {point_response_over_sea(spec.points, r_hat, sampling, scenario.radar.polarisation, *sea), 0};

@@ -37,8 +37,7 @@ bool SeaReflection::is_enabled(const PropagationPath& path) const {
 }
 
 Complex SeaReflection::path_factor(const PropagationPath& path, const SeaReflectionCoefficients& rho, int element) {
-  const Complex received = element < 2 ? rho.h : rho.v, transmitted = element % 2 == 0 ? rho.h : rho.v;
-  return (path.return_via_sea ? received : 1.0) * (path.outbound_via_sea ? transmitted : 1.0);
+  return path_factor(path, OneWayPaths{{1, 1}, rho}, element);
 }
 
 Complex SeaReflection::path_factor(const PropagationPath& path, const OneWayPaths& amplitudes, int element) {

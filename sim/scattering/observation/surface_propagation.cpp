@@ -55,7 +55,7 @@ void SurfaceField::Sources::append(const Complex& p, const Complex& q) {
 SurfaceField::SurfaceField(SurfaceProfile profile, double k, double sin_grazing, const SeaReflection& ripples,
                            const SeaReflectionCoefficients& mean_plane)
     : k_(k), sin_grazing_(sin_grazing), mean_plane_(mean_plane), whole_{std::move(profile), {}, {}} {
-  SEAGLINT_CHECK(sin_grazing > 0 && sin_grazing < 0.18, fmt::format("sine of grazing angle {}", sin_grazing));
+  SEAGLINT_CHECK(sin_grazing > 0 && sin_grazing < 0.25, fmt::format("sine of grazing angle {}", sin_grazing));
   const std::vector<double>&h = whole_.profile.elevation_m, &slope = whole_.profile.slope;
   const std::size_t count = h.size();
   SEAGLINT_CHECK(count > kFineSteps && slope.size() == count && h[0] == 0 && slope[0] == 0,
@@ -73,7 +73,7 @@ SurfaceField::SurfaceField(SurfaceProfile profile, double k, double sin_grazing,
   whole_.v.append(sin_grazing * (1.0 - mean_plane.v), 1.0 + mean_plane.v);
   const Complex self = std::sqrt(k * whole_.profile.step_m / (8 * kPi)) * kRootOfJ * weight_[0];
   for (std::size_t i = 1; i < count; ++i) {
-    const SeaReflectionCoefficients before = incident(i, h[i]), scattered = integral(whole_, i, 1, h[i], true);
+    const SeaReflectionCoefficients before = incident(i, h[i]), scattered = integral(whole_, i, 1, h[i], false);
     const double local = std::clamp(sin_grazing + slope[i], sin_grazing, 1.0);
     const double stretch = std::sqrt(1 + slope[i] * slope[i]);
     const SeaReflectionCoefficients rho = ripples.at(k, local);
@@ -101,27 +101,33 @@ SurfaceField::SurfaceField(SurfaceProfile profile, double k, double sin_grazing,
 }
 
 SeaReflectionCoefficients SurfaceField::integral(const Stretch& stretch, std::size_t end, std::size_t gap,
-                                                 double height_m, bool to_point) const {
+                                                 double height_m, bool limited) const {
   constexpr std::size_t kBlock = 256;
   std::array<double, kBlock> amplitude, normal, phase, cosine, sine;
   const SurfaceProfile& profile = stretch.profile;
-  const double inverse_step = 1 / profile.step_m;
+  const double inverse_step = 1 / profile.step_m, phase_step = k_ * profile.step_m;
   SeaReflectionCoefficients total{0, 0};
   for (std::size_t first = 0; first < end; first += kBlock) {
     const std::size_t count = std::min(kBlock, end - first), distance = end - 1 - first + gap;
     // Series in the slope a of the ray: r - x = x (a^2/2 - a^4/8 + ...), (x/r)^(1/2) and x/r.
+    const double *elevation = profile.elevation_m.data() + first, *slope = profile.slope.data() + first;
     for (std::size_t n = 0; n < count; ++n) {
-      const double steps = static_cast<double>(distance - n), x = steps * profile.step_m;
-      const double a = (height_m - profile.elevation_m[first + n]) * inverse_step / steps, a2 = a * a;
-      const double beyond = std::clamp((std::abs(a) - kSteepestRay[0]) / (kSteepestRay[1] - kSteepestRay[0]), 0.0, 1.0);
-      phase[n] = k_ * x * (excess_ + a2 * (0.5 - a2 * (0.125 - a2 * (0.0625 - a2 * 0.0390625))));
-      amplitude[n] = weight_[distance - n] * (1 - a2 * (0.25 - a2 * (0.15625 - a2 * 0.1171875))) *
-                     (1 - beyond * beyond * (3 - 2 * beyond));
-      normal[n] = (a - profile.slope[first + n]) * (1 - a2 * (0.5 - a2 * (0.375 - a2 * 0.3125)));
-      if (beyond >= 1) phase[n] = 0;
+      const auto steps = static_cast<double>(distance - n);
+      const double a = (height_m - elevation[n]) * inverse_step / steps, a2 = a * a;
+      phase[n] = phase_step * steps * (excess_ + a2 * (0.5 - a2 * (0.125 - a2 * (0.0625 - a2 * 0.0390625))));
+      amplitude[n] = weight_[distance - n] * (1 - a2 * (0.25 - a2 * (0.15625 - a2 * 0.1171875)));
+      normal[n] = (a - slope[n]) * (1 - a2 * (0.5 - a2 * (0.375 - a2 * 0.3125)));
+    }
+    if (limited) {
+      for (std::size_t n = 0; n < count; ++n) {
+        const double x = static_cast<double>(distance - n) * profile.step_m;
+        const double taper = smooth_taper(std::abs(height_m - elevation[n]) / x, kSteepestRay);
+        amplitude[n] *= taper;
+        if (taper == 0) phase[n] = normal[n] = 0;
+      }
     }
     if (first == 0) amplitude[0] *= first_weight_[distance] / weight_[distance];
-    if (!to_point && first + count == end) amplitude[count - 1] *= 1 - first_weight_[gap] / weight_[gap];
+    if (gap > 1 && first + count == end) amplitude[count - 1] *= 1 - first_weight_[gap] / weight_[gap];
     unit_phasors(std::span(phase).first(count), std::span(cosine).first(count), std::span(sine).first(count));
     const auto sum = [&](const Sources& from) {
       const double *p_re = from.p_re.data() + first, *p_im = from.p_im.data() + first;
@@ -155,7 +161,7 @@ SeaReflectionCoefficients SurfaceField::incident(std::size_t i, double height_m)
 SeaReflectionCoefficients SurfaceField::above_surface(double height_m) const {
   const std::size_t last = whole_.profile.elevation_m.size() - 1, joint = last - kFineSteps;
   const SeaReflectionCoefficients arriving = incident(last, height_m),
-                                  far = integral(whole_, joint + 1, kFineSteps, height_m, false),
+                                  far = integral(whole_, joint + 1, kFineSteps, height_m, true),
                                   near = integral(fine_, kFineSteps * kFineParts, 1, height_m, true);
   return {arriving.h - far.h - near.h, arriving.v - far.v - near.v};
 }
@@ -178,11 +184,12 @@ SeaReflectionCoefficients SurfaceField::at(double height_m) const {
 }
 
 double profile_length_m(double significant_wave_height_m, double top_m, double sin_grazing) {
-  constexpr double kMargin_m = 50;
-  return std::clamp(kMargin_m + (significant_wave_height_m + std::max(top_m, 0.0)) / sin_grazing, 100.0, 600.0);
+  constexpr double kMargin_m = 50, kShadows = 1.5;
+  return std::clamp(kMargin_m + kShadows * (significant_wave_height_m + std::max(top_m, 0.0)) / sin_grazing, 100.0,
+                    600.0);
 }
 
-double profile_step_m(double k) { return std::min(0.125, 8 * kPi / k); }
+double profile_step_m(double k) { return std::min(0.2, 12 * kPi / k); }
 
 namespace {
 
@@ -243,9 +250,13 @@ OneWayPaths fitted(const SurfaceField& field, double k, double sin_grazing, doub
   return {{up(low.h, high.h), up(low.v, high.v)}, {down(low.h, high.h), down(low.v, high.v)}};
 }
 
-SeaReflectionCoefficients combined(double a, const SeaReflectionCoefficients& x, double b,
-                                   const SeaReflectionCoefficients& y) {
-  return {a * x.h + b * y.h, a * x.v + b * y.v};
+// Weights of the polynomial through the nodes at x.
+std::vector<double> lagrange_weights(std::span<const double> nodes, double x) {
+  std::vector<double> weights(nodes.size(), 1.0);
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    for (std::size_t j = 0; j < nodes.size(); ++j)
+      if (j != i) weights[i] *= (x - nodes[j]) / (nodes[i] - nodes[j]);
+  return weights;
 }
 
 }  // namespace
@@ -265,31 +276,23 @@ OneWayAmplitudes::OneWayAmplitudes(const SeaReflection& sea, const BodyOverWaves
       node_s.push_back(pulse_s.front() +
                        duration_s * static_cast<double>(i) / static_cast<double>(std::max<std::size_t>(1, intervals)));
   }
+  const std::size_t stencil = std::min<std::size_t>(4, node_s.size());
   std::size_t next = 0;
   for (const double time_s : pulse_s) {
     while (next + 2 < node_s.size() && time_s > node_s[next + 1]) ++next;
-    const bool single = next + 1 >= node_s.size();
-    places_.push_back(
-        {next, single ? 0 : std::clamp((time_s - node_s[next]) / (node_s[next + 1] - node_s[next]), 0.0, 1.0)});
+    const std::size_t first = std::min(next > 0 ? next - 1 : 0, node_s.size() - stencil);
+    places_.push_back({first, lagrange_weights(std::span(node_s).subspan(first, stencil), time_s)});
   }
-  // Frequencies, and the weights of their Lagrange polynomials at every frequency of the grid.
   const double band_hz = sampling.step_hz * (sampling.count - 1);
   frequencies_ = 1 + static_cast<std::size_t>(std::ceil(band_hz / kNodeInterval_hz));
-  if (band_hz > 0 && frequencies_ == 2) frequencies_ = 3;
   std::vector<double> node_hz;
   for (std::size_t f = 0; f < frequencies_; ++f)
-    node_hz.push_back(sampling.first_hz + band_hz * static_cast<double>(f) /
-                                              static_cast<double>(std::max<std::size_t>(1, frequencies_ - 1)));
+    node_hz.push_back(
+        sampling.first_hz +
+        (frequencies_ > 1 ? band_hz * static_cast<double>(f) / static_cast<double>(frequencies_ - 1) : 0));
   pulse_first_ = sampling.pulse_first;
-  for (int q = 0; q < sampling.count; ++q) {
-    const double hz = sampling.first_hz + q * sampling.step_hz;
-    for (std::size_t f = 0; f < frequencies_; ++f) {
-      double weight = 1;
-      for (std::size_t g = 0; g < frequencies_; ++g)
-        if (g != f) weight *= (hz - node_hz[g]) / (node_hz[f] - node_hz[g]);
-      frequency_weights_.push_back(weight);
-    }
-  }
+  for (int q = 0; q < sampling.count; ++q)
+    frequency_weights_.push_back(lagrange_weights(node_hz, sampling.first_hz + q * sampling.step_hz));
 
   constexpr double kToWavenumber = 2 * kPi / kSpeedOfLight;
   const ProfileSource source(sea, profile_step_m(kToWavenumber * node_hz.back()));
@@ -315,16 +318,20 @@ OneWayAmplitudes::OneWayAmplitudes(const SeaReflection& sea, const BodyOverWaves
 }
 
 OneWayPaths OneWayAmplitudes::at(int pulse, int b) const {
-  const auto& [node, fraction] = places_[static_cast<std::size_t>(pulse)];
-  const auto q = static_cast<std::size_t>(pulse_first_[static_cast<std::size_t>(pulse)] + b);
+  const Place& place = places_[static_cast<std::size_t>(pulse)];
+  const std::vector<double>& in_band =
+      frequency_weights_[static_cast<std::size_t>(pulse_first_[static_cast<std::size_t>(pulse)] + b)];
   OneWayPaths sum{{0, 0}, {0, 0}};
-  for (std::size_t end = 0; end < (fraction > 0 ? 2U : 1U); ++end) {
-    const double in_time = end == 0 ? 1 - fraction : fraction;
+  const auto add = [](SeaReflectionCoefficients& to, double weight, const SeaReflectionCoefficients& from) {
+    to.h += weight * from.h;
+    to.v += weight * from.v;
+  };
+  for (std::size_t n = 0; n < place.weights.size(); ++n) {
     for (std::size_t f = 0; f < frequencies_; ++f) {
-      const OneWayPaths& at = nodes_[(node + end) * frequencies_ + f];
-      const double weight = in_time * frequency_weights_[q * frequencies_ + f];
-      sum.direct = combined(1, sum.direct, weight, at.direct);
-      sum.image = combined(1, sum.image, weight, at.image);
+      const OneWayPaths& node = nodes_[(place.first + n) * frequencies_ + f];
+      const double weight = place.weights[n] * in_band[f];
+      add(sum.direct, weight, node.direct);
+      add(sum.image, weight, node.image);
     }
   }
   return sum;

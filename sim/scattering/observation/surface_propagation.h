@@ -32,14 +32,14 @@ struct SurfaceProfile {
   std::vector<double> elevation_m, slope;  // along x
 };
 
-// Waves between two points of the surface, or from it to the body, fade between these slopes. They are steeper than the
-// reflection by any wave that does not break.
+// Waves from the surface to the body fade between these slopes, which are steeper than the reflection by any wave that
+// does not break.
 inline constexpr std::array<double, 2> kSteepestRay{0.3, 0.5};
 
 // Field of one plane wave over a profile.
 class SurfaceField {
  public:
-  // k: rad/m; sin_grazing: of the incident wave against z = 0, 0 < s <= 0.18. `ripples` gives the local reflection
+  // k: rad/m; sin_grazing: of the incident wave against z = 0, 0 < s < 0.25. `ripples` gives the local reflection
   // coefficient, with the roughness below the resolution of the profile; from it follows the surface impedance at the
   // local grazing angle, but not below that of the mean plane. `mean_plane`: reflection of the plane in front of the
   // profile. Cost: N^2/2 kernels.
@@ -62,10 +62,10 @@ class SurfaceField {
     SurfaceProfile profile;
     Sources h, v;
   };
-  // Integral of the sources of the first `end` samples at height z, `gap` >= 1 steps behind the last of them. to_point:
-  // the integral goes on to the point, else it ends at that sample.
+  // Integral of the sources of the first `end` samples at height z, `gap` steps behind the last of them; with a gap of
+  // more than 1 it ends at that sample, else it goes on to the point. limited: kSteepestRay applies.
   SeaReflectionCoefficients integral(const Stretch& stretch, std::size_t end, std::size_t gap, double height_m,
-                                     bool to_point) const;
+                                     bool limited) const;
   // Incident wave and field of the plane in front of the profile, at height z over sample i >= 1.
   SeaReflectionCoefficients incident(std::size_t i, double height_m) const;
   SeaReflectionCoefficients above_surface(double height_m) const;
@@ -90,34 +90,34 @@ struct BodyOverWaves {
 class OneWayAmplitudes {
  public:
   // Fields are computed at times at most kNodeInterval_s apart and at frequencies at most kNodeInterval_hz apart, and
-  // interpolated linearly in time and by a polynomial in frequency. sea.waves() must not be null. Equal bits for any
-  // number of threads. Throws Interrupted when *stop becomes true.
+  // interpolated by cubic polynomials in time and by one polynomial in frequency. sea.waves() must not be null. Equal
+  // bits for any number of threads. Throws Interrupted when *stop becomes true.
   OneWayAmplitudes(const SeaReflection& sea, const BodyOverWaves& body, const IntervalSampling& sampling,
                    const Vec3& r_hat, int threads = 1, const StopFlag* stop = nullptr);
-  static constexpr double kNodeInterval_s = 0.02;
+  static constexpr double kNodeInterval_s = 0.025;
   static constexpr double kNodeInterval_hz = 300e6;
 
   OneWayPaths at(int pulse, int b) const;
 
  private:
-  struct Place {  // of a pulse between two nodes
-    std::size_t node = 0;
-    double fraction = 0;
+  struct Place {  // of a pulse: weights of the nodes in time from `first` on
+    std::size_t first = 0;
+    std::vector<double> weights;
   };
   static constexpr double kLeastFit_m = 0.02;  // half of the distance of the two heights
 
   std::size_t frequencies_ = 1;
-  std::vector<Place> places_;              // [pulse]
-  std::vector<int> pulse_first_;           // [pulse]
-  std::vector<double> frequency_weights_;  // [frequency of the grid][node]
-  std::vector<OneWayPaths> nodes_;         // [time][frequency]
+  std::vector<Place> places_;                           // [pulse]
+  std::vector<int> pulse_first_;                        // [pulse]
+  std::vector<std::vector<double>> frequency_weights_;  // [frequency of the grid][node]
+  std::vector<OneWayPaths> nodes_;                      // [time][frequency]
 };
 
 // Length of a profile, m: so far in front of a body that crests shadow it and points of reflection lie there, within
 // 100 and 600 m.
 double profile_length_m(double significant_wave_height_m, double top_m, double sin_grazing);
 
-// Step of a profile, m: four wavelengths, at most 0.125 m.
+// Step of a profile, m: six wavelengths, at most 0.2 m.
 double profile_step_m(double k);
 
 }  // namespace seaglint

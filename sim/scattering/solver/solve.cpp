@@ -10,6 +10,7 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
+#include "sim/scattering/observation/surface_propagation.h"
 #include "sim/scattering/points/decomposition.h"
 #include "sim/scattering/solver/aspect_trace.h"
 #include "sim/scattering/solver/trace_plan.h"
@@ -184,6 +185,14 @@ class SeaReflectionOverPulses {
   std::vector<SeaReflectionCoefficients> coefficients_;
 };
 
+// Half of the extent of a body along z about its centre, m.
+double half_height(const Scatterer& scatterer) {
+  double half = 0;
+  for (const Facet& facet : scatterer.facets())
+    for (const Vec3& corner : facet.corner) half = std::max(half, std::abs(corner.z()));
+  return half;
+}
+
 }  // namespace
 
 double default_aspect_change(const Scatterer& scatterer, double wavelength) {
@@ -225,6 +234,17 @@ IntervalResult solve(const IntervalRequest& request) {
   result.response.values.assign(static_cast<std::size_t>(pulses) * sampling.frequencies_per_pulse, 0.0);
   std::optional<SeaReflectionOverPulses> reflection;
   if (request.sea != nullptr) reflection.emplace(*request.sea, plan, sampling, wavenumbers);
+  std::optional<OneWayAmplitudes> over_waves;
+  if (request.sea != nullptr && request.sea->waves() != nullptr) {
+    const auto centre = [&](double time_s) {
+      const Pose pose = request.trajectory.pose(time_s);
+      return pose.p + pose.R * request.scatterer.centre();
+    };
+    over_waves.emplace(*request.sea,
+                       BodyOverWaves{centre, half_height(request.scatterer), request.solver.wavefront_range_m},
+                       sampling, request.r_hat, threads, request.stop);
+  }
+  const int channel = static_cast<int>(request.polarisation);
   std::vector<Complex> values(static_cast<std::size_t>(sampling.frequencies_per_pulse));
   for (std::size_t i = 0; i < traces.size(); ++i) {
     for (std::size_t w = 0; w < traces[i].paths.size(); ++w) {
@@ -238,10 +258,9 @@ IntervalResult solve(const IntervalRequest& request) {
         const double origin_path = plan.path_advance(path, n);
         for (int b = 0; b < sampling.frequencies_per_pulse; ++b) {
           const int q = sampling.pulse_first[n] + b;
-          const Complex by_sea =
-              path.is_multipath()
-                  ? SeaReflection::path_factor(path, reflection->at(n, b), static_cast<int>(request.polarisation))
-                  : 1.0;
+          const Complex by_sea = over_waves            ? SeaReflection::path_factor(path, over_waves->at(n, b), channel)
+                                 : path.is_multipath() ? SeaReflection::path_factor(path, reflection->at(n, b), channel)
+                                                       : 1.0;
           result.response.at(n, b) +=
               plan.interpolation_weight(i, n) * by_sea * std::polar(1.0, wavenumbers.at(q) * origin_path) * values[b];
         }

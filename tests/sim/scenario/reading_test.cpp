@@ -155,6 +155,14 @@ TEST(ScenarioReading, TheRadarChainsContradictionsAreNamed) {
        "view.elevation_deg: value '-1': must be within 0.1 and 60 with clutter.doppler: sea_state"},
       {{{"clutter.level", "nrl"}, {"sea", "{significant_wave_height_m: 7, peak_period_s: 14}"}},
        "sea.significant_wave_height_m: value '7': must be at most 6"},
+      {{{"sea_reflection", "{enabled: true, surface_profile: waves}"}, {"view.elevation_deg", "11"}},
+       "view.elevation_deg: value '11': must be at most 10 with sea_reflection.surface_profile: waves"},
+      {{{"sea_reflection", "{enabled: true, surface_profile: waves}"}, {"radar.carrier_ghz", "60"}},
+       "must be at most 40 with sea_reflection.surface_profile: waves"},
+      {{{"sea_reflection", "{enabled: true, surface_profile: waves, paths: direct_only}"}},
+       "must be all with sea_reflection.surface_profile: waves, whose field is not divided"},
+      {{{"sea_reflection", "{enabled: true, surface_profile: waves}"}, {"targets.a.motion.waves", "independent"}},
+       "must be same_field with sea_reflection.surface_profile: waves"},
       {{{"targets.a.companions", "[{target: b}]"}}, "must be the name of another target"},
       {{{"targets.a.companions", "[{target: a}]"}}, "must be the name of another target"}};
   for (const auto& [overrides, message] : cases) EXPECT_HAS(complaint_about(kShort, overrides), message) << message;

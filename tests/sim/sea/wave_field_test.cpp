@@ -192,6 +192,22 @@ TEST(SurfaceSeries, EqualsTheSurfaceAtItsPoint) {
   }
 }
 
+TEST(SurfaceSeries, EqualsTheSurfaceAlongALine) {
+  SeaState spread = sea_of(2, 8);
+  spread.spreading.kind = Spreading::kCos2s;
+  spread.components = 64;
+  for (const SeaState& state : {sea_of(2, 8), spread}) {
+    const WaveField field = realise_sea(state, 42, 7);
+    SurfaceSeries line = SurfaceSeries::along_line(field, {300, -20}, {-0.15, 0.08}, 1234.5);
+    for (int i = 0; i < 500; ++i, line.advance()) {
+      const SurfaceState expected = field.surface(300 - 0.15 * i, -20 + 0.08 * i, 1234.5), at = line.state();
+      ASSERT_NEAR(at.elevation, expected.elevation, 1e-11);
+      ASSERT_NEAR(at.slope_x, expected.slope_x, 1e-11);
+      ASSERT_NEAR(at.slope_y, expected.slope_y, 1e-11);
+    }
+  }
+}
+
 // Far from the origin a short wave has more phase than unit_phasors accepts; whole cycles are removed.
 TEST(WaveField, IsAccurateFarFromTheOrigin) {
   const WaveComponent wave{100, 0.01, 0.3, 100 * 100 / kGravity, Vec2(1, 0)};
