@@ -361,6 +361,14 @@ void make_consistent(Scenario& scenario) {
   }
   scenario.radar.pri_jitter_us = scenario.radar.pri_us / 3.1 * (0.5 + 0.4 / (1 + scenario.radar.pri_jitter_us));
   scenario.map.range_span_m = std::min(scenario.map.range_span_m, 90 * scenario.radar.pri_us);
+  const bool over_waves =
+      scenario.sea_reflection.enabled && scenario.sea_reflection.surface_profile == SurfaceProfileKind::kWaves;
+  if (over_waves) {
+    scenario.radar.carrier_ghz = std::min(scenario.radar.carrier_ghz, 5.1);
+    scenario.sea_reflection.paths = SeaPaths::kAll;
+    for (double& elevation : scenario.view.elevation_deg) elevation = std::fmod(elevation, 9.9);
+    for (TargetSpec& target : scenario.targets) target.motion.waves = WaveSharing::kSameField;
+  }
   if (scenario.sea_reflection.enabled) {
     scenario.radar.carrier_ghz = std::min(scenario.radar.carrier_ghz, 48.1);
     scenario.radar.hop_step_mhz = std::min(scenario.radar.hop_step_mhz, 30e3 / scenario.radar.carrier_count);
