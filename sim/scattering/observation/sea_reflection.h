@@ -8,7 +8,8 @@
 //     S = S(r, r) + R S(r', r) + S(r, r') R + R S(r', r') R,    R = diag(rho_h, rho_v).
 // rho_h = te and rho_v = tm of the sea (material.h): s = h is common to r and r'; p = s x d is v on the downward path
 // and v' = r' x h on the upward path (both change sign on the return path). A perfectly conducting sea, rho_h = -1 and
-// rho_v = +1, is equivalent to image theory.
+// rho_v = +1, is equivalent to image theory. Over the waves themselves, one-way amplitudes of both waves are in the
+// place of 1 and rho (surface_propagation.h).
 
 #include <array>
 #include <optional>

@@ -250,16 +250,17 @@ OneWayPaths fitted(const SurfaceField& field, double k, double sin_grazing, doub
   return {{up(low.h, high.h), up(low.v, high.v)}, {down(low.h, high.h), down(low.v, high.v)}};
 }
 
-// Weights of the polynomial through the nodes at x.
-std::vector<double> lagrange_weights(std::span<const double> nodes, double x) {
-  std::vector<double> weights(nodes.size(), 1.0);
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-    for (std::size_t j = 0; j < nodes.size(); ++j)
-      if (j != i) weights[i] *= (x - nodes[j]) / (nodes[i] - nodes[j]);
-  return weights;
-}
-
 }  // namespace
+
+OneWayAmplitudes::Place OneWayAmplitudes::place_of(const std::vector<double>& nodes, double x) {
+  const std::size_t stencil = std::min<std::size_t>(4, nodes.size());
+  const auto above = static_cast<std::size_t>(std::ranges::upper_bound(nodes, x) - nodes.begin());
+  Place place{std::min(above > 2 ? above - 2 : 0, nodes.size() - stencil), std::vector<double>(stencil, 1.0)};
+  for (std::size_t i = 0; i < stencil; ++i)
+    for (std::size_t j = 0; j < stencil; ++j)
+      if (j != i) place.weights[i] *= (x - nodes[place.first + j]) / (nodes[place.first + i] - nodes[place.first + j]);
+  return place;
+}
 
 OneWayAmplitudes::OneWayAmplitudes(const SeaReflection& sea, const BodyOverWaves& body,
                                    const IntervalSampling& sampling, const Vec3& r_hat, int threads,
@@ -276,13 +277,7 @@ OneWayAmplitudes::OneWayAmplitudes(const SeaReflection& sea, const BodyOverWaves
       node_s.push_back(pulse_s.front() +
                        duration_s * static_cast<double>(i) / static_cast<double>(std::max<std::size_t>(1, intervals)));
   }
-  const std::size_t stencil = std::min<std::size_t>(4, node_s.size());
-  std::size_t next = 0;
-  for (const double time_s : pulse_s) {
-    while (next + 2 < node_s.size() && time_s > node_s[next + 1]) ++next;
-    const std::size_t first = std::min(next > 0 ? next - 1 : 0, node_s.size() - stencil);
-    places_.push_back({first, lagrange_weights(std::span(node_s).subspan(first, stencil), time_s)});
-  }
+  for (const double time_s : pulse_s) in_time_.push_back(place_of(node_s, time_s));
   const double band_hz = sampling.step_hz * (sampling.count - 1);
   frequencies_ = 1 + static_cast<std::size_t>(std::ceil(band_hz / kNodeInterval_hz));
   std::vector<double> node_hz;
@@ -292,24 +287,29 @@ OneWayAmplitudes::OneWayAmplitudes(const SeaReflection& sea, const BodyOverWaves
         (frequencies_ > 1 ? band_hz * static_cast<double>(f) / static_cast<double>(frequencies_ - 1) : 0));
   pulse_first_ = sampling.pulse_first;
   for (int q = 0; q < sampling.count; ++q)
-    frequency_weights_.push_back(lagrange_weights(node_hz, sampling.first_hz + q * sampling.step_hz));
+    in_band_.push_back(place_of(node_hz, sampling.first_hz + q * sampling.step_hz));
 
   constexpr double kToWavenumber = 2 * kPi / kSpeedOfLight;
   const ProfileSource source(sea, profile_step_m(kToWavenumber * node_hz.back()));
   const SeaReflection ripples = sea.with_rms_height(source.rms_m());
+  const auto direction_at = [&](double time_s) {
+    return line_of_sight_from(line_of_sight_at(sampling, r_hat, time_s), body.centre(time_s), body.range_m).radar.r;
+  };
+  // One length for the interval: the start of the profile follows the body without heaving with it.
+  double length_m = 0;
+  for (const double time_s : node_s)
+    length_m += profile_length_m(sea.significant_wave_height_m(), body.centre(time_s).z(), direction_at(time_s).z()) /
+                static_cast<double>(node_s.size());
   nodes_.resize(node_s.size() * frequencies_);
   parallel_for(
       nodes_.size(), std::max(1, threads),
       [&](std::size_t node) {
         const double time_s = node_s[node / frequencies_], k = kToWavenumber * node_hz[node % frequencies_];
-        const Vec3 p = body.centre(time_s);
-        const LineOfSight sight = line_of_sight_from(line_of_sight_at(sampling, r_hat, time_s), p, body.range_m);
-        const Vec3& r = sight.radar.r;
+        const Vec3 p = body.centre(time_s), r = direction_at(time_s);
         const double sin_grazing = r.z(), level = std::hypot(r.x(), r.y());
         const SeaReflectionCoefficients mean_plane = sea.at(k, sin_grazing);
         // Two heights at most a quarter of a period of the interference apart.
-        const double half_m = std::clamp(0.5 * body.half_height_m, kLeastFit_m, kPi / (4 * k * sin_grazing));
-        const double length_m = profile_length_m(sea.significant_wave_height_m(), p.z() + half_m, sin_grazing);
+        const double half_m = std::min(std::max(0.5 * body.half_height_m, kLeastFit_m), kPi / (4 * k * sin_grazing));
         const SurfaceField field(source.at(time_s, p, Vec2(r.x(), r.y()) / level, length_m), k, sin_grazing, ripples,
                                  mean_plane);
         nodes_[node] = fitted(field, k, sin_grazing, p.z(), half_m);
@@ -318,18 +318,17 @@ OneWayAmplitudes::OneWayAmplitudes(const SeaReflection& sea, const BodyOverWaves
 }
 
 OneWayPaths OneWayAmplitudes::at(int pulse, int b) const {
-  const Place& place = places_[static_cast<std::size_t>(pulse)];
-  const std::vector<double>& in_band =
-      frequency_weights_[static_cast<std::size_t>(pulse_first_[static_cast<std::size_t>(pulse)] + b)];
+  const auto n = static_cast<std::size_t>(pulse);
+  const Place &in_time = in_time_[n], &in_band = in_band_[static_cast<std::size_t>(pulse_first_[n] + b)];
   OneWayPaths sum{{0, 0}, {0, 0}};
   const auto add = [](SeaReflectionCoefficients& to, double weight, const SeaReflectionCoefficients& from) {
     to.h += weight * from.h;
     to.v += weight * from.v;
   };
-  for (std::size_t n = 0; n < place.weights.size(); ++n) {
-    for (std::size_t f = 0; f < frequencies_; ++f) {
-      const OneWayPaths& node = nodes_[(place.first + n) * frequencies_ + f];
-      const double weight = place.weights[n] * in_band[f];
+  for (std::size_t t = 0; t < in_time.weights.size(); ++t) {
+    for (std::size_t f = 0; f < in_band.weights.size(); ++f) {
+      const OneWayPaths& node = nodes_[(in_time.first + t) * frequencies_ + in_band.first + f];
+      const double weight = in_time.weights[t] * in_band.weights[f];
       add(sum.direct, weight, node.direct);
       add(sum.image, weight, node.image);
     }

@@ -10,10 +10,10 @@
 //     u(r) = u_inc(r) + integral of u(r') (dG/dn' - jk Z G) ds'.
 // Forward-going waves alone are kept: a point of the surface depends on those in front of it. That makes the equation
 // on the surface one of Volterra, solved by one sweep over the profile; it is exact for the forward scattering of a
-// surface of any slope (method of ordered multiple interactions, D. A. Kapp and G. S. Brown, IEEE Trans. AP 44 (1996)
+// surface (method of ordered multiple interactions, D. A. Kapp and G. S. Brown, IEEE Trans. AP 44 (1996)
 // 711-722; D. Holliday, L. L. DeRaad and G. J. St-Cyr, ibid. 722-729; with the paraxial kernel it solves the parabolic
-// equation exactly, E. I. Thorsos, J. Acoust. Soc. Am. 83 (1988) 78-92). No grid over height, no absorbing layer and no
-// bound on the angle but that of kSteepestRay is needed, and a plane wave at grazing incidence is exact.
+// equation exactly, E. I. Thorsos, J. Acoust. Soc. Am. 83 (1988) 78-92). The method needs no grid over height, no
+// absorbing layer and no paraxial angles. The plane in front of the profile is a closed form (Fresnel integrals).
 
 #include <array>
 #include <functional>
@@ -25,7 +25,7 @@
 
 namespace seaglint {
 
-// Elevation and slope at x = i step, i = 0..N, N >= 1; the last sample is below the body. For x < 0 the surface is the
+// Elevation and slope at x = i step, i = 0..N, N > 24; the last sample is below the body. For x < 0 the surface is the
 // plane z = 0, and at x = 0 elevation and slope are 0.
 struct SurfaceProfile {
   double step_m = 0;
@@ -90,7 +90,7 @@ struct BodyOverWaves {
 class OneWayAmplitudes {
  public:
   // Fields are computed at times at most kNodeInterval_s apart and at frequencies at most kNodeInterval_hz apart, and
-  // interpolated by cubic polynomials in time and by one polynomial in frequency. sea.waves() must not be null. Equal
+  // interpolated by cubic polynomials. sea.waves() must not be null. Equal
   // bits for any number of threads. Throws Interrupted when *stop becomes true.
   OneWayAmplitudes(const SeaReflection& sea, const BodyOverWaves& body, const IntervalSampling& sampling,
                    const Vec3& r_hat, int threads = 1, const StopFlag* stop = nullptr);
@@ -100,21 +100,23 @@ class OneWayAmplitudes {
   OneWayPaths at(int pulse, int b) const;
 
  private:
-  struct Place {  // of a pulse: weights of the nodes in time from `first` on
+  struct Place {  // of a time or frequency: weights of the nodes from `first` on
     std::size_t first = 0;
     std::vector<double> weights;
   };
+  // On the cubic polynomial through the four nearest of the ascending nodes; through all of fewer.
+  static Place place_of(const std::vector<double>& nodes, double x);
   static constexpr double kLeastFit_m = 0.02;  // half of the distance of the two heights
 
-  std::size_t frequencies_ = 1;
-  std::vector<Place> places_;                           // [pulse]
-  std::vector<int> pulse_first_;                        // [pulse]
-  std::vector<std::vector<double>> frequency_weights_;  // [frequency of the grid][node]
-  std::vector<OneWayPaths> nodes_;                      // [time][frequency]
+  std::size_t frequencies_ = 1;     // nodes
+  std::vector<Place> in_time_;      // [pulse]
+  std::vector<Place> in_band_;      // [frequency of the grid]
+  std::vector<int> pulse_first_;    // [pulse]
+  std::vector<OneWayPaths> nodes_;  // [time][frequency]
 };
 
-// Length of a profile, m: so far in front of a body that crests shadow it and points of reflection lie there, within
-// 100 and 600 m.
+// Length of the profile in front of a body whose top is top_m above z = 0: 1.5 times the distance over which a crest
+// of the significant height can shadow it or reflect to it, and 50 m; within 100 and 600 m.
 double profile_length_m(double significant_wave_height_m, double top_m, double sin_grazing);
 
 // Step of a profile, m: six wavelengths, at most 0.2 m.

@@ -361,9 +361,9 @@ void make_consistent(Scenario& scenario) {
   }
   scenario.radar.pri_jitter_us = scenario.radar.pri_us / 3.1 * (0.5 + 0.4 / (1 + scenario.radar.pri_jitter_us));
   scenario.map.range_span_m = std::min(scenario.map.range_span_m, 90 * scenario.radar.pri_us);
-  const bool over_waves =
-      scenario.sea_reflection.enabled && scenario.sea_reflection.surface_profile == SurfaceProfileKind::kWaves;
-  if (over_waves) {
+  if (scenario.sea_reflection.enabled && scenario.seed % 2 == 0)
+    scenario.sea_reflection.surface_profile = SurfaceProfileKind::kMean;
+  if (scenario.sea_reflection.enabled && scenario.sea_reflection.surface_profile == SurfaceProfileKind::kWaves) {
     scenario.radar.carrier_ghz = std::min(scenario.radar.carrier_ghz, 5.1);
     scenario.sea_reflection.paths = SeaPaths::kAll;
     for (double& elevation : scenario.view.elevation_deg) elevation = std::fmod(elevation, 9.9);

@@ -22,7 +22,7 @@ view: {azimuth_deg: 30, elevation_deg: 1}
 sea: {significant_wave_height_m: 1, peak_period_s: 5, components: 64}
 targets:
   low: {label: 1, points: [{position_m: [3, 2, 0.8], amplitude_m: 1, velocity_mps: [0.5, 0, 0]}]}
-dataset: {maps_per_case: 3, realisations_per_case: 2}
+dataset: {maps_per_case: 4, realisations_per_case: 2}
 sea_reflection: )" + reflection +
                             "\n",
                         "waves.yaml");
