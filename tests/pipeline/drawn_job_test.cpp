@@ -92,6 +92,9 @@ const std::vector<DrawnKey>& drawn_job_keys() {
   const Override swell_spread{"sea.swell.spreading.kind", "cos2s"};
   const Override wrapped_swell{"sea.swell.spreading.kind", "wrapped_normal"};
   const Override reflection{"sea_reflection.enabled", "true"};
+  // Maps, so that no draw of paths or waves is in one job with propagation over the waves.
+  const Override all_paths{"sea_reflection", "{enabled: true, paths: all}"};
+  const Override common_waves{"targets.corner.motion", "{model: float, waves: same_field}"};
   const Override of_sea{"clutter.level", "nrl"}, budget{"radar.link_budget", "{}"}, range{"radar.range_km", "10"};
   const Override companion{"targets.corner.companions", "[{target: dots, x_m: 3, y_m: 1}]"};
   const Override bretschneider{"sea.spectrum", "bretschneider"};
@@ -147,7 +150,7 @@ const std::vector<DrawnKey>& drawn_job_keys() {
       {"sea_reflection.salinity_psu", "uniform(5, 35)", "", {reflection}},
       {"sea_reflection.roughness", "choice(miller_brown_vegh, ament, none)", "", {reflection}},
       {"sea_reflection.paths", "choice(all, direct_only)", "", {reflection}},
-      {"sea_reflection.surface_profile", "choice(mean, waves)", "", {reflection}},
+      {"sea_reflection.surface_profile", "choice(mean, waves)", "", {all_paths, common_waves}},
       {"targets.NAME.points.N.amplitude_m", "loguniform(0.5, 2)", "dots"},
       {"targets.NAME.mesh", "choice(hull.obj, corner.obj)", "hull", {fixed}},
       {"targets.NAME.unit", "choice(m, ft)", "corner"},
