@@ -94,7 +94,7 @@ const std::vector<DrawnKey>& drawn_job_keys() {
   const Override reflection{"sea_reflection.enabled", "true"};
   // Maps, so that no draw of paths or waves is in one job with propagation over the waves.
   const Override all_paths{"sea_reflection", "{enabled: true, paths: all}"};
-  const Override common_waves{"targets.corner.motion", "{model: float, waves: same_field}"};
+  const Override common_waves{"targets.hull.motion", "{model: ship, waves: same_field}"};
   const Override of_sea{"clutter.level", "nrl"}, budget{"radar.link_budget", "{}"}, range{"radar.range_km", "10"};
   const Override companion{"targets.corner.companions", "[{target: dots, x_m: 3, y_m: 1}]"};
   const Override bretschneider{"sea.spectrum", "bretschneider"};
