@@ -121,7 +121,7 @@ TextureParameters texture_parameters(const ClutterSpec& spec, const ClutterScene
                                : by_waves                 ? 8 / range_cell_m
                                                           : 5,
           .correlation_time_s = spec.texture_correlation_time_s.value_or(by_waves ? 1 : 3),
-          .spread_mps = spec.doppler_spread_mps.value_or(by_waves ? 0.15 : 0.5)};
+          .spread_mps = spec.doppler_spread_mps.value_or(by_waves ? 0.12 : 0.5)};
 }
 
 }  // namespace seaglint

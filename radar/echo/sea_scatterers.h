@@ -72,7 +72,7 @@ struct ScattererRequest {
 // the mean at the moving surface, since clutter_velocity_moments() includes the whole Stokes drift. texture:
 // independent: constant power, one width, velocity at both ends of the interval. texture: waves: power by
 // wave_modulation; width s = s0 e^{b h - b^2/2}, h = r g + sqrt(1 - r^2) m, r = 0.85, m a Gaussian field apart from the
-// waves, b = breaking; velocity along the waves larger by 1.5 (s - s0), twice that for polarisations other than vv,
+// waves, b = breaking; velocity along the waves larger by 2 (s - s0), twice that for polarisations other than vv,
 // whose n has an additional part of 0.2 s (sea spikes): bright scatterers are faster and broader (Watts, "Modeling and
 // simulation of coherent sea clutter", IEEE Trans. Aerosp. Electron. Syst. 48 (2012) 3303). Nodes every 0.1 s at most;
 // scatterers drift with the mean velocity.

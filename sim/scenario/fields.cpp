@@ -508,7 +508,7 @@ void visit(ClutterSpec& spec, FieldVisitor& v) {
            "Mean velocity of the clutter, positive = receding.");
   visit_given(v, "doppler_spread_mps", spec.doppler_spread_mps, within(0, 20),
               "Standard deviation of its velocity; with texture: waves the mean of that of a scatterer on the moving "
-              "water; default: 0.5 m/s, with texture: waves 0.15 m/s.");
+              "water; default: 0.5 m/s, with texture: waves 0.12 m/s.");
   v.number("hh_velocity_factor", spec.hh_velocity_factor, within(0, 5),
            "Mean velocity by waves and wind of hh, hv and vh relative to vv.");
   visit_given(v, "sea_state", spec.sea_state, within(0, 6),

@@ -128,7 +128,7 @@ std::vector<Complex> range_cell(const ClutterSpec& spec, const SeaState& sea, Po
   radar.polarisation = polarisation;
   radar.range_km = 2.6;
   radar.link_budget.beamwidth_deg = 0.9;
-  const PulseTrain train = make_pulse_train(radar, 230, seed, 0);
+  const PulseTrain train = make_pulse_train(radar, 150, seed, 0);
   const WaveField waves = realise_sea(sea, seed, 0);
   ClutterScene scene;
   scene.radar = radar;
@@ -272,13 +272,13 @@ TEST(MeasuredClutter, OfALowSeaIsNot) {
   record_figure(power_1_s, 2, "clutter_low_power_1_s");
 }
 
-// Today's alternative: its texture has neither the velocity nor the period of the waves.
+// A texture apart from the waves has neither their velocity nor their period. It is constant in an interval.
 TEST(MeasuredClutter, OfIndependentTextureHasNoPeriod) {
   ClutterSpec spec;
   spec.doppler = ClutterDoppler::kWaveResolved;
   spec.texture = ClutterTexture::kIndependent;
   spec.texture_shape = 1.741;
-  spec.doppler_spread_mps = 0.15;
+  spec.doppler_spread_mps = 0.12;
   const Spread simulated = over_seeds(spec, sea_of(2.2, 6.5), 4);
   print_beside(simulated, measured("high"));
   EXPECT_NEAR(named(simulated.mean, "power and velocity, correlation"), 0, 0.1);
