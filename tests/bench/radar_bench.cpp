@@ -11,6 +11,7 @@
 #include "sim/canonical/point_response.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/random.h"
+#include "sim/sea/realisation.h"
 
 namespace seaglint {
 namespace {
@@ -56,6 +57,24 @@ void EchoWithClutter(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(synthesise_echo(interval.train, interval.response, {}, 1, 1));
 }
 BENCHMARK(EchoWithClutter)->Unit(benchmark::kMillisecond);
+
+// Scatterers that move with the waves, their power independent of them (0) or bound to them (1).
+void EchoWithClutterOnTheWaves(benchmark::State& state) {
+  const Interval interval;
+  SeaState sea;
+  sea.order = 1;
+  const WaveField waves = realise_sea(sea, 1, 1);
+  ClutterScene scene;
+  scene.r_hat = Vec3(std::cos(radians(2)), 0, std::sin(radians(2)));
+  scene.significant_wave_height_m = sea.significant_wave_height_m;
+  scene.waves = &waves;
+  ClutterSpec clutter;
+  clutter.doppler = ClutterDoppler::kWaveResolved;
+  clutter.texture = state.range(0) == 1 ? ClutterTexture::kWaves : ClutterTexture::kIndependent;
+  for (auto _ : state)
+    benchmark::DoNotOptimize(synthesise_echo(interval.train, interval.response, clutter, 1, 1, scene));
+}
+BENCHMARK(EchoWithClutterOnTheWaves)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 
 void MapOfVelocities(benchmark::State& state) {
   const Interval interval;

@@ -232,6 +232,15 @@ PulseTrain Pipeline::pulse_train(std::size_t sample) const {
                           plan_.first_of_interval(sample));
 }
 
+ClutterScene Pipeline::nominal_clutter_scene() const {
+  const SeaState& highest = *std::ranges::max_element(plan_.sea_states(), {}, total_wave_height);
+  const View& view = plan_.views().front();
+  return {.radar = scenario_.radar,
+          .r_hat = direction_to_radar(view.azimuth_rad, view.elevation_rad),
+          .significant_wave_height_m = total_wave_height(highest),
+          .waves_towards_rad = highest.propagation_rad};
+}
+
 PulseTrain Pipeline::nominal_train() const {
   return make_pulse_train(scenario_.radar, range_window_m_, scenario_.seed, 0);
 }

@@ -477,11 +477,8 @@ std::string clutter_line(const Pipeline& pipeline) {
   const auto highest = std::ranges::max_element(states, {}, total_wave_height);
   const View& view = pipeline.plan().views().front();
   const PulseTrain train = pipeline.nominal_train();
-  const double height_m = total_wave_height(*highest);
-  ClutterScene scene{.radar = scenario.radar,
-                     .r_hat = direction_to_radar(view.azimuth_rad, view.elevation_rad),
-                     .significant_wave_height_m = height_m,
-                     .waves_towards_rad = highest->propagation_rad};
+  ClutterScene scene = pipeline.nominal_clutter_scene();
+  const double height_m = scene.significant_wave_height_m;
   constexpr const char* kRatios[] = {"per pulse", "in the map's peak cell", "within the target's extent in the map"};
 
   const auto against = [](double ratio_db) {
@@ -515,10 +512,12 @@ std::string clutter_line(const Pipeline& pipeline) {
         texture_parameters(spec, scene, train.band_centre_hz(), train.range_resolution_m());
     const FittedFigure measured = k_shape(scene, train.band_centre_hz(), train.range_resolution_m());
     text +=
-        fmt::format("; texture {}, of shape {:.3g}{}; velocity {:g} m/s, spread {:g} m/s{}",
-                    texture_is_by_waves(spec) ? "bound to the waves" : "independent", texture.shape,
+        fmt::format("; texture {}of shape {:.3g}{}; velocity {:g} m/s, spread {:g} m/s{}",
+                    texture_is_by_waves(spec) ? "bound to the waves, " : "", texture.shape,
                     height_m > 0 && spec.texture_shape && measured.is_within_range
                         ? fmt::format(" (measured clutter: {:.2g} in this scene)", measured.value)
+                    : texture_is_by_waves(spec) && !spec.texture_shape && !measured.is_within_range
+                        ? " (beyond the measurements of its formula)"
                         : "",
                     hundredths(spec.doppler_mean_mps + moments.mean_mps),
                     hundredths(std::hypot(texture.spread_mps, platform_doppler_spread_mps(scene), moments.spread_mps)),

@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "classify/dataset/directory/export.h"
+#include "radar/echo/clutter_scene.h"
 #include "radar/rvmap/rv_map.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
@@ -108,6 +109,7 @@ void report_scenario(const Pipeline& pipeline, const ReportScope& scope) {
   warn(mesh_warnings(pipeline));
   warn(motion_warnings(own_targets(pipeline)));
   report_sea(scenario, pipeline.plan().sea_states());
+  warn(clutter_warnings(pipeline));
   if (scope.bands) warn(band_warnings(pipeline));
   if (scope.coverage) warn(map_coverage_warnings(pipeline));
 }
@@ -199,6 +201,26 @@ std::vector<std::string> sea_warnings(const Scenario& scenario, std::span<const 
         "{}: the seas of {} of {} cells, {:.2g} % of the counts, may break (Hs above L/7): not drawn", kScatterKey,
         diagram->excluded_cells, diagram->excluded_cells + diagram->cells.size(), 100 * diagram->excluded_fraction));
   }
+  return lines;
+}
+
+std::vector<std::string> clutter_warnings(const Pipeline& pipeline) {
+  const ClutterSpec& clutter = pipeline.scenario().clutter;
+  const PulseTrain train = pipeline.nominal_train();
+  const ClutterScene scene = pipeline.nominal_clutter_scene();
+  const FittedFigure shape = k_shape(scene, train.band_centre_hz(), train.range_resolution_m());
+  if (!clutter.enabled || !shape.is_within_range || !(scene.significant_wave_height_m > 0)) return {};
+  constexpr double kFar = 3;
+  std::vector<std::string> lines;
+  const auto compare = [&](const char* key, const std::optional<double>& given, double measured) {
+    if (given && (*given > kFar * measured || *given < measured / kFar))
+      lines.push_back(fmt::format("clutter.{}: {:g}, where measured clutter has about {:.2g} in this scene", key,
+                                  *given, measured));
+  };
+  compare("texture_shape", clutter.texture_shape, shape.value);
+  // Of the texture as a whole: its correlation falls to 1/e within sqrt(2) of the key's length.
+  if (!texture_is_by_waves(clutter))
+    compare("texture_correlation_m", clutter.texture_correlation_m, texture_length_m(scene) / std::sqrt(2.0));
   return lines;
 }
 

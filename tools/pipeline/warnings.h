@@ -52,6 +52,11 @@ std::vector<std::string> motion_warnings(std::span<const Target> targets);
 // realisations, and per scatter diagram with seas that may break.
 std::vector<std::string> sea_warnings(const Scenario& scenario, std::span<const SeaState> states);
 
+// One line for a given shape of the texture, and one for a length, that is more than three times that of measured
+// clutter in the scene, or less than a third (k_shape, texture_length_m); none beyond the range that the measurements
+// have.
+std::vector<std::string> clutter_warnings(const Pipeline& pipeline);
+
 // One line if the carriers' bands leave gaps: maps then contain grating lobes of the targets.
 std::vector<std::string> band_warnings(const Pipeline& pipeline);
 

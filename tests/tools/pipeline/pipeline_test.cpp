@@ -459,5 +459,31 @@ dataset: {maps_per_case: 40, realisations_per_case: 40}
   EXPECT_HAS(text, " at Hs 1.5 m, azimuth 0 deg; ");
 }
 
+// At 9.4 GHz, 2 deg, 20 km and 1.5 deg of beam, vv: shape 1.6 along the waves (clutter_test.cpp), and (pi/2) U^2/g
+// sqrt(4), U^2/g = Hs / 0.22, of the length.
+TEST(ClutterWarnings, NameTextureFarFromMeasuredClutter) {
+  const auto warnings = [](const std::string& clutter, double carrier_ghz = 9.4) {
+    return clutter_warnings(Pipeline(parse_scenario(fmt::format(R"(
+seaglint: 1
+radar: {{carrier_ghz: {}, hop_count: 4, pulses: 16, range_km: 20, link_budget: {{beamwidth_deg: 1.5}}}}
+view: {{azimuth_deg: 0, elevation_deg: 2}}
+sea: {{significant_wave_height_m: 1.5, peak_period_s: 7, propagation_deg: 0, components: 64}}
+targets: {{buoy: {{label: 0, points: [{{position_m: [0, 0, 0]}}]}}}}
+clutter: {{{}}}
+)",
+                                                                carrier_ghz, clutter),
+                                                    "texture.yaml")));
+  };
+  EXPECT_THAT(warnings("scr_db: 10"), testing::IsEmpty());
+  EXPECT_THAT(warnings("texture_shape: 2"), testing::IsEmpty());
+  EXPECT_THAT(warnings("texture_shape: 100"),
+              testing::ElementsAre("clutter.texture_shape: 100, where measured clutter has about 1.6 in this scene"));
+  EXPECT_THAT(warnings("texture_shape: 100", 16), testing::IsEmpty());
+  EXPECT_THAT(
+      warnings("texture_correlation_m: 2"),
+      testing::ElementsAre("clutter.texture_correlation_m: 2, where measured clutter has about 15 in this scene"));
+  EXPECT_THAT(warnings("doppler: wave_resolved, texture_correlation_m: 2"), testing::IsEmpty());
+}
+
 }  // namespace
 }  // namespace seaglint
