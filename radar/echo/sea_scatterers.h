@@ -2,7 +2,7 @@
 #pragma once
 
 // Scatterers of the sea during one interval: local power, radial motion on the waves and width of the speckle of each.
-// With texture: waves all three follow the waves of the sea realisation, in the order of these functions.
+// With texture: waves all three follow the waves of the sea realisation.
 
 #include <cstdint>
 #include <vector>
@@ -36,19 +36,20 @@ struct WaveModulation {
   double shape = 1;               // of the gamma texture of a scatterer
   double rho = 0;
 };
-// The shape of a scatterer is such that a range cell of `scatterers_per_cell` scatterers (places uniform in range,
-// normal across the antenna beam) has the shape of the texture; the correlation of pairs is averaged over the beam.
+// The shape of a scatterer is such that the power in a range cell has the shape of the texture: scatterers_per_cell of
+// them in each range_cell_m = c/(2B), weighted by the response of Hann's taper, at random places across the antenna
+// beam, over which the correlation of pairs is averaged. Hermite coefficients of the gamma texture (Mehler's formula).
 WaveModulation wave_modulation(const TextureParameters& texture, const ClutterScene& scene, int scatterers_per_cell,
                                double range_cell_m);
 
 // State of scatterers at nodes, uniform in time from the start of the interval; linear between nodes.
 struct SeaScatterers {
   int count = 0;
-  double step_s = 0;              // between nodes
-  std::vector<double> amplitude;  // [node][scatterer], mean square 1; one node: constant
-  std::vector<double>
-      velocity_mps;               // [node][scatterer], positive = receding, without the mean of clutter; may be empty
-  std::vector<double> width_mps;  // [node][scatterer], of the speckle; empty: that of the spec
+  double step_s = 0;  // between nodes
+  // [node][scatterer]:
+  std::vector<double> amplitude;     // mean square 1 / count; one node: constant
+  std::vector<double> velocity_mps;  // positive = receding, without the mean of clutter; may be empty
+  std::vector<double> width_mps;     // of the speckle; empty: that of the spec
 };
 
 // Places of scatterers in range: index k of `count` is at k W / count of the window W, or W below it for the upper
@@ -69,13 +70,15 @@ struct ScattererRequest {
 };
 // Power: stream kTexture of (seed, scene.texture_key). Motion: velocity of the water of scene.waves at the range of
 // each scatterer and a random position across the two-way Gaussian beam, stream kClutterPlace of (seed, index), minus
-// the mean at the moving surface, since clutter_velocity_moments() includes the whole Stokes drift. texture:
-// independent: constant power, one width, velocity at both ends of the interval. texture: waves: power by
-// wave_modulation; width s = s0 e^{b h - b^2/2}, h = r g + sqrt(1 - r^2) m, r = 0.85, m a Gaussian field apart from the
-// waves, b = breaking; velocity along the waves larger by 2 (s - s0), twice that for polarisations other than vv,
-// whose n has an additional part of 0.2 s (sea spikes): bright scatterers are faster and broader (Watts, "Modeling and
-// simulation of coherent sea clutter", IEEE Trans. Aerosp. Electron. Syst. 48 (2012) 3303). Nodes every 0.1 s at most;
-// scatterers drift with the mean velocity.
+// the mean at the moving surface, since clutter_velocity_moments() includes the whole Stokes drift.
+// * texture: independent: constant power, one width, velocity at both ends of the interval.
+// * texture: waves: nodes at most 0.1 s apart, places that drift with the mean velocity. Power by wave_modulation.
+// Width
+//   s = s0 e^{b h - b^2/2}, h = 0.85 g + sqrt(1 - 0.85^2) m, m a Gaussian field apart from the waves, b = breaking;
+//   velocity along the waves larger by 2 (s - s0), so that bright scatterers are faster and broader (Watts, "Modeling
+//   and simulation of coherent sea clutter", IEEE Trans. Aerosp. Electron. Syst. 48 (2012) 3303). Sea spikes of
+//   polarisations other than vv: three tenths of the variance of n change within 0.2 s, and the velocity is larger by 4
+//   (s - s0).
 SeaScatterers sea_scatterers(const ScattererRequest& request);
 
 }  // namespace seaglint
