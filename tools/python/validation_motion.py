@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Motion beside measurements, a section of the page of tools/validation: KCS models in a tank, buoys in the ocean, from the output of test_motion; S175 against VERES."""
 import html
-import json
 import subprocess
 
 import validation_page
+import validation_plot
 from validation_run import Failure, seaglint
 
 TESTS = ["build/release/test_motion", "--gtest_filter=KcsModelTests.*:OceanBuoys.*"]
@@ -37,15 +37,12 @@ COLOURS = {"heave": "#0072b2", "pitch": "#d55e00", "tilt": "#0072b2"}
 
 
 def series(quantity, kind, style, points, errors=None):
-    made = {"name": f"{quantity}, {kind}", "style": style, "colour": COLOURS[quantity], "x": [float(x) for x, _ in points], "y": [float(y) for _, y in points]}
-    if errors:
-        made["low"], made["high"] = ([y + sign * error for y, error in zip(made["y"], errors)] for sign in (-1, 1))
-    return made
+    ends = {} if errors is None else {name: [float(y) + sign * error for (_, y), error in zip(points, errors)] for name, sign in (("low", -1), ("high", 1))}
+    return validation_plot.series(f"{quantity}, {kind}", style, COLOURS[quantity], points, **ends)
 
 
 def panel(title, x, y, data):
-    highest = max(max(s.get("high", s["y"])) for s in data)
-    return {"title": title, "x": {"label": x, "log": False}, "y": {"label": y, "log": False, "range": [0, 1.1 * highest]}, "equal": False, "series": data}
+    return validation_plot.panel(title, x, y, (0, 1.1 * max(max(s.get("high", s["y"])) for s in data)), data)
 
 
 def panels(rows):
@@ -68,25 +65,6 @@ def panels(rows):
     return made
 
 
-def draw(made, file):
-    """The panels as a picture, by gnuplot."""
-    styles = {"points": "points pt 7 ps 1.3", "lines": "lines lw 2", "linespoints": "linespoints pt 6 lw 2"}
-    script = [f'set terminal pngcairo size 1400,1000 font "sans,13"; set output "{file}"', "set multiplot layout 2,2", "set grid; set key top left"]
-    for plot in made:
-        script += [f'set title "{plot["title"]}"; set xlabel "{plot["x"]["label"]}"; set ylabel "{plot["y"]["label"]}"; set yrange [0:{1.35 * plot["y"]["range"][1]}]']
-        drawn = []
-        for one in plot["series"]:
-            style = "yerrorbars pt 7 ps 1.3" if "low" in one else styles[one["style"]]
-            drawn.append(f"'-' title \"{one['name']}\" with {style} lc rgb '{one['colour']}'")
-        script.append("plot " + ", ".join(drawn))
-        for one in plot["series"]:
-            columns = [one["x"], one["y"]] + ([one["low"], one["high"]] if "low" in one else [])
-            script += [" ".join(map(str, values)) for values in zip(*columns)] + ["e"]
-    result = subprocess.run(["gnuplot"], input="\n".join(script), capture_output=True, text=True)
-    if result.returncode != 0 or not file.exists():
-        raise Failure(f"gnuplot: {result.stderr}")
-
-
 def cells(row, case):
     return [case, row[1], row[2], row[3], row[4], f"{float(row[5]):.3g}", f"{float(row[5]) / float(row[4]) - 1:+.0%}" if row[3] != "roll" else f"{float(row[5]) - float(row[4]):+.1f}"]
 
@@ -94,20 +72,18 @@ def cells(row, case):
 def compare(out):
     """The section of the page, and its figures for validation.json."""
     rows = printed_rows()
-    made = panels(rows)
-    draw(made, out / "motion.png")
+    figure = validation_plot.figure(panels(rows), out / "motion.png", "heave and pitch of KCS, tilt of two buoys: measured and computed")
     s175 = out / "s175.png"
     settings = [word for key, value in S175.items() for word in ("--set", f"targets.ship.motion.{key}={value}")]
     seaglint("motion", "scenarios/quick.yaml", *settings, "--set", "sea.propagation_deg=120", "--duration-s", 10, "--rao", s175, "--rao-reference", "tests/reference/ship_motion/s175_veres.re1", "-o", out / "s175.csv")
     fits = "; ".join(f"{name}: {float(period):g} s, {float(damping):g}, {float(draught):g} m" for name, period, damping, draught in rows["fit"])
-    plot = json.dumps({"columns": 2, "panels": made}).replace("<", "\\u003c")
     kcs = [cells(row, row[0]) for row in rows["kcs"]]
     buoys = [[row[0], row[1], f"{row[2]}-{row[3]}", row[4], row[5], row[6], f"{float(row[6]) / float(row[4]) - 1:+.0%}"] for row in rows["buoy"] if row[1] != "first"]
     section = f"""<section id="motion"><h2>Motion beside measurements</h2>
 <p>{KCS_ABOUT}</p>
 <p>{BUOY_ABOUT.format(fits=html.escape(fits))}</p>
 <p><b>Limits.</b> {KCS_LIMITS} {BUOY_LIMITS}</p>
-<figure class="plot"><img alt="heave and pitch of KCS, tilt of two buoys: measured and computed" src="{validation_page.picture(out / 'motion.png')}"><script type="application/json">{plot}</script></figure>
+{figure}
 {validation_page.table(["KCS, case", "wave length over ship's length", "heading (deg)", "quantity", "measured", "computed", "difference (roll: deg)"], kcs)}
 {validation_page.table(["buoy", "part of the record", "band (Hz)", "tilt per slope, measured", "standard error", "computed", "difference"], buoys)}
 <p>The same strip theory against another one, VERES, which has the true lines of the hull: S175 towards 120 deg at 20 knots.</p>

@@ -82,14 +82,14 @@ def text_section(title, about, text):
     return f"<section><h2>{title}</h2>\n<p>{about}</p>\n<pre>{html.escape(text)}</pre></section>"
 
 
-def page(version, results, flashes, others, motion, out):
-    """others: (title, text in HTML, printed text); motion: a section or nothing."""
+def page(version, results, flashes, others, sections, out):
+    """others: (title, text in HTML, printed text); sections: finished ones."""
     parts = ["<header>\n<h1>The solver against references</h1>\n</header>"]
     if results:
         parts += [LEAD.format(version=html.escape(version)), summary(results)]
     if flashes:
         parts.append(table(["flash of the box, HH, 10.24 GHz: azimuth (deg)", "computed (dBsm)", "reference (dBsm)", "difference (dB)"], flashes))
-    parts += [section(case, out) for case, _ in results] + [text_section(*other) for other in others] + [motion]
+    parts += [section(case, out) for case, _ in results] + [text_section(*other) for other in others] + sections
     return f"""<!doctype html>
 <html lang="en">
 <head>
@@ -119,8 +119,8 @@ def cases_text(results):
     return "\n".join(lines) + "\n"
 
 
-def figures(results, motion, commit, version):
-    """All figures, for comparisons of versions."""
+def figures(results, others, commit, version):
+    """All figures, for comparisons of versions; others: those of finished sections by name."""
     def difference(pair):
         return None if pair is None else {"mean_db": float(pair[0]), "rms_db": float(pair[1])}
 
@@ -132,4 +132,4 @@ def figures(results, motion, commit, version):
                           "po_and_diffraction": difference(cut.differences.get("po+diffraction")), "physical_optics": difference(cut.differences.get("po")), "rays": difference(cut.differences.get("rays")), "measured": difference(cut.differences.get("measured")),
                           "correlation": None if correlation is None else float(correlation),
                           "change_db": {kind: None if kind not in cut.changes else round(cut.changes[kind], 4) for kind in ("patches", "bounces", "flat", "rays")}, "goal": case.goal})
-    return json.dumps({"version": version, "commit": commit, "cases": cases, "motion": motion}, indent=2) + "\n"
+    return json.dumps({"version": version, "commit": commit, "cases": cases, **others}, indent=2) + "\n"
