@@ -48,7 +48,7 @@ TEST_F(SeaAloneCommands, CheckMapEchoAndSeaWorkAndNameIt) {
   EXPECT_THAT(checked.err, Not(HasSubstr("warning")));
   const ProgramResult map = completed(with_settings({"map", kSeaScenario, "-o", out("map.svg")}, {"radar.pulses=256"}));
   EXPECT_THAT(map.out, Not(HasSubstr("SCR")));
-  EXPECT_HAS(read_file(out("map.svg")), "sea alone, azimuth 0 deg, Hs 2 m");
+  EXPECT_HAS(read_file(out("map.svg")), "sea alone, azimuth 0 deg, Hs 2.2 m");
   EXPECT_THAT(read_file(out("map.svg")), Not(HasSubstr("whole map:")));
   EXPECT_HAS(completed(with_settings({"echo", kSeaScenario, "-o", out("echo.npz")}, {"radar.pulses=64"})).out,
              "64 pulses of");
@@ -58,7 +58,7 @@ TEST_F(SeaAloneCommands, CheckMapEchoAndSeaWorkAndNameIt) {
 }
 
 TEST_F(SeaAloneCommands, ThoseThatNeedATargetSayForWhat) {
-  const std::string place = kSeaScenario + ":26:10: targets: the sea alone: ";
+  const std::string place = kSeaScenario + ":27:10: targets: the sea alone: ";
   expect_refused({"motion", kSeaScenario, "-o", out("motion.csv")},
                  "targets: {} is the sea alone: a motion needs a target with a mesh");
   for (const char* product : {"isar", "hrrp"})
