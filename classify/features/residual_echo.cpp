@@ -252,7 +252,7 @@ constexpr double kQuantile = 0.3;
 // standard normal deviates z. To 80 %, seven of 100 maps of shape 0.5 contain a false centre instead of one; to 95 %,
 // ships lose 1.1 times as many centres 20 dB above clutter, without the swath's level three times near broadside.
 constexpr double kExtrapolation = (1.2816 + 0.5244) / (1.2816 - 0.5244);
-// Texture shape of sea clutter at a resolution of metres (the default of `clutter.texture_shape`).
+// Texture shape of sea clutter at a resolution of metres (the default of `texture: independent`).
 constexpr double kTextureShape = 2;
 
 struct Cell {

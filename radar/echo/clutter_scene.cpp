@@ -109,7 +109,7 @@ double texture_length_m(const ClutterScene& scene) {
 
 TextureParameters texture_parameters(const ClutterSpec& spec, const ClutterScene& scene, double frequency_hz,
                                      double range_cell_m) {
-  // The three numbers of texture: waves are fitted to measured clutter (README.md, table). Five range cells: long
+  // 8 m, 1 s and 0.12 m/s are fitted to measured clutter (README.md, "Bound to the waves"). Five range cells: long
   // compared with the main lobe, so that the texture is constant over a map cell and its intensity has <I^2>/<I>^2 = 2
   // (1 + 1/shape) to about 2 %.
   const bool by_waves = texture_is_by_waves(spec);

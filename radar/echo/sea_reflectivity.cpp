@@ -24,8 +24,8 @@ double nrl_db(const SeaIllumination& sea, bool hh) {
          c[3] * std::pow(1 + state, 1 / (2 + 0.085 * alpha + 0.033 * state)) + c[4] * alpha * alpha;
 }
 
-// Wind of a fully developed sea of this state, m/s, and mean height of its waves, m (Horst et al., U = 8.67 h^0.4).
 double git_db(const SeaIllumination& sea, bool hh) {
+  // Wind of a fully developed sea of this state, m/s, and mean height of its waves, m (Horst et al., U = 8.67 h^0.4).
   const double wind = 3.16 * std::pow(sea.sea_state, 0.8), height = std::pow(wind / 8.67, 2.5);
   const double alpha = sea.grazing_rad, lambda = kSpeedOfLight / sea.frequency_hz, ghz = 1e-9 * sea.frequency_hz;
   const double roughness = std::pow((14.4 * lambda + 5.5) * alpha * height / lambda, 4);

@@ -90,8 +90,8 @@ struct BodyOverWaves {
 class OneWayAmplitudes {
  public:
   // Fields are computed at times at most kNodeInterval_s apart and at frequencies at most kNodeInterval_hz apart, and
-  // interpolated by cubic polynomials. sea.waves() must not be null. Equal
-  // bits for any number of threads. Throws Interrupted when *stop becomes true.
+  // interpolated by cubic polynomials. sea.waves() must not be null. Equal bits for any number of threads. Throws
+  // Interrupted when *stop becomes true.
   OneWayAmplitudes(const SeaReflection& sea, const BodyOverWaves& body, const IntervalSampling& sampling,
                    const Vec3& r_hat, int threads = 1, const StopFlag* stop = nullptr);
   static constexpr double kNodeInterval_s = 0.025;
