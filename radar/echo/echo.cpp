@@ -100,6 +100,14 @@ double thermal_noise_m2(const PulseTrain& train, const RadarSpec& radar) {
   return static_cast<double>(train.frequencies()) * density / energy_per_m2;
 }
 
+void require_power(const FrequencyResponse& target) {
+  const double power = mean_power(target.values);
+  if (power > 0 && std::isfinite(power)) return;
+  throw InputError(fmt::format(
+      "the target's echo has no power (mean {} m^2): nothing faces the radar, or the polarisation is not returned",
+      power));
+}
+
 Echo synthesise_echo(const PulseTrain& train, const FrequencyResponse& response, const ClutterSpec& clutter,
                      std::uint64_t seed, std::uint64_t index, const ClutterScene& scene) {
   const std::size_t frequencies = train.frequencies();
@@ -113,11 +121,8 @@ Echo synthesise_echo(const PulseTrain& train, const FrequencyResponse& response,
   for (std::size_t i = 0; i < echo.target.size(); ++i)
     echo.target[i] = train.chirp_spectrum[i % frequencies] * response.values[i];
   const double target_power = mean_power(echo.target);
-  if (!(target_power > 0) || !std::isfinite(target_power)) {
-    throw InputError(fmt::format(
-        "the target's echo has no power (mean {} m^2): nothing faces the radar, or the polarisation is not returned",
-        target_power));
-  }
+  if ((clutter.enabled && clutter.level == ClutterLevel::kScr) || clutter.noise_level == NoiseLevel::kSnr)
+    require_power(response);
 
   add_own_motion(echo.target, train, scene);
   if (clutter.enabled) {

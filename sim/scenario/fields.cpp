@@ -324,6 +324,9 @@ void visit(MotionSpec& spec, FieldVisitor& v) {
            "Natural heave period of a float; 0: from its size.");
   v.number("heave_damping", spec.heave_damping, within(0, 2),
            "Ratio of a float's heave damping to critical; 0: from its size.");
+  v.number("effective_slope", spec.effective_slope, within(0, 1),
+           "Effective wave slope coefficient of a float: tilt over the slope of long waves; below 1 where a mooring or "
+           "a weight on a line holds it upright.");
   v.number("metacentric_height_m", spec.metacentric_height_m, within(0.01, 20),
            "Transverse metacentric height of a ship.");
   v.number("roll_gyradius_m", spec.roll_gyradius_m, within(0, 100),

@@ -42,6 +42,7 @@ struct MotionSpec {
   double draught_m = 0;
   double heave_period_s = 0;
   double heave_damping = 0;
+  double effective_slope = 1;
   double metacentric_height_m = 1.95;
   double roll_gyradius_m = 0;
   double pitch_gyradius_m = 0;

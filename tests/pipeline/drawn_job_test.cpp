@@ -195,6 +195,7 @@ const std::vector<DrawnKey>& drawn_job_keys() {
       {"targets.NAME.motion.draught_m", "uniform(0.8, 1.2)"},
       {"targets.NAME.motion.heave_period_s", "uniform(1, 2)", "corner", {free}},
       {"targets.NAME.motion.heave_damping", "uniform(0.1, 0.3)", "corner", {free}},
+      {"targets.NAME.motion.effective_slope", "uniform(0.7, 1)", "corner"},
       {"targets.NAME.motion.metacentric_height_m", "uniform(0.5, 1.5)"},
       {"targets.NAME.motion.roll_gyradius_m", "uniform(1.3, 1.8)"},
       {"targets.NAME.motion.pitch_gyradius_m", "uniform(5, 7)"},

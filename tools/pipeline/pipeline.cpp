@@ -208,15 +208,8 @@ Echo Pipeline::echo(std::size_t sample, const PulseTrain& train, const IntervalR
                     const ClutterSpec& clutter) const {
   const SampleAddress at = plan_.address(sample);
   const std::shared_ptr<const Scene> moving = scene(at.sea_state, at.realisation);
-  if (is_sea_alone(scenario_)) {
-    // Absolute levels do not depend on the target: they are those beside a point, which is then removed.
-    FrequencyResponse point = response.response;
-    std::ranges::fill(point.values, Complex(1));
-    Echo echo = synthesise_echo(train, point, clutter, scenario_.seed, sample, clutter_scene(at, *moving));
-    std::ranges::fill(echo.target, Complex());
-    return echo;
-  }
   try {
+    if (!is_sea_alone(scenario_)) require_power(response.response);
     return synthesise_echo(train, response.response, clutter, scenario_.seed, sample, clutter_scene(at, *moving));
   } catch (const InputError& error) {
     const TargetSpec& target = scenario_.targets[static_cast<std::size_t>(at.target)];

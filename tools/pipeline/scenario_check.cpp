@@ -491,13 +491,14 @@ std::string clutter_line(const Pipeline& pipeline) {
     } else {
       const double sigma0_db = sea_reflectivity_db(spec, scene, train.band_centre_hz());
       const double extent_m = train.unambiguous_range_m(),
-                   area_m2 = clutter_patch_area_m2(scenario.radar, view.elevation_rad, extent_m);
+                   area_m2 = clutter_patch_area_m2(scenario.radar, view.elevation_rad, extent_m),
+                   power_m2 = std::pow(10, sigma0_db / 10) * area_m2 / (4 * kPi) * mean_power(train.chirp_spectrum);
       text = fmt::format(
           "sigma0 {:.2f} dB ({}, {}, elevation {:g} deg, Douglas sea state {:.2f}) on {:.4g} m x {:.4g} m: mean |Y|^2 "
           "{:.4g} m^2",
           sigma0_db, kClutterLevels[static_cast<std::size_t>(spec.level)],
           kPolarisationNames[static_cast<std::size_t>(scenario.radar.polarisation)], view.elevation_deg,
-          sea_state_of(spec, scene), extent_m, area_m2 / extent_m, std::pow(10, sigma0_db / 10) * area_m2 / (4 * kPi));
+          sea_state_of(spec, scene), extent_m, area_m2 / extent_m, power_m2);
     }
     const bool is_under_way =
         std::ranges::any_of(scenario.targets, [](const TargetSpec& target) { return target.motion.speed_mps != 0; });

@@ -14,8 +14,8 @@ S175 = {"sections": "tests/reference/ship_motion/s175_sections.csv", "metacentri
 
 KCS_ABOUT = """The container ship KCS from its published coefficients against two models of the Tokyo 2015 workshop at Fr 0.26 (<code>tests/reference/ship_motion/kcs</code>), measured to about 5 %: heave over wave amplitude, pitch over wave slope, roll. Heading 0 is a head sea."""
 KCS_LIMITS = """Strip theory has no flow along the hull: in head and bow seas waves no longer than the ship pitch it too much. Roll of less than a degree depends on how the model is held in sway and yaw."""
-BUOY_ABOUT = """Tilt over wave slope of two moored buoys of 6 m in the ocean (<code>tests/reference/ship_motion/doe_buoy</code>), by band. Natural period, damping and draught of the float are fitted to the first half of a record of 30 minutes ({fits}); the second half and the whole of z06 are computed with them. Error bars: standard error of the record."""
-BUOY_LIMITS = """In swell (below 0.17 Hz) z05 rolls by 0.8 of the slope, as its accelerometers confirm, by a force that the float lacks, presumably of the mooring."""
+BUOY_ABOUT = """Tilt over wave slope of two moored buoys of 6 m in the ocean (<code>tests/reference/ship_motion/doe_buoy</code>), by band. Natural period of roll, damping and effective slope coefficient of the float are fitted to the first half of a record of 30 minutes ({fits}); pitch has three quarters of the period of roll; the second half and the whole of z06 are computed with them. Error bars: standard error of the record."""
+BUOY_LIMITS = """In swell (below 0.13 Hz) z05 tilts by 0.8 of the slope, as its accelerometers confirm, presumably by its mooring, and its roll lags by 20 to 30 deg: the coefficient has the ratio, not the lag. In the low swell of z06 (0.10 to 0.13 Hz, 0.3 deg) the halves of the record differ by a quarter."""
 
 
 def printed_rows():
@@ -76,7 +76,7 @@ def compare(out):
     s175 = out / "s175.png"
     settings = [word for key, value in S175.items() for word in ("--set", f"targets.ship.motion.{key}={value}")]
     seaglint("motion", "scenarios/quick.yaml", *settings, "--set", "sea.propagation_deg=120", "--duration-s", 10, "--rao", s175, "--rao-reference", "tests/reference/ship_motion/s175_veres.re1", "-o", out / "s175.csv")
-    fits = "; ".join(f"{name}: {float(period):g} s, {float(damping):g}, {float(draught):g} m" for name, period, damping, draught in rows["fit"])
+    fits = "; ".join(f"{name}: {float(period):g} s, {float(damping):g}, {float(slope):g}" for name, period, damping, slope in rows["fit"])
     kcs = [cells(row, row[0]) for row in rows["kcs"]]
     buoys = [[row[0], row[1], f"{row[2]}-{row[3]}", row[4], row[5], row[6], f"{float(row[6]) / float(row[4]) - 1:+.0%}"] for row in rows["buoy"] if row[1] != "first"]
     section = f"""<section id="motion"><h2>Motion beside measurements</h2>

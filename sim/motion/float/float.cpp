@@ -78,6 +78,7 @@ FloatParticulars float_particulars(const MotionSpec& spec, const Bounds& bounds)
     throw InputError("motion.diameter_m: the mesh has no width to derive a float's diameter from; write it down");
   }
   body.draught = spec.draught_m;
+  body.effective_slope = spec.effective_slope;
   const double scale = std::sqrt(body.diameter);
   const auto tilt = [&](double period, double damping) {
     return Oscillator{2 * kPi / given_or(period, kTiltPeriod * scale), given_or(damping, kTiltDamping), 0};
@@ -167,10 +168,12 @@ class Equations {
   Equations(const FloatParticulars& body, bool moving) : body_(body), moving_(moving) {}
 
   // Tilt: two oscillators about the yawed axes of the float, forced by the slope there (roll = +d eta/dy, pitch = -d
-  // eta/dx). Heave: stiffness and damping act on the motion relative to the water, z'' + 2 z w0 (z'
+  // eta/dx) times the effective slope coefficient r: of the righting moment w0^2 (x - r s) the part r is that of the
+  // water, normal to its surface, the part 1 - r that of a mooring, towards the vertical. Heave: stiffness and damping
+  // act on the motion relative to the water, z'' + 2 z w0 (z'
   // - w) + w0^2 (z - eta) = 0. Surge and sway: velocity of the water at the float, with the mooring term.
   FloatState derivative(const FloatState& s, const SurfaceState& water, double yaw) const {
-    const Vec2 slope = rotated(soft_limited_slope({water.slope_x, water.slope_y}), -yaw);
+    const Vec2 slope = body_.effective_slope * rotated(soft_limited_slope({water.slope_x, water.slope_y}), -yaw);
     const Vec2 target(slope.y(), -slope.x());
     const Vec2 tilt = rotated(s.tilt, -yaw);
     const Vec2 rate = rotated(s.tilt_rate, -yaw);

@@ -38,6 +38,7 @@ class RandomYaw {
 struct FloatParticulars {
   double diameter = 1;  // of the waterplane, m
   double draught = 0;   // m, 0 = shallow
+  double effective_slope = 1;
   Oscillator roll, pitch, heave;
 };
 

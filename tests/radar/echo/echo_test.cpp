@@ -59,11 +59,22 @@ TEST(Echo, HasThePerPulseRatioExactly) {
   }
 }
 
-TEST(Echo, OfNoTargetIsRefused) {
+TEST(Echo, OfNoTargetIsRefusedWhereALevelIsRelativeToIt) {
   const PulseTrain train = make_pulse_train({}, kShipWindow, 1, 2);
   FrequencyResponse nothing = one_point(train);
   for (Complex& value : nothing.values) value = 0;
-  EXPECT_THROW(synthesise_echo(train, nothing, {}, 1, 1), InputError);
+  ClutterSpec spec;
+  EXPECT_THROW(synthesise_echo(train, nothing, spec, 1, 1), InputError);
+  spec.level = ClutterLevel::kNrl;
+  ClutterScene scene;
+  scene.r_hat = Vec3(std::cos(0.03), 0, std::sin(0.03));
+  scene.significant_wave_height_m = 1;
+  const Echo echo = synthesise_echo(train, nothing, spec, 1, 1, scene);
+  EXPECT_EQ(mean_power(echo.target), 0);
+  EXPECT_GT(mean_power(echo.clutter), 0);
+  EXPECT_EQ(echo.clutter, synthesise_echo(train, one_point(train), spec, 1, 1, scene).clutter);
+  spec.noise_level = NoiseLevel::kSnr;
+  EXPECT_THROW(synthesise_echo(train, nothing, spec, 1, 1), InputError);
 }
 
 TEST(Echo, RepeatsForOneKeyAndDiffersForAnother) {

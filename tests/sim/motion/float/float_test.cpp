@@ -95,10 +95,12 @@ TEST(SimulateFloat, FollowsTheSlopeOfLongWaves) {
 TEST(SimulateFloat, HasTheOscillatorsResponseToARegularWave) {
   const double omega = 4, amplitude = 0.01;
   const WaveField sea = regular_wave(amplitude, omega, {0, 1});
-  const FloatParticulars body = float_particulars(float_spec(), kReflector);
+  MotionSpec spec = float_spec();
+  spec.effective_slope = 0.8;
+  const FloatParticulars body = float_particulars(spec, kReflector);
   const double k = omega * omega / kGravity;
-  const std::vector<MotionSample> samples = simulate_float(body, float_spec(), sea, 0, 0, 20, 1, 0);
-  const Complex rao = body.roll.omega0 * body.roll.omega0 * linear_response(body.roll, omega) * Complex(0, -k) *
+  const std::vector<MotionSample> samples = simulate_float(body, spec, sea, 0, 0, 20, 1, 0);
+  const Complex rao = 0.8 * body.roll.omega0 * body.roll.omega0 * linear_response(body.roll, omega) * Complex(0, -k) *
                       disc_slope_filter(k, 0.5);
   for (std::size_t n = 0; n < samples.size(); n += 11) {
     const Complex expected = rao * std::polar(amplitude, omega * 0.02 * static_cast<double>(n) + 0.4);
