@@ -34,6 +34,10 @@ double stokes_drift(const WaveComponent& wave, double depth) {
   return wave.amplitude * wave.amplitude * wave.omega * wave.wavenumber * (1 + coth * coth) / 2;
 }
 
+double beam_deviation_rad(const RadarSpec& radar) {
+  return radians(radar.link_budget.beamwidth_deg) / (4 * std::sqrt(std::log(2.0)));
+}
+
 }  // namespace
 
 VelocityMoments clutter_velocity_moments(const ClutterSpec& spec, const ClutterScene& scene, double wavelength_m) {
@@ -66,8 +70,12 @@ double platform_doppler_spread_mps(const ClutterScene& scene) {
   return level > 0 ? std::abs(velocity.dot(sideways)) / level * beam_deviation_rad(scene.radar) : 0;
 }
 
-double beam_deviation_rad(const RadarSpec& radar) {
-  return radians(radar.link_budget.beamwidth_deg) / (4 * std::sqrt(std::log(2.0)));
+double beam_deviation_m(const RadarSpec& radar) { return radar.range_km * 1e3 * beam_deviation_rad(radar); }
+
+double upwind_cosine(const ClutterScene& scene) {
+  return Vec2(scene.r_hat.x(), scene.r_hat.y())
+      .normalized()
+      .dot(Vec2(std::cos(scene.waves_towards_rad), std::sin(scene.waves_towards_rad)));
 }
 
 double clutter_patch_area_m2(const RadarSpec& radar, double grazing_rad, double range_extent_m) {
@@ -79,22 +87,13 @@ double developed_wind_mps(double significant_wave_height_m) {
   return std::sqrt(kGravity * significant_wave_height_m / kFullyDeveloped);
 }
 
-namespace {
-
-// Cosine of the angle between the horizontal line of sight and the direction of the waves.
-double cosine_to_waves(const ClutterScene& scene) {
-  return std::cos(std::atan2(scene.r_hat.y(), scene.r_hat.x()) - scene.waves_towards_rad);
-}
-
-}  // namespace
-
 FittedFigure k_shape(const ClutterScene& scene, double frequency_hz, double range_cell_m) {
   const Polarisation polarisation = scene.radar.polarisation;
   const bool is_vv = polarisation == Polarisation::kVv, is_co_polar = is_vv || polarisation == Polarisation::kHh;
   const double grazing_rad = std::asin(scene.r_hat.z()), ghz = 1e-9 * frequency_hz, grazing_deg = degrees(grazing_rad);
   const double area_m2 = clutter_patch_area_m2(scene.radar, grazing_rad, range_cell_m),
                across_m = area_m2 * std::cos(grazing_rad) / range_cell_m;
-  const double cosine = cosine_to_waves(scene);
+  const double cosine = upwind_cosine(scene);
   const double logarithm = 2.0 / 3 * std::log10(std::clamp(grazing_deg, 0.1, 10.0)) + 5.0 / 8 * std::log10(area_m2) -
                            (is_vv ? 1.39 : 2.09) - (2 * cosine * cosine - 1) / 3;
   return {std::clamp(std::pow(10, logarithm), 0.1, 1000.0), is_co_polar && ghz >= 9 && ghz <= 10 &&
@@ -103,7 +102,7 @@ FittedFigure k_shape(const ClutterScene& scene, double frequency_hz, double rang
 }
 
 double texture_length_m(const ClutterScene& scene) {
-  const double wind = developed_wind_mps(scene.significant_wave_height_m), cosine = cosine_to_waves(scene);
+  const double wind = developed_wind_mps(scene.significant_wave_height_m), cosine = upwind_cosine(scene);
   return kPi / 2 * wind * wind / kGravity * std::sqrt(3 * cosine * cosine + 1);
 }
 

@@ -43,9 +43,12 @@ VelocityMoments clutter_velocity_moments(const ClutterSpec& spec, const ClutterS
 // Gaussian beam, width / (4 sqrt(ln 2)).
 double platform_doppler_spread_mps(const ClutterScene& scene);
 
-// Standard deviation of the two-way gain over azimuth, rad: e^{-8 ln2 phi^2 / width^2} is a normal density of deviation
-// width / (4 sqrt(ln 2)).
-double beam_deviation_rad(const RadarSpec& radar);
+// Standard deviation of the two-way gain across the beam at the range of the target, m: e^{-8 ln2 phi^2 / width^2} is a
+// normal density over azimuth of deviation width / (4 sqrt(ln 2)).
+double beam_deviation_m(const RadarSpec& radar);
+
+// Cosine of the angle between the horizontal direction to the radar and that of the waves: 1, waves run towards it.
+double upwind_cosine(const ClutterScene& scene);
 
 // Area of the clutter patch within range_extent_m of slant range, m^2: range_extent_m r theta_e / cos(grazing), theta_e
 // the two-way width of a Gaussian antenna beam, sqrt(pi / (8 ln 2)) of its one-way half-power width.
@@ -63,8 +66,8 @@ struct FittedFigure {
 // Shape of the K distribution of measured clutter, Ward, Tough and Watts, "Sea Clutter", 2nd ed. 2013, section 2.9:
 // log10 shape = 2/3 log10 grazing (deg) + 5/8 log10 A - k - cos(2 theta) / 3, A the area of a cell (m^2), k 1.39 for
 // vv, 2.09 for others, theta the angle between the line of sight and the swell, here the waves; at least 0.1, at most
-// 1000. Fitted to 9 to 10 GHz, 0.1 to 10 deg, cells of 100 to 800 m across, hh and vv; beyond, the grazing angle is
-// that of the nearest limit.
+// 1000. Fitted to 9 to 10 GHz, 0.1 to 10 deg, hh and vv, cells of 100 to 800 m across and 4.2 m in range, a length that
+// k contains (5/8 log10 4.2 = 0.39); beyond, the grazing angle is that of the nearest limit.
 FittedFigure k_shape(const ClutterScene& scene, double frequency_hz, double range_cell_m);
 
 // Distance in range over which the correlation of the texture of measured clutter falls to 1/e, m: (pi/2) (U^2 / g)

@@ -108,13 +108,11 @@ double sea_state_of(const ClutterSpec& clutter, const ClutterScene& scene) {
 }
 
 double sea_reflectivity_db(const ClutterSpec& clutter, const ClutterScene& scene, double frequency_hz) {
-  const Vec2 to_radar = Vec2(scene.r_hat.x(), scene.r_hat.y()).normalized(),
-             waves(std::cos(scene.waves_towards_rad), std::sin(scene.waves_towards_rad));
   return sea_reflectivity_db(clutter.level, {.polarisation = scene.radar.polarisation,
                                              .grazing_rad = std::asin(scene.r_hat.z()),
                                              .frequency_hz = frequency_hz,
                                              .sea_state = sea_state_of(clutter, scene),
-                                             .upwind_cosine = to_radar.dot(waves)});
+                                             .upwind_cosine = upwind_cosine(scene)});
 }
 
 double douglas_sea_state(double significant_wave_height_m) {

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
+#include <optional>
 #include <span>
 
 #include "radar/echo/speckle.h"
@@ -50,20 +52,26 @@ std::vector<double> ring_field(int cells, double correlation_cells, double corre
   return field;
 }
 
-int place_of(int k, int count) { return k < (count + 1) / 2 ? k : k - count; }
+int scatterers_per_cell(const ClutterSpec& spec, double range_cell_m) {
+  return texture_is_by_waves(spec) ? std::max(2, static_cast<int>(std::ceil(range_cell_m))) : 2;
+}
+
+int signed_index(int k, int count) { return k < (count + 1) / 2 ? k : k - count; }
 
 namespace {
 
-constexpr double kLongWaves_rad_s = 2.5;  // waves that modulate: longer than 10 m, as scatterers' patches are shorter
-constexpr double kTiltExponent = 2.6;     // sigma0 ~ sin^p(grazing), vv of nrl_db
-const double kLead_rad = radians(25);     // power before elevation
-constexpr double kBoundPart = 0.81;       // of the variance of the normal score of power that waves can explain
-constexpr double kBreakingSlope = 0.06;   // rms slope of waves that break everywhere
-constexpr double kWidthOfPower = 0.85;    // correlation of the logarithm of width with the normal score of power
+constexpr double kLongWaves_rad_s = 2.5;
+constexpr double kTiltExponent = 2.6;
+const double kLead_rad = radians(25);
+constexpr double kMostByWaves = 0.81;     // of the variance of g
+constexpr double kFullModulation = 0.06;  // rms slope of the long waves from which b is 1
+constexpr double kWidthOfPower = 0.85;    // correlation of the logarithm of width with g
 constexpr double kExcess = 2;             // of velocity over that of width, vv
 constexpr double kSpikePart = 0.3;        // of the variance of n, polarisations other than vv
 constexpr double kSpikeTime_s = 0.2;
 constexpr double kLongestStep_s = 0.1;
+constexpr double kStepOfCorrelation = 0.3;  // linear between nodes: 0.2 dB of mean power at shape 0.15
+constexpr double kSteady = 0.2;             // of the correlation time: the texture's correlation is 0.98
 
 // Second derivative of log gamma, by its recurrence and asymptotic series (Abramowitz and Stegun 6.4.12); error 1e-9.
 double trigamma(double x) {
@@ -73,9 +81,9 @@ double trigamma(double x) {
   return sum + 1 / x + y / 2 + y / x * (1.0 / 6 - y * (1.0 / 30 - y * (1.0 / 42 - y / 30)));
 }
 
-// Horizontal directions of a line of sight.
-struct LineOfSight {
-  explicit LineOfSight(const ClutterScene& scene)
+// Horizontal unit vectors away from the radar and across the line of sight.
+struct GroundAxes {
+  explicit GroundAxes(const ClutterScene& scene)
       : cos_grazing(std::hypot(scene.r_hat.x(), scene.r_hat.y())),
         away(-Vec2(scene.r_hat.x(), scene.r_hat.y()) / cos_grazing),
         across(-away.y(), away.x()) {}
@@ -83,35 +91,55 @@ struct LineOfSight {
   Vec2 away, across;
 };
 
-// The long waves of a scene, linear.
-WaveField long_waves(const WaveField& waves) {
-  std::vector<WaveComponent> components;
-  for (const WaveComponent& wave : waves.components())
-    if (wave.omega < kLongWaves_rad_s) components.push_back(wave);
-  return {components, 1, 0, waves.depth()};
-}
-
-// Elevation and facing slope of the waves in units of their deviations, as one Gaussian field of variance 1.
-struct NormalisedWaves {
-  NormalisedWaves(const WaveField& all, const LineOfSight& sight) : waves(long_waves(all)), away(sight.away) {
-    double elevation_2 = 0, slope_2 = 0;
-    for (const WaveComponent& wave : waves.components()) {
-      const double slope = wave.wavenumber * wave.direction.dot(away);
-      elevation_2 += wave.amplitude * wave.amplitude / 2;
-      slope_2 += wave.amplitude * wave.amplitude / 2 * slope * slope;
+// The waves that modulate, linear: elevation and facing slope in units of their deviations, as one Gaussian field of
+// variance 1.
+class LongWaves {
+ public:
+  explicit LongWaves(const ClutterScene& scene) : axes_(scene), waves_(long_waves(*scene.waves)) {
+    double elevation_2 = 0;
+    for (const WaveComponent& wave : waves_.components()) {
+      const double variance = wave.amplitude * wave.amplitude / 2,
+                   along = wave.wavenumber * wave.direction.dot(axes_.away);
+      elevation_2 += variance;
+      facing_slope_2_ += variance * along * along;
+      slope_2_ += variance * wave.wavenumber * wave.wavenumber;
     }
-    slope_deviation = std::sqrt(slope_2);
-    if (!(slope_deviation > 0)) return;
-    of_elevation = std::cos(kLead_rad) / std::sqrt(elevation_2);
-    of_slope = std::sin(kLead_rad) / slope_deviation;
+    if (!(facing_slope_2_ > 0)) return;
+    of_elevation_ = std::cos(kLead_rad) / std::sqrt(elevation_2);
+    of_slope_ = std::sin(kLead_rad) / std::sqrt(facing_slope_2_);
   }
-  double at(const Vec2& place, double time_s) const {
-    const SurfaceState state = waves.surface(place.x(), place.y(), time_s, SurfaceQuantities::kElevationAndSlope);
-    return of_elevation * state.elevation + of_slope * away.dot(Vec2(state.slope_x, state.slope_y));
+  double facing_slope() const { return std::sqrt(facing_slope_2_); }  // rms, along the line of sight
+  double slope() const { return std::sqrt(slope_2_); }                // rms, both components
+
+  double at(const Vec2& position, double time_s) const {
+    const SurfaceState state =
+        waves_.surface(position.x(), position.y(), time_s, SurfaceQuantities::kElevationAndSlope);
+    return of_elevation_ * state.elevation + of_slope_ * axes_.away.dot(Vec2(state.slope_x, state.slope_y));
   }
-  WaveField waves;
-  Vec2 away;
-  double slope_deviation = 0, of_elevation = 0, of_slope = 0;
+  // E cos(k . d) of two positions along_m of slant range apart, each at a normal distance across of deviation across_m.
+  double correlation(double along_m, double across_m) const {
+    double sum = 0;
+    for (const WaveComponent& wave : waves_.components()) {
+      const double along = wave.wavenumber * wave.direction.dot(axes_.away),
+                   sideways = wave.wavenumber * wave.direction.dot(axes_.across) * across_m;
+      const double elevation = of_elevation_ * wave.amplitude, slope = of_slope_ * wave.amplitude * along;
+      sum += 0.5 * (elevation * elevation + slope * slope) * std::cos(along * along_m / axes_.cos_grazing) *
+             std::exp(-sideways * sideways);
+    }
+    return sum;
+  }
+
+ private:
+  static WaveField long_waves(const WaveField& waves) {
+    std::vector<WaveComponent> components;
+    for (const WaveComponent& wave : waves.components())
+      if (wave.omega < kLongWaves_rad_s) components.push_back(wave);
+    return {components, 1, 0, waves.depth()};
+  }
+
+  GroundAxes axes_;
+  WaveField waves_;
+  double facing_slope_2_ = 0, slope_2_ = 0, of_elevation_ = 0, of_slope_ = 0;
 };
 
 // Squared Hermite coefficients of the gamma texture of a shape: two textures whose normal scores have correlation c
@@ -126,7 +154,8 @@ HermiteSquares hermite_squares(double shape) {
     double before = 0, polynomial = 1;  // He_k / sqrt(k!)
     for (std::size_t k = 0; k < a.size(); ++k) {
       a[k] += weight * polynomial;
-      const double next = (x * polynomial - std::sqrt(static_cast<double>(k)) * before) / std::sqrt(k + 1.0);
+      const double next =
+          (x * polynomial - std::sqrt(static_cast<double>(k)) * before) / std::sqrt(static_cast<double>(k) + 1);
       before = polynomial;
       polynomial = next;
     }
@@ -169,75 +198,74 @@ std::vector<double> pair_weights(int scatterers_per_cell) {
   return pairs;
 }
 
-double rho_2(double tilt_log_deviation, double shape) {
-  return std::min(kBoundPart, tilt_log_deviation * tilt_log_deviation / trigamma(shape));
+double wave_part(double tilt_log_deviation, double shape) {
+  return std::min(kMostByWaves, tilt_log_deviation * tilt_log_deviation / trigamma(shape));
+}
+
+// t of a surface with this rms slope along the line of sight.
+double tilt_log_deviation(double rms_slope, double tan_grazing) {
+  if (!(rms_slope > 0)) return 0;
+  const double x = tan_grazing / rms_slope;
+  const double facing =
+      tan_grazing * 0.5 * std::erfc(-x / std::sqrt(2.0)) + rms_slope * std::exp(-x * x / 2) / std::sqrt(2 * kPi);
+  return kTiltExponent * rms_slope / facing;
+}
+
+// Variance of the power of a cell over its mean squared, for scatterers of a shape of the table. of_waves, apart:
+// correlations of pairs of scatterers 0, 1, .. steps apart in range.
+double cell_variance(int i, double tilt, const std::vector<double>& pairs, const std::vector<double>& of_waves,
+                     const std::vector<double>& apart) {
+  const HermiteSquares& squares = hermite_table()[i];
+  const double part = wave_part(tilt, shape_of(i));
+  double sum = pairs[0] / shape_of(i);
+  for (std::size_t step = 1; step < pairs.size(); ++step) {
+    const double correlation = part * of_waves[step] + (1 - part) * apart[step];
+    double power = 1, covariance = 0;
+    for (const double square : squares) covariance += square * (power *= correlation);
+    sum += pairs[step] * covariance;
+  }
+  return sum;
+}
+
+WaveModulation modulation_of(const LongWaves& waves, const TextureParameters& texture, const ClutterScene& scene,
+                             int scatterers_per_cell, double range_cell_m) {
+  WaveModulation modulation;
+  modulation.tilt_log_deviation =
+      tilt_log_deviation(waves.facing_slope(), scene.r_hat.z() / std::hypot(scene.r_hat.x(), scene.r_hat.y()));
+  modulation.width_modulation = std::min(1.0, waves.slope() / kFullModulation);
+
+  const std::vector<double> pairs = pair_weights(scatterers_per_cell);
+  std::vector<double> of_waves, apart;
+  for (std::size_t step = 0; step < pairs.size(); ++step) {
+    const double distance_m = static_cast<double>(step) * range_cell_m / scatterers_per_cell;
+    const double x = distance_m / (texture.correlation_cells * range_cell_m);
+    of_waves.push_back(waves.correlation(distance_m, beam_deviation_m(scene.radar)));
+    apart.push_back(std::exp(-x * x / 2));
+  }
+  const auto variance_of = [&](int i) {
+    return cell_variance(i, modulation.tilt_log_deviation, pairs, of_waves, apart);
+  };
+  // The variance falls from shape to shape; between two of the table their logarithms are linear.
+  const double wanted = 1 / texture.shape;
+  double above = variance_of(0), below = above;
+  int i = 0;
+  while (i + 1 < kShapes && below > wanted) {
+    above = below;
+    below = variance_of(++i);
+  }
+  const bool is_between = i > 0 && below <= wanted;
+  const double fraction = is_between ? std::log(above / wanted) / std::log(above / below) : 1;
+  modulation.shape = i == 0 ? shape_of(0) : shape_of(i - 1) * std::pow(shape_of(i) / shape_of(i - 1), fraction);
+  modulation.cell_shape = is_between ? texture.shape : 1 / below;
+  modulation.rho = std::sqrt(wave_part(modulation.tilt_log_deviation, modulation.shape));
+  return modulation;
 }
 
 }  // namespace
 
 WaveModulation wave_modulation(const TextureParameters& texture, const ClutterScene& scene, int scatterers_per_cell,
                                double range_cell_m) {
-  const LineOfSight sight(scene);
-  const NormalisedWaves waves(*scene.waves, sight);
-  WaveModulation modulation;
-  if (waves.slope_deviation > 0) {
-    const double tangent = scene.r_hat.z() / sight.cos_grazing, x = tangent / waves.slope_deviation;
-    const double illuminated = tangent * 0.5 * std::erfc(-x / std::sqrt(2.0)) +
-                               waves.slope_deviation * std::exp(-x * x / 2) / std::sqrt(2 * kPi);
-    modulation.tilt_log_deviation = kTiltExponent * waves.slope_deviation / illuminated;
-    modulation.breaking = std::min(1.0, waves.slope_deviation / kBreakingSlope);
-  }
-
-  // Correlations of pairs of scatterers 0, 1, .. steps apart in range: of the waves, E cos(k . d) over the beam with
-  // the difference of two normal places across it, and of the field apart from them.
-  const std::vector<double> pairs = pair_weights(scatterers_per_cell);
-  const double across_m = scene.radar.range_km * 1e3 * beam_deviation_rad(scene.radar);
-  std::vector<double> of_waves, apart;
-  for (std::size_t step = 0; step < pairs.size(); ++step) {
-    const double distance_m = static_cast<double>(step) * range_cell_m / scatterers_per_cell;
-    double sum = 0;
-    for (const WaveComponent& wave : waves.waves.components()) {
-      const double along = wave.wavenumber * wave.direction.dot(sight.away),
-                   sideways = wave.wavenumber * wave.direction.dot(sight.across) * across_m;
-      const double elevation = waves.of_elevation * wave.amplitude, slope = waves.of_slope * wave.amplitude * along;
-      sum += 0.5 * (elevation * elevation + slope * slope) * std::cos(along * distance_m / sight.cos_grazing) *
-             std::exp(-sideways * sideways);
-    }
-    const double x = distance_m / (texture.correlation_cells * range_cell_m);
-    of_waves.push_back(sum);
-    apart.push_back(std::exp(-x * x / 2));
-  }
-
-  // Variance of a cell's power over its mean squared for each shape of the table; the wanted one is 1 / shape.
-  const auto cell_variance = [&](int i) {
-    const HermiteSquares& squares = hermite_table()[i];
-    const double part = rho_2(modulation.tilt_log_deviation, shape_of(i));
-    double sum = pairs[0] / shape_of(i);
-    for (std::size_t step = 1; step < pairs.size(); ++step) {
-      const double correlation = part * of_waves[step] + (1 - part) * apart[step];
-      double power = 1, covariance = 0;
-      for (const double square : squares) covariance += square * (power *= correlation);
-      sum += pairs[step] * covariance;
-    }
-    return sum;
-  };
-  modulation.shape = shape_of(kShapes - 1);
-  double higher = cell_variance(0);
-  if (higher <= 1 / texture.shape) {
-    modulation.shape = shape_of(0);
-  } else {
-    for (int i = 1; i < kShapes; ++i) {
-      const double lower = cell_variance(i);
-      if (lower <= 1 / texture.shape) {
-        const double fraction = std::log(higher * texture.shape) / std::log(higher / lower);
-        modulation.shape = shape_of(i - 1) * std::pow(shape_of(i) / shape_of(i - 1), fraction);
-        break;
-      }
-      higher = lower;
-    }
-  }
-  modulation.rho = std::sqrt(rho_2(modulation.tilt_log_deviation, modulation.shape));
-  return modulation;
+  return modulation_of(LongWaves(scene), texture, scene, scatterers_per_cell, range_cell_m);
 }
 
 namespace {
@@ -251,93 +279,138 @@ Vec2 mean_at_the_surface(const WaveField& waves) {
   return mean;
 }
 
-// Places of scatterers on the water and its velocity there.
-class WaterBelow {
+// Positions of the scatterers, and the velocity of the water there.
+class ScattererPositions {
  public:
-  explicit WaterBelow(const ScattererRequest& request)
-      : request_(request), sight_(request.scene), mean_(mean_at_the_surface(*request.scene.waves)) {
+  explicit ScattererPositions(const ScattererRequest& request)
+      : request_(request), axes_(request.scene), mean_(mean_at_the_surface(*request.scene.waves)) {
     Random random({request.seed, Stream::kClutterPlace, request.index});
-    const double deviation_m = request.scene.radar.range_km * 1e3 * beam_deviation_rad(request.scene.radar);
-    for (int k = 0; k < request.count; ++k) across_m_.push_back(deviation_m * random.normal());
+    for (int k = 0; k < request.count; ++k)
+      across_m_.push_back(beam_deviation_m(request.scene.radar) * random.normal());
     drift_mps_ = request.mean_mps - request.scene.r_hat.dot(request.scene.target_velocity_mps);
   }
 
-  // Of scatterer k after time t of the interval: it drifts with the water, and re-enters the window on its other side.
-  Vec2 place(int k, double t) const {
-    const double start_m = place_of(k, request_.count) * request_.window_m / request_.count;
+  // Of scatterer k after time t of the interval.
+  Vec2 at(int k, double t) const {
+    const double start_m = signed_index(k, request_.count) * request_.window_m / request_.count;
     const double shift_m = request_.window_m * std::floor((start_m + request_.mean_mps * t) / request_.window_m + 0.5);
     const Vec2 sailed_m = request_.scene.start_s * request_.scene.target_velocity_mps.xy();
-    return sailed_m + sight_.away * ((start_m + drift_mps_ * t - shift_m) / sight_.cos_grazing) +
-           sight_.across * across_m_[k];
+    return sailed_m + axes_.away * ((start_m + drift_mps_ * t - shift_m) / axes_.cos_grazing) +
+           axes_.across * across_m_[k];
   }
-  double radial_mps(const Vec2& place, double time_s) const {
-    const Vec3 velocity = request_.scene.waves->surface(place.x(), place.y(), time_s).velocity;
+  double radial_mps(const Vec2& position, double time_s) const {
+    const Vec3 velocity = request_.scene.waves->surface(position.x(), position.y(), time_s).velocity;
     return -request_.scene.r_hat.dot(velocity - Vec3(mean_.x(), mean_.y(), 0));
   }
 
  private:
-  const ScattererRequest& request_;
-  LineOfSight sight_;
+  ScattererRequest request_;
+  GroundAxes axes_;
   Vec2 mean_;
   std::vector<double> across_m_;
   double drift_mps_ = 0;
 };
 
-SeaScatterers independent_scatterers(const ScattererRequest& request) {
-  SeaScatterers scatterers{.count = request.count, .step_s = request.duration_s};
-  const std::uint64_t seed = Random({request.seed, Stream::kTexture, request.scene.texture_key}).bits();
-  for (const double normal : ring_field(request.count, request.per_cell * request.texture.correlation_cells,
-                                        request.texture.correlation_time_s, request.scene.start_s, seed))
-    scatterers.amplitude.push_back(std::sqrt(gamma_texture(request.texture.shape, normal) / request.count));
-  if (request.spec.doppler != ClutterDoppler::kWaveResolved) return scatterers;
-  const WaterBelow water(request);
-  for (const double t : {0.0, request.duration_s})
-    for (int k = 0; k < request.count; ++k)
-      scatterers.velocity_mps.push_back(water.radial_mps(water.place(k, 0), request.scene.start_s + t));
-  return scatterers;
-}
+// Steps of equal length, at most longest_s, of an interval.
+double step_of(double duration_s, double longest_s) { return duration_s / std::ceil(duration_s / longest_s); }
 
-SeaScatterers modulated_scatterers(const ScattererRequest& request) {
-  const ClutterScene& scene = request.scene;
-  const TextureParameters& texture = request.texture;
-  const int steps = static_cast<int>(std::ceil(request.duration_s / kLongestStep_s));
-  SeaScatterers scatterers{.count = request.count, .step_s = request.duration_s / steps};
-  const LineOfSight sight(scene);
-  const WaterBelow water(request);
-  const NormalisedWaves waves(*scene.waves, sight);
-  const WaveModulation modulation =
-      wave_modulation(texture, scene, request.per_cell, request.per_cell * request.window_m / request.count);
-  const double apart = std::sqrt(1 - modulation.rho * modulation.rho), b = modulation.breaking,
-               of_power = kWidthOfPower, of_width = std::sqrt(1 - kWidthOfPower * kWidthOfPower);
-  const bool has_spikes = scene.radar.polarisation != Polarisation::kVv;
-  const double towards = Vec2(std::cos(scene.waves_towards_rad), std::sin(scene.waves_towards_rad)).dot(sight.away);
-  const double faster = (has_spikes ? 2 * kExcess : kExcess) * towards * sight.cos_grazing;
-  const double scatterer_cells = request.per_cell * texture.correlation_cells;
+class IndependentScatterers {
+ public:
+  explicit IndependentScatterers(const ScattererRequest& request)
+      : request_(request),
+        step_s_(step_of(request.duration_s, kLongestStep_s)),
+        texture_seed_(Random({request.seed, Stream::kTexture, request.scene.texture_key}).bits()) {
+    if (request.spec.doppler == ClutterDoppler::kWaveResolved) positions_.emplace(request);
+    if (is_steady()) amplitude_ = amplitude_at(0);
+  }
+  double step_s() const { return step_s_; }
+  bool is_steady() const { return request_.duration_s <= kSteady * request_.texture.correlation_time_s; }
 
-  Random seeds({request.seed, Stream::kTexture, scene.texture_key});
-  const std::uint64_t of_texture = seeds.bits(), of_speckle = seeds.bits(), of_spikes = seeds.bits();
-  for (int node = 0; node <= steps; ++node) {
-    const double t = node * scatterers.step_s, time_s = scene.start_s + t;
-    std::vector<double> n = ring_field(request.count, scatterer_cells, texture.correlation_time_s, time_s, of_texture);
-    const std::vector<double> m =
-        ring_field(request.count, scatterer_cells, texture.correlation_time_s, time_s, of_speckle);
-    if (has_spikes) {
-      const std::vector<double> spikes = ring_field(
-          request.count, scatterer_cells, std::min(kSpikeTime_s, texture.correlation_time_s), time_s, of_spikes);
-      for (int k = 0; k < request.count; ++k)
+  ScattererState at_node(int node) const {
+    const double t = node * step_s_;
+    ScattererState state{is_steady() ? amplitude_ : amplitude_at(t), {}, {}};
+    if (!positions_) return state;
+    const double drifted_s = step_s_ < request_.duration_s ? t : 0;  // within one step by centimetres
+    for (int k = 0; k < request_.count; ++k)
+      state.velocity_mps.push_back(positions_->radial_mps(positions_->at(k, drifted_s), request_.scene.start_s + t));
+    return state;
+  }
+
+ private:
+  std::vector<double> amplitude_at(double t) const {
+    std::vector<double> amplitude;
+    for (const double normal :
+         ring_field(request_.count, request_.per_cell * request_.texture.correlation_cells,
+                    request_.texture.correlation_time_s, request_.scene.start_s + t, texture_seed_))
+      amplitude.push_back(std::sqrt(gamma_texture(request_.texture.shape, normal) / request_.count));
+    return amplitude;
+  }
+
+  ScattererRequest request_;
+  double step_s_;
+  std::uint64_t texture_seed_;
+  std::optional<ScattererPositions> positions_;
+  std::vector<double> amplitude_;
+};
+
+class ModulatedScatterers {
+ public:
+  explicit ModulatedScatterers(const ScattererRequest& request)
+      : request_(request),
+        step_s_(step_of(request.duration_s,
+                        std::min(kLongestStep_s, kStepOfCorrelation * request.texture.correlation_time_s))),
+        positions_(request),
+        waves_(request.scene),
+        modulation_(modulation_of(waves_, request.texture, request.scene, request.per_cell,
+                                  request.per_cell * request.window_m / request.count)),
+        has_spikes_(request.scene.radar.polarisation != Polarisation::kVv),
+        excess_((has_spikes_ ? 2 : 1) * kExcess * -upwind_cosine(request.scene) *
+                GroundAxes(request.scene).cos_grazing) {
+    Random seeds({request.seed, Stream::kTexture, request.scene.texture_key});
+    for (std::uint64_t* seed : {&power_seed_, &width_seed_, &spike_seed_}) *seed = seeds.bits();
+  }
+  double step_s() const { return step_s_; }
+
+  ScattererState at_node(int node) const {
+    const double t = node * step_s_, time_s = request_.scene.start_s + t, b = modulation_.width_modulation;
+    const double apart = std::sqrt(1 - modulation_.rho * modulation_.rho),
+                 of_width = std::sqrt(1 - kWidthOfPower * kWidthOfPower);
+    const double correlation_time_s = request_.texture.correlation_time_s;
+    std::vector<double> n = field(correlation_time_s, time_s, power_seed_);
+    const std::vector<double> m = field(correlation_time_s, time_s, width_seed_);
+    if (has_spikes_) {
+      const std::vector<double> spikes = field(std::min(kSpikeTime_s, correlation_time_s), time_s, spike_seed_);
+      for (std::size_t k = 0; k < n.size(); ++k)
         n[k] = std::sqrt(1 - kSpikePart) * n[k] + std::sqrt(kSpikePart) * spikes[k];
     }
-    for (int k = 0; k < request.count; ++k) {
-      const Vec2 place = water.place(k, t);
-      const double g = modulation.rho * waves.at(place, time_s) + apart * n[k];
-      const double h = of_power * g + of_width * m[k], width = texture.spread_mps * std::exp(b * h - b * b / 2);
-      scatterers.amplitude.push_back(std::sqrt(gamma_texture(modulation.shape, g) / request.count));
-      scatterers.width_mps.push_back(width);
-      scatterers.velocity_mps.push_back(water.radial_mps(place, time_s) + faster * (width - texture.spread_mps));
+    ScattererState state;
+    for (int k = 0; k < request_.count; ++k) {
+      const Vec2 position = positions_.at(k, t);
+      const double g = modulation_.rho * waves_.at(position, time_s) + apart * n[k];
+      const double h = kWidthOfPower * g + of_width * m[k];
+      const double spread = request_.texture.spread_mps, width = spread * std::exp(b * h - b * b / 2);
+      state.amplitude.push_back(std::sqrt(gamma_texture(modulation_.shape, g) / request_.count));
+      state.width_mps.push_back(width);
+      state.velocity_mps.push_back(positions_.radial_mps(position, time_s) + excess_ * (width - spread));
     }
+    return state;
   }
-  return scatterers;
-}
+
+ private:
+  std::vector<double> field(double correlation_time_s, double time_s, std::uint64_t seed) const {
+    return ring_field(request_.count, request_.per_cell * request_.texture.correlation_cells, correlation_time_s,
+                      time_s, seed);
+  }
+
+  ScattererRequest request_;
+  double step_s_;
+  ScattererPositions positions_;
+  LongWaves waves_;
+  WaveModulation modulation_;
+  bool has_spikes_;
+  double excess_;  // of velocity over that of width
+  std::uint64_t power_seed_ = 0, width_seed_ = 0, spike_seed_ = 0;
+};
 
 }  // namespace
 
@@ -346,7 +419,12 @@ SeaScatterers sea_scatterers(const ScattererRequest& request) {
   const bool by_waves = texture_is_by_waves(request.spec);
   SEAGLINT_CHECK(request.scene.waves != nullptr || (!by_waves && request.spec.doppler != ClutterDoppler::kWaveResolved),
                  "clutter on the waves needs waves");
-  return by_waves ? modulated_scatterers(request) : independent_scatterers(request);
+  if (by_waves) {
+    const auto scatterers = std::make_shared<const ModulatedScatterers>(request);
+    return {scatterers->step_s(), false, [scatterers](int node) { return scatterers->at_node(node); }};
+  }
+  const auto scatterers = std::make_shared<const IndependentScatterers>(request);
+  return {scatterers->step_s(), scatterers->is_steady(), [scatterers](int node) { return scatterers->at_node(node); }};
 }
 
 }  // namespace seaglint

@@ -54,13 +54,12 @@ void Speckle::at(double time_s, Complex* values) {
   }
 }
 
-SpeckleOfPhases::SpeckleOfPhases(int scatterers, std::uint64_t seed) {
+IndividualSpeckle::IndividualSpeckle(int scatterers, std::uint64_t seed) {
   for (int k = 0; k < scatterers; ++k)
-    processes_.push_back(
-        {.random = Random({seed, Stream::kClutter, static_cast<std::uint64_t>(k)}), .end = kFirstNode});
+    processes_.push_back({Random({seed, Stream::kClutter, static_cast<std::uint64_t>(k)}), kFirstNode, {}});
 }
 
-void SpeckleOfPhases::at(std::span<const double> phase, Complex* values) {
+void IndividualSpeckle::at(std::span<const double> phase, Complex* values) {
   // Weights e^{-(x - q d)^2} of consecutive nodes q by their ratios, e^{2 d (x - q d) - d^2}, which fall by e^{-2 d^2};
   // the sum of their squares is sqrt(pi / 2) / d to 1e-6.
   static const double kRatioOfRatios = std::exp(-2 * kNodeSpacing * kNodeSpacing),

@@ -45,9 +45,9 @@ class Speckle {
 
 // Independent processes of power 1, each with a phase u = integral of w dt (rad) of its own: between two moments of one
 // process the correlation is e^{-(u2 - u1)^2 / 2}. Stream kClutter of (seed, number of the process).
-class SpeckleOfPhases {
+class IndividualSpeckle {
  public:
-  SpeckleOfPhases(int scatterers, std::uint64_t seed);
+  IndividualSpeckle(int scatterers, std::uint64_t seed);
 
   // Values at phases u >= 0 of every process, each ascending from call to call.
   void at(std::span<const double> phase, Complex* values);

@@ -157,6 +157,11 @@ double total_wave_height(const SeaState& state) {
   return std::sqrt(wind * wind + swell * swell);
 }
 
+double main_direction_rad(const SeaState& state) {
+  return state.swell.significant_wave_height_m > state.significant_wave_height_m ? state.swell.propagation_rad
+                                                                                 : state.propagation_rad;
+}
+
 std::vector<SeaState> sea_states(const SeaSpec& spec) {
   std::vector<SeaState> states;
   const Sweep heights = spec.height_rule == WaveHeight::kFromTable && spec.table_values

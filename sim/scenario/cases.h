@@ -20,6 +20,9 @@ std::vector<SeaState> sea_states(const SeaSpec& spec);
 // Significant wave height of wind sea and swell together, m.
 double total_wave_height(const SeaState& state);
 
+// Direction of propagation of the higher of wind sea and swell, rad.
+double main_direction_rad(const SeaState& state);
+
 // Frequency where k Hs = 2, rad/s: for shorter components the second-order expansion is invalid. On flat water the
 // linear cut-off.
 double convergent_cutoff(const SeaState& state);

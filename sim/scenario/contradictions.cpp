@@ -255,8 +255,21 @@ void check_waves_between(const Scenario& scenario, const std::vector<SeaState>& 
   const SeaReflectionSpec& reflection = scenario.sea_reflection;
   if (!reflection.enabled || reflection.surface_profile != SurfaceProfileKind::kWaves) return;
   const std::string_view with = "with sea_reflection.surface_profile: waves";
+  constexpr double kHighest_deg = 10;
+  const RadarSpec& radar = scenario.radar;
   for (const double elevation : scenario.view.elevation_deg) {
-    if (elevation > 10) document.fail_at("view.elevation_deg", fmt::format("must be at most 10 {}", with));
+    if (elevation > kHighest_deg) document.fail_at("view.elevation_deg", fmt::format("must be at most 10 {}", with));
+    // Of a moving radar until the end of the interval, towards the target at the worst.
+    const auto [x, y, z] = radar.platform.velocity_mps;
+    const double duration_s = radar.pulses * radar.pri_us * 1e-6, range_m = radar.range_km * 1e3;
+    const double height_m = range_m * std::sin(radians(elevation)) + std::max(0.0, z) * duration_s,
+                 level_m = range_m * std::cos(radians(elevation)) - std::hypot(x, y) * duration_s;
+    if (height_m > level_m * std::tan(radians(kHighest_deg)) && std::hypot(x, y, z) > 0) {
+      document.fail_at("radar.platform.velocity_mps",
+                       fmt::format("the radar is above 10 deg of elevation at the end of an interval of {:.4g} s from "
+                                   "{:g} deg, not allowed {}",
+                                   duration_s, elevation, with));
+    }
   }
   if (highest_ghz(scenario.radar) > 40)
     document.fail_at("radar.carrier_ghz", fmt::format("the highest carrier with its band must be at most 40 {}", with));

@@ -14,6 +14,7 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
 #include "sim/scattering/observation/observation.h"
+#include "sim/sea/realisation.h"
 #include "sim/sea/spectrum.h"
 
 namespace seaglint {
@@ -182,7 +183,7 @@ ClutterScene Pipeline::clutter_scene(const SampleAddress& at, const Scene& scene
   return {scenario_.radar,
           direction_to_radar(view.azimuth_rad, view.elevation_rad),
           total_wave_height(scene.state),
-          scene.state.propagation_rad,
+          main_direction_rad(scene.state),
           &scene.sea,
           plan_.start_s(at),
           Vec3((*scene.targets)[static_cast<std::size_t>(at.target)].spec.motion.speed_mps, 0, 0),
@@ -231,7 +232,13 @@ ClutterScene Pipeline::nominal_clutter_scene() const {
   return {.radar = scenario_.radar,
           .r_hat = direction_to_radar(view.azimuth_rad, view.elevation_rad),
           .significant_wave_height_m = total_wave_height(highest),
-          .waves_towards_rad = highest.propagation_rad};
+          .waves_towards_rad = main_direction_rad(highest)};
+}
+
+WaveField Pipeline::nominal_waves() const {
+  const std::vector<SeaState>& states = plan_.sea_states();
+  const auto highest = std::ranges::max_element(states, {}, total_wave_height);
+  return realise_sea(*highest, scenario_.seed, sea_key(static_cast<std::size_t>(highest - states.begin()), 0));
 }
 
 PulseTrain Pipeline::nominal_train() const {

@@ -83,6 +83,7 @@ class Pipeline {
 
   // The sea in the first view in the highest waves, drawn keys at the middles of their distributions; without waves.
   ClutterScene nominal_clutter_scene() const;
+  WaveField nominal_waves() const;  // of its sea
 
   // The scene of a realisation, with all its intervals and at least this long; the most recent ones are cached.
   std::shared_ptr<const Scene> scene(int sea_state, int realisation, double at_least_s = 0) const;

@@ -19,6 +19,7 @@
 #include "classify/dataset/format/hdf5_file.h"
 #include "radar/echo/echo.h"
 #include "radar/echo/sea_reflectivity.h"
+#include "radar/echo/sea_scatterers.h"
 #include "radar/rvmap/rv_map.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
@@ -473,8 +474,6 @@ double hundredths(double value) { return std::round(100 * value) / 100 + 0.0; } 
 std::string clutter_line(const Pipeline& pipeline) {
   const Scenario& scenario = pipeline.scenario();
   const ClutterSpec& spec = scenario.clutter;
-  const std::vector<SeaState>& states = pipeline.plan().sea_states();
-  const auto highest = std::ranges::max_element(states, {}, total_wave_height);
   const View& view = pipeline.plan().views().front();
   const PulseTrain train = pipeline.nominal_train();
   ClutterScene scene = pipeline.nominal_clutter_scene();
@@ -502,23 +501,25 @@ std::string clutter_line(const Pipeline& pipeline) {
     }
     const bool is_under_way =
         std::ranges::any_of(scenario.targets, [](const TargetSpec& target) { return target.motion.speed_mps != 0; });
+    std::optional<WaveField> waves;
     VelocityMoments moments;
     if (spec.doppler != ClutterDoppler::kPrescribed) {
-      const WaveField waves =
-          realise_sea(*highest, scenario.seed, sea_key(static_cast<std::size_t>(highest - states.begin()), 0));
-      scene.waves = &waves;
+      scene.waves = &waves.emplace(pipeline.nominal_waves());
       moments = clutter_velocity_moments(spec, scene, kSpeedOfLight / train.band_centre_hz());
     }
-    const TextureParameters texture =
-        texture_parameters(spec, scene, train.band_centre_hz(), train.range_resolution_m());
-    const FittedFigure measured = k_shape(scene, train.band_centre_hz(), train.range_resolution_m());
+    const double cell_m = train.range_resolution_m();
+    const TextureParameters texture = texture_parameters(spec, scene, train.band_centre_hz(), cell_m);
+    const FittedFigure measured = k_shape(scene, train.band_centre_hz(), cell_m);
+    const double shape = texture_is_by_waves(spec)
+                             ? wave_modulation(texture, scene, scatterers_per_cell(spec, cell_m), cell_m).cell_shape
+                             : texture.shape;
     text +=
         fmt::format("; texture {}of shape {:.3g}{}; velocity {:g} m/s, spread {:g} m/s{}",
-                    texture_is_by_waves(spec) ? "bound to the waves, " : "", texture.shape,
+                    texture_is_by_waves(spec) ? "modulated by the waves, " : "", shape,
                     height_m > 0 && spec.texture_shape && measured.is_within_range
                         ? fmt::format(" (measured clutter: {:.2g} in this scene)", measured.value)
                     : texture_is_by_waves(spec) && !spec.texture_shape && !measured.is_within_range
-                        ? " (beyond the measurements of its formula)"
+                        ? " (outside the fit of its formula)"
                         : "",
                     hundredths(spec.doppler_mean_mps + moments.mean_mps),
                     hundredths(std::hypot(texture.spread_mps, platform_doppler_spread_mps(scene), moments.spread_mps)),

@@ -10,7 +10,7 @@
 #include <variant>
 
 #include "classify/dataset/directory/export.h"
-#include "radar/echo/clutter_scene.h"
+#include "radar/echo/sea_scatterers.h"
 #include "radar/rvmap/rv_map.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
@@ -20,6 +20,7 @@
 #include "sim/scattering/observation/observation.h"
 #include "sim/scenario/files/scenario_document.h"
 #include "sim/scenario/files/tables.h"
+#include "sim/scenario/keys.h"
 #include "sim/sea/realisation.h"
 
 namespace seaglint {
@@ -207,11 +208,25 @@ std::vector<std::string> sea_warnings(const Scenario& scenario, std::span<const 
 std::vector<std::string> clutter_warnings(const Pipeline& pipeline) {
   const ClutterSpec& clutter = pipeline.scenario().clutter;
   const PulseTrain train = pipeline.nominal_train();
-  const ClutterScene scene = pipeline.nominal_clutter_scene();
-  const FittedFigure shape = k_shape(scene, train.band_centre_hz(), train.range_resolution_m());
-  if (!clutter.enabled || !shape.is_within_range || !(scene.significant_wave_height_m > 0)) return {};
-  constexpr double kFar = 3;
+  ClutterScene scene = pipeline.nominal_clutter_scene();
+  if (!clutter.enabled || !(scene.significant_wave_height_m > 0)) return {};
+  const double cell_m = train.range_resolution_m();
   std::vector<std::string> lines;
+  if (texture_is_by_waves(clutter)) {
+    const WaveField waves = pipeline.nominal_waves();
+    scene.waves = &waves;
+    const TextureParameters texture = texture_parameters(clutter, scene, train.band_centre_hz(), cell_m);
+    const double shape = wave_modulation(texture, scene, scatterers_per_cell(clutter, cell_m), cell_m).cell_shape;
+    constexpr double kReached = 1.1;
+    if (shape > kReached * texture.shape)
+      lines.push_back(
+          fmt::format("clutter.texture_shape: {:.2g}{}: with texture: waves the power in a cell of {:.3g} m "
+                      "has the shape {:.2g} at least, which is taken",
+                      texture.shape, clutter.texture_shape ? "" : " by default", cell_m, shape));
+  }
+  const FittedFigure shape = k_shape(scene, train.band_centre_hz(), cell_m);
+  if (!shape.is_within_range) return lines;
+  constexpr double kFar = 3;
   const auto compare = [&](const char* key, const std::optional<double>& given, double measured) {
     if (given && (*given > kFar * measured || *given < measured / kFar))
       lines.push_back(fmt::format("clutter.{}: {:g}, where measured clutter has about {:.2g} in this scene", key,

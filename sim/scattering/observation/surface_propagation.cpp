@@ -292,23 +292,28 @@ OneWayAmplitudes::OneWayAmplitudes(const SeaReflection& sea, const BodyOverWaves
   constexpr double kToWavenumber = 2 * kPi / kSpeedOfLight;
   const ProfileSource source(sea, profile_step_m(kToWavenumber * node_hz.back()));
   const SeaReflection ripples = sea.with_rms_height(source.rms_m());
-  const auto direction_at = [&](double time_s) {
-    return line_of_sight_from(line_of_sight_at(sampling, r_hat, time_s), body.centre(time_s), body.range_m).radar.r;
+  // The interference over height z has the phase k (|x - image| - |x - radar|) = 2 k z sin(grazing), grazing the angle
+  // of the radar above the plane: half of the difference of both directions.
+  const auto sight_at = [&](double time_s) {
+    return line_of_sight_from(line_of_sight_at(sampling, r_hat, time_s), body.centre(time_s), body.range_m);
   };
+  const auto sine_of = [](const LineOfSight& sight) { return 0.5 * (sight.radar.r.z() - sight.image.r.z()); };
   // One length for the interval: the start of the profile follows the body without heaving with it.
   double length_m = 0;
   for (const double time_s : node_s)
-    length_m += profile_length_m(sea.significant_wave_height_m(), body.centre(time_s).z(), direction_at(time_s).z()) /
+    length_m += profile_length_m(sea.significant_wave_height_m(), body.centre(time_s).z() + body.half_height_m,
+                                 sine_of(sight_at(time_s))) /
                 static_cast<double>(node_s.size());
   nodes_.resize(node_s.size() * frequencies_);
   parallel_for(
       nodes_.size(), std::max(1, threads),
       [&](std::size_t node) {
         const double time_s = node_s[node / frequencies_], k = kToWavenumber * node_hz[node % frequencies_];
-        const Vec3 p = body.centre(time_s), r = direction_at(time_s);
-        const double sin_grazing = r.z(), level = std::hypot(r.x(), r.y());
+        const LineOfSight sight = sight_at(time_s);
+        const Vec3 p = body.centre(time_s), r = sight.radar.r;
+        const double sin_grazing = sine_of(sight), level = std::hypot(r.x(), r.y());
         const SeaReflectionCoefficients mean_plane = sea.at(k, sin_grazing);
-        // Two heights at most a quarter of a period of the interference apart.
+        // Two heights, each at most a quarter of a period of the interference from the centre.
         const double half_m = std::min(std::max(0.5 * body.half_height_m, kLeastFit_m), kPi / (4 * k * sin_grazing));
         const SurfaceField field(source.at(time_s, p, Vec2(r.x(), r.y()) / level, length_m), k, sin_grazing, ripples,
                                  mean_plane);

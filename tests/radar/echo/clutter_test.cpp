@@ -27,8 +27,9 @@ SeaState waves_towards(double degrees) {
 }
 
 // Velocity of the water at places in range within -window / 2 and window / 2, at the start of an interval and at its
-// end, 0.064 s later: [moment][place].
-std::vector<double> water_velocities(const ClutterScene& scene, double window_m, int count, std::uint64_t index) {
+// end, 0.064 s later.
+std::vector<double> water_velocities(const ClutterScene& scene, double window_m, int count, std::uint64_t index,
+                                     int node = 0) {
   ClutterSpec spec;
   spec.doppler = ClutterDoppler::kWaveResolved;
   spec.texture = ClutterTexture::kIndependent;
@@ -40,6 +41,7 @@ std::vector<double> water_velocities(const ClutterScene& scene, double window_m,
                          .duration_s = 0.064,
                          .seed = 1,
                          .index = index})
+      .at_node(node)
       .velocity_mps;
 }
 
@@ -133,11 +135,11 @@ TEST(ScatterersOnTheWaves, MoveWithThem) {
   ClutterScene scene = scene_of(wave);
   scene.radar.link_budget.beamwidth_deg = 0.01;
   scene.start_s = 3;
-  const std::vector<double> velocity = water_velocities(scene, 50, 2, 1);
+  const std::vector<double> velocity = water_velocities(scene, 50, 2, 1), later = water_velocities(scene, 50, 2, 1, 1);
   for (const int i : {0, 1}) {
     const double phase = omega * 3 - k * 25 * i;  // x = -range, the second is 25 m nearer
     EXPECT_NEAR(velocity[i], -omega * std::cos(phase), 1e-9);
-    EXPECT_NEAR((velocity[2 + i] - velocity[i]) / 0.064, omega * omega * std::sin(phase),
+    EXPECT_NEAR((later[i] - velocity[i]) / 0.064, omega * omega * std::sin(phase),
                 0.5 * 0.064 * std::pow(omega, 3) + 1e-9);
   }
 }
@@ -166,7 +168,7 @@ TEST(ScatterersOnTheWaves, HaveZeroMeanRelativeToTheSea) {
     constexpr int kPlaces = 4000;
     const std::vector<double> velocity = water_velocities(scene, 40000, kPlaces, moment);
     for (int i = 0; i < kPlaces; ++i) {
-      const double weight = 1 - std::cos(2 * kPi * (place_of(i, kPlaces) + kPlaces / 2 + 0.5) / kPlaces);
+      const double weight = 1 - std::cos(2 * kPi * (signed_index(i, kPlaces) + kPlaces / 2 + 0.5) / kPlaces);
       sum += weight * velocity[i];
       weights += weight;
     }

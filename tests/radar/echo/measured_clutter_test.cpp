@@ -37,6 +37,10 @@ double covariance(const std::vector<double>& x, const std::vector<double>& y, st
   return sum / static_cast<double>(x.size());
 }
 
+double mean_product(const std::vector<double>& x, const std::vector<double>& y) {
+  return covariance(x, y) + mean(x) * mean(y);
+}
+
 double correlation(const std::vector<double>& x, const std::vector<double>& y) {
   return covariance(x, y) / std::sqrt(covariance(x, x) * covariance(y, y));
 }
@@ -64,6 +68,7 @@ constexpr std::array kNames{"second moment",
                             "fourth moment over K's",
                             "power and velocity, correlation",
                             "log power and width, correlation",
+                            "velocity weighted with power (m/s)",
                             "velocity, deviation (m/s)",
                             "width, mean (m/s)",
                             "width, deviation over mean",
@@ -103,6 +108,7 @@ Statistics statistics_of(const std::vector<Complex>& samples, double wavelength)
           moment_over_k(samples, 4),
           correlation(powers, velocities),
           correlation(logs, widths),
+          mean_product(powers, velocities) / mean(powers),
           std::sqrt(covariance(velocities, velocities)),
           mean(widths),
           std::sqrt(covariance(widths, widths)) / mean(widths),
@@ -256,6 +262,8 @@ TEST(MeasuredClutter, OfALowSeaIsNot) {
   EXPECT_NEAR(mean("velocity, deviation (m/s)") / named(measured("low"), "velocity, deviation (m/s)"), 1, 0.15);
   EXPECT_NEAR(mean("width, mean (m/s)") / named(measured("low"), "width, mean (m/s)"), 1, 0.15);
   EXPECT_NEAR(mean("third moment over K's"), 1, 0.15);
+  // Measured -0.09: width varies too little apart from power.
+  EXPECT_NEAR(mean("log power and width, correlation"), -0.36, 4 * 0.04);
   const double power_velocity = mean("power and velocity, correlation");
   const double power_width = mean("log power and width, correlation");
   const double velocity_mps = mean("velocity, deviation (m/s)");
@@ -272,7 +280,7 @@ TEST(MeasuredClutter, OfALowSeaIsNot) {
   record_figure(power_1_s, 2, "clutter_low_power_1_s");
 }
 
-// A texture apart from the waves has neither their velocity nor their period. It is constant in an interval.
+// A texture independent of the waves has neither their velocity nor their period.
 TEST(MeasuredClutter, OfIndependentTextureHasNoPeriod) {
   ClutterSpec spec;
   spec.doppler = ClutterDoppler::kWaveResolved;
@@ -282,6 +290,8 @@ TEST(MeasuredClutter, OfIndependentTextureHasNoPeriod) {
   const Spread simulated = over_seeds(spec, sea_of(2.2, 6.5), 4);
   print_beside(simulated, measured("high"));
   EXPECT_NEAR(named(simulated.mean, "power and velocity, correlation"), 0, 0.1);
+  EXPECT_NEAR(named(simulated.mean, "power over 1 s, correlation"), std::exp(-1 / 18.0), 0.15);
+  EXPECT_NEAR(named(simulated.mean, "power over 6.1 s, correlation"), std::exp(-6.144 * 6.144 / 18), 0.15);
   const double power_velocity = named(simulated.mean, "power and velocity, correlation");
   const double width_ratio = named(simulated.mean, "width, deviation over mean");
   record_figure(power_velocity, 2, "clutter_independent_power_velocity");

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <tuple>
 #include <vector>
 
 #include "radar/echo/sea_clutter.h"
@@ -50,28 +52,48 @@ WaveField regular_wave(double sign) {
   return WaveField({WaveComponent{kOmega, 0.5, 0, kOmega * kOmega / kGravity, {sign, 0}}}, 1, 0);
 }
 
-SeaScatterers scatterers_in(const ClutterScene& scene, const TextureParameters& texture, int count, double window_m,
-                            double duration_s, std::uint64_t seed) {
-  return sea_scatterers({.spec = by_waves(),
-                         .scene = scene,
-                         .texture = texture,
-                         .per_cell = 10,
-                         .count = count,
-                         .window_m = window_m,
-                         .duration_s = duration_s,
-                         .seed = seed,
-                         .index = seed});
+ScattererRequest request_for(const ClutterSpec& spec, const ClutterScene& scene, const TextureParameters& texture,
+                             int count, double window_m, double duration_s, std::uint64_t seed) {
+  return {.spec = spec,
+          .scene = scene,
+          .texture = texture,
+          .per_cell = 10,
+          .count = count,
+          .window_m = window_m,
+          .duration_s = duration_s,
+          .seed = seed,
+          .index = seed};
 }
 
-// Far above the slopes every facet is illuminated, p sigma / tan(grazing); far below the mean illuminated slope is
-// sigma / sqrt(2 pi), whatever its size.
+// All nodes of an interval of modulated scatterers, [node][scatterer].
+struct Record {
+  double step_s = 0;
+  std::vector<double> amplitude, velocity_mps, width_mps;
+};
+
+Record scatterers_in(const ClutterScene& scene, const TextureParameters& texture, int count, double window_m,
+                     double duration_s, std::uint64_t seed) {
+  const ClutterSpec spec = by_waves();
+  const SeaScatterers scatterers = sea_scatterers(request_for(spec, scene, texture, count, window_m, duration_s, seed));
+  Record record{scatterers.step_s, {}, {}, {}};
+  for (int node = 0; node <= std::lround(duration_s / scatterers.step_s); ++node) {
+    const ScattererState state = scatterers.at_node(node);
+    record.amplitude.insert(record.amplitude.end(), state.amplitude.begin(), state.amplitude.end());
+    record.velocity_mps.insert(record.velocity_mps.end(), state.velocity_mps.begin(), state.velocity_mps.end());
+    record.width_mps.insert(record.width_mps.end(), state.width_mps.begin(), state.width_mps.end());
+  }
+  return record;
+}
+
+// Far above the slopes every facet is illuminated, p sigma / tan(grazing); far below, the mean of the slopes that face
+// the radar is sigma / sqrt(2 pi), whatever its size.
 TEST(WaveModulation, HasTheLimitsOfTiltAndShadow) {
   const double slope = 0.5 * kOmega * kOmega / kGravity / std::sqrt(2.0);
   const WaveField waves = regular_wave(1);
   const auto at = [&](double grazing_deg) { return wave_modulation({}, scene_of(waves, grazing_deg), 10, 10); };
   EXPECT_NEAR(at(40).tilt_log_deviation / (2.6 * slope / std::tan(radians(40))), 1, 1e-9);
   EXPECT_NEAR(at(0.01).tilt_log_deviation / (2.6 * std::sqrt(2 * kPi)), 1, 0.01);
-  EXPECT_NEAR(at(1).breaking, slope / 0.06, 1e-9);
+  EXPECT_NEAR(at(1).width_modulation, slope / 0.06, 1e-9);
   EXPECT_NEAR(at(0.5).rho, 0.9, 1e-9);
   EXPECT_LT(at(40).rho, 0.5);
   // Long crests along the line of sight neither tilt nor shadow.
@@ -79,23 +101,44 @@ TEST(WaveModulation, HasTheLimitsOfTiltAndShadow) {
   ClutterScene across = scene;
   across.r_hat = Vec3(0, scene.r_hat.x(), scene.r_hat.z());
   EXPECT_EQ(wave_modulation({}, across, 10, 10).rho, 0);
+  EXPECT_NEAR(wave_modulation({}, across, 10, 10).width_modulation, slope / 0.06, 1e-9);
+}
+
+// A cell averages over its scatterers, whose shape is at least 0.1.
+TEST(WaveModulation, HasTheShapeThatACellOfItsSizeCanHave) {
+  const WaveField waves = realise_sea(sea_towards(0), 5, 1);
+  const auto of = [&](double shape, double cell_m) {
+    return wave_modulation({.shape = shape, .correlation_cells = 8 / cell_m}, scene_of(waves, 0.6),
+                           static_cast<int>(cell_m), cell_m);
+  };
+  EXPECT_EQ(of(2, 30).cell_shape, 2);
+  EXPECT_GT(of(2, 30).shape, 0.2);
+  EXPECT_LT(of(2, 30).shape, 2);
+  EXPECT_EQ(of(0.2, 30).shape, 0.1);
+  EXPECT_GT(of(0.2, 30).cell_shape, 0.25);
+  EXPECT_LT(of(0.2, 30).cell_shape, 1);
+  EXPECT_NEAR(of(1000, 1).cell_shape, 1000, 1e-6);
 }
 
 // Power of a range cell, weighted by the response of Hann's taper: mean 1 and variance 1 / shape at any grazing angle
-// and direction of the waves.
+// and direction of the waves, in beams of 10 m and 300 m.
 TEST(ModulatedScatterers, GiveACellTheShapeOfTheTexture) {
   constexpr int kPerCell = 10, kCells = 24;
   constexpr double kCell_m = 10;
-  for (const auto& [shape, grazing_deg, towards_deg] :
-       {std::array{0.7, 0.6, 0.0}, {2.0, 0.6, 90.0}, {2.0, 8.0, 180.0}, {10.0, 1.0, 0.0}}) {
+  for (const auto& [shape, grazing_deg, towards_deg, range_km] : {std::array{0.7, 0.6, 0.0, 2.0},
+                                                                  {2.0, 0.6, 90.0, 2.0},
+                                                                  {2.0, 8.0, 180.0, 2.0},
+                                                                  {10.0, 1.0, 0.0, 2.0},
+                                                                  {2.0, 1.0, 90.0, 60.0}}) {
     double mean = 0, square = 0, mean_2 = 0;
     int samples = 0;
     const int seeds = 300;
     for (int seed = 1; seed <= seeds; ++seed) {
       const WaveField waves = realise_sea(sea_towards(towards_deg), seed, 1);
-      const SeaScatterers scatterers =
-          scatterers_in(scene_of(waves, grazing_deg, towards_deg),
-                        {.shape = shape, .correlation_cells = 0.8, .correlation_time_s = 1}, kPerCell * kCells,
+      ClutterScene scene = scene_of(waves, grazing_deg, towards_deg);
+      scene.radar.range_km = range_km;
+      const Record scatterers =
+          scatterers_in(scene, {.shape = shape, .correlation_cells = 0.8, .correlation_time_s = 1}, kPerCell * kCells,
                         kCell_m * kCells, 0.05, seed);
       double of_seed = 0;
       for (int cell = 0; cell < 4; ++cell) {
@@ -105,7 +148,7 @@ TEST(ModulatedScatterers, GiveACellTheShapeOfTheTexture) {
           const double x = i / 10.0, response = sinc(x) + 0.5 * (sinc(x - 1) + sinc(x + 1));
           const int k = (i + (5 * cell - 8) * kPerCell + kPerCell * kCells) % (kPerCell * kCells);
           const double amplitude = scatterers.amplitude[k];
-          power += response * response * amplitude * amplitude * scatterers.count;
+          power += response * response * amplitude * amplitude * kPerCell * kCells;
           weights += response * response;
         }
         power /= weights;
@@ -119,8 +162,9 @@ TEST(ModulatedScatterers, GiveACellTheShapeOfTheTexture) {
     mean /= seeds;
     const double error = std::sqrt((mean_2 / seeds - mean * mean) / seeds);
     const double variance = square / samples - mean * mean;
-    std::printf("shape %.3g, grazing %.2g deg, waves towards %3.0f deg: mean %.3f +- %.3f, shape of cells %.3f\n",
-                shape, grazing_deg, towards_deg, mean, error, 1 / variance);
+    std::printf(
+        "shape %.3g, grazing %.2g deg, waves towards %3.0f deg, %g km: mean %.3f +- %.3f, shape of cells %.3f\n", shape,
+        grazing_deg, towards_deg, range_km, mean, error, 1 / variance);
     EXPECT_NEAR(mean, 1, 4 * error);
     // Variance of a sample variance of gamma variates of shape v: (2 + 6 / v) / n of its square, of cells that are half
     // independent; 3 % for powers of the correlation averaged over the beam.
@@ -136,12 +180,12 @@ TEST(ModulatedScatterers, AreBrightestOnTheSlopeThatFacesTheRadar) {
     Complex first, velocity;
     for (int seed = 1; seed <= 40; ++seed) {
       const ClutterScene scene = scene_of(waves, 0.6, sign > 0 ? 0 : 180);
-      const SeaScatterers scatterers =
+      const Record scatterers =
           scatterers_in(scene, {.shape = 2, .correlation_cells = 0.8, .correlation_time_s = 1}, 30, 30, 7, seed);
-      const std::size_t nodes = scatterers.amplitude.size() / scatterers.count - 1;
+      const std::size_t nodes = scatterers.amplitude.size() / 30 - 1;
       for (std::size_t node = 0; node < nodes; ++node) {  // one period
         const double angle = kOmega * static_cast<double>(node) * scatterers.step_s;
-        const std::size_t i = node * scatterers.count;  // scatterer 0, at the reference point
+        const std::size_t i = node * 30;  // scatterer 0, at the reference point
         first += scatterers.amplitude[i] * scatterers.amplitude[i] * std::polar(1.0, angle);
         velocity -= scatterers.velocity_mps[i] * std::polar(1.0, angle);
       }
@@ -159,14 +203,72 @@ TEST(ModulatedScatterers, ContinueFromIntervalToInterval) {
   const WaveField waves = realise_sea(sea_towards(0), 5, 1);
   ClutterScene scene = scene_of(waves, 1);
   const TextureParameters texture{.shape = 1, .correlation_cells = 0.8, .correlation_time_s = 1, .spread_mps = 0.2};
-  const SeaScatterers first = scatterers_in(scene, texture, 60, 60, 1, 3);
+  const Record first = scatterers_in(scene, texture, 60, 60, 1, 3);
   scene.start_s = 0.5;
-  const SeaScatterers second = scatterers_in(scene, texture, 60, 60, 1, 3);
+  const Record second = scatterers_in(scene, texture, 60, 60, 1, 3);
   for (int k = 0; k < 60; ++k) {
     EXPECT_NEAR(first.amplitude[5 * 60 + k], second.amplitude[k], 1e-9);
     EXPECT_NEAR(first.velocity_mps[5 * 60 + k], second.velocity_mps[k], 1e-9);
     EXPECT_NEAR(first.width_mps[5 * 60 + k], second.width_mps[k], 1e-9);
   }
+}
+
+// Scatterers drift with the mean velocity and re-enter the window on its other side; the velocity is that of the water
+// there and, along the waves, the given multiple of the width beyond its mean.
+TEST(ModulatedScatterers, MoveWithTheWaterAndFasterWhereBroader) {
+  for (const auto& [towards_deg, polarisation, excess] :
+       {std::tuple(0.0, Polarisation::kVv, -2.0), std::tuple(180.0, Polarisation::kVv, 2.0),
+        std::tuple(0.0, Polarisation::kHh, -4.0)}) {
+    const WaveField waves = realise_sea(sea_towards(towards_deg), 5, 1);
+    ClutterScene scene = scene_of(waves, 1, towards_deg);
+    scene.radar.polarisation = polarisation;
+    scene.radar.link_budget.beamwidth_deg = 1e-9;
+    scene.start_s = 7;
+    const ClutterSpec spec = by_waves();
+    const TextureParameters texture{.shape = 1, .correlation_cells = 0.8, .correlation_time_s = 1, .spread_mps = 0.2};
+    ScattererRequest request = request_for(spec, scene, texture, 30, 30, 2, 3);
+    request.mean_mps = -20;
+    const SeaScatterers scatterers = sea_scatterers(request);
+    double logarithm = 0;
+    for (const int node : {0, 1, 20}) {
+      const ScattererState state = scatterers.at_node(node);
+      const double t = node * scatterers.step_s;
+      for (int k = 0; k < 30; ++k) {
+        double range_m = k - 20 * t;
+        while (range_m < -15) range_m += 30;
+        while (range_m >= 15) range_m -= 30;
+        const Vec3 water = waves.surface(-range_m / scene.r_hat.x(), 0, 7 + t).velocity;
+        EXPECT_NEAR(state.velocity_mps[k] + scene.r_hat.dot(water),
+                    excess * scene.r_hat.x() * (state.width_mps[k] - 0.2), 1e-9);
+        logarithm += std::log(state.width_mps[k] / 0.2);
+      }
+    }
+    EXPECT_LT(logarithm, 0);
+  }
+}
+
+// Power of independent scatterers is constant in short intervals, and follows its correlation time in long ones.
+TEST(ScatterersOnTheWaves, OfIndependentTextureChangeInLongIntervals) {
+  const WaveField waves = realise_sea(sea_towards(0), 5, 1);
+  const ClutterScene scene = scene_of(waves, 1);
+  ClutterSpec spec = by_waves();
+  spec.texture = ClutterTexture::kIndependent;
+  const TextureParameters texture{.shape = 2, .correlation_cells = 5, .correlation_time_s = 3};
+  const auto in = [&](double duration_s) {
+    return sea_scatterers(request_for(spec, scene, texture, 400, 400, duration_s, 3));
+  };
+  const SeaScatterers brief = in(0.064), longer = in(30);
+  EXPECT_TRUE(brief.is_steady);
+  EXPECT_EQ(brief.step_s, 0.064);
+  EXPECT_EQ(brief.at_node(1).amplitude, brief.at_node(0).amplitude);
+  EXPECT_FALSE(longer.is_steady);
+  EXPECT_EQ(longer.at_node(0).amplitude, brief.at_node(0).amplitude);
+  EXPECT_NE(longer.at_node(300).amplitude, brief.at_node(0).amplitude);
+  // The velocity at 0.3 s is that of an interval which begins there, but for the drift.
+  ClutterScene after = scene;
+  after.start_s = 3 * longer.step_s;
+  const SeaScatterers next = sea_scatterers(request_for(spec, after, texture, 400, 400, 0.064, 3));
+  for (int k = 0; k < 400; ++k) EXPECT_NEAR(longer.at_node(3).velocity_mps[k], next.at_node(0).velocity_mps[k], 1e-9);
 }
 
 // Sea spikes of hh: local power changes within tenths of a second, and its brightest hundredth is faster.
@@ -180,7 +282,7 @@ TEST(ModulatedScatterers, HaveSpikesInHh) {
     double same = 0, later = 0, sum = 0, bright = 0, bright_velocity = 0, velocity = 0;
     int count = 0;
     for (int seed = 1; seed <= 10; ++seed) {
-      const SeaScatterers scatterers = scatterers_in(scene, texture, 100, 100, 20, seed);
+      const Record scatterers = scatterers_in(scene, texture, 100, 100, 20, seed);
       const std::size_t lag = 3 * 100;  // 0.3 s
       for (std::size_t i = 0; i + lag < scatterers.amplitude.size(); ++i, ++count) {
         const double power = 100 * std::pow(scatterers.amplitude[i], 2),
@@ -204,7 +306,7 @@ TEST(ModulatedScatterers, HaveSpikesInHh) {
 
 TEST(Speckle, OfPhasesHasItsCorrelation) {
   constexpr int kProcesses = 4000;
-  SpeckleOfPhases speckle(kProcesses, 7);
+  IndividualSpeckle speckle(kProcesses, 7);
   std::vector<double> phase(kProcesses);
   std::vector<std::vector<Complex>> values;
   const std::vector<double> times{0, 0.3, 1, 2.5, 40, 40.7};
@@ -226,7 +328,7 @@ TEST(Speckle, OfPhasesHasItsCorrelation) {
   }
 }
 
-// The same sea at every carrier and on a refined grid, of mean power 1.
+// The same sea at every carrier, of mean power 1.
 TEST(ClutterBoundToTheWaves, IsCoherentAcrossCarriersAndHasMeanPowerOne) {
   RadarSpec radar;
   radar.pulses = 32;

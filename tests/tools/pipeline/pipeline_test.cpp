@@ -483,6 +483,9 @@ clutter: {{{}}}
       warnings("texture_correlation_m: 2"),
       testing::ElementsAre("clutter.texture_correlation_m: 2, where measured clutter has about 15 in this scene"));
   EXPECT_THAT(warnings("doppler: wave_resolved, texture_correlation_m: 2"), testing::IsEmpty());
+  EXPECT_THAT(warnings("doppler: wave_resolved, texture_shape: 0.1"),
+              testing::Contains(testing::HasSubstr("clutter.texture_shape: 0.1: with texture: waves the power in a "
+                                                   "cell of ")));
 }
 
 }  // namespace
