@@ -33,7 +33,7 @@ set(medium_tests
   --gtest_filter=CleanCentres.Outside*:Clutter.*:ClutterFalseAlarms.*:CoatedTarget.*:ContributionBound.*
   --gtest_filter=CurvedSurface.*:CylinderBeforeAPatch.*:EdgeDiffraction.*:Evaluation.*:FieldExport.*
   --gtest_filter=FuzzInputs.*:InfinitePrism.*:Interpolation.HasTheStated*:IntervalResponse.*
-  --gtest_filter=ClutterBoundToTheWaves.*:ModulatedScatterers.*:ScatterersOnTheWaves.*:ClutterLevel.*
+  --gtest_filter=ClutterModulatedByTheWaves.*:ModulatedScatterers.*:ScatterersOnTheWaves.*:ClutterLevel.*
   --gtest_filter=MatchedTraining.*:MechanismWorth.*:MergedDataSet.HasTheSameBytes*:MergedFacets.*
   --gtest_filter=MeshFile.SixtyThousand*:MotionSummary.*:MultipleDiffraction.*:Network.*:Pedestal.*:PermutedLabels.*
   --gtest_filter=PlateEdges.*:Progress.*:Rays.*:RigidRaft.Moves*:RoundTrip.EveryField*:SampleCrossCheck.*

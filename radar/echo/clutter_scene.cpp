@@ -108,7 +108,7 @@ double texture_length_m(const ClutterScene& scene) {
 
 TextureParameters texture_parameters(const ClutterSpec& spec, const ClutterScene& scene, double frequency_hz,
                                      double range_cell_m) {
-  // 8 m, 1 s and 0.12 m/s are fitted to measured clutter (README.md, "Bound to the waves"). Five range cells: long
+  // 8 m, 1 s and 0.13 m/s are fitted to measured clutter (README.md, "Modulated by the waves"). Five range cells: long
   // compared with the main lobe, so that the texture is constant over a map cell and its intensity has <I^2>/<I>^2 = 2
   // (1 + 1/shape) to about 2 %.
   const bool by_waves = texture_is_by_waves(spec);
@@ -120,7 +120,7 @@ TextureParameters texture_parameters(const ClutterSpec& spec, const ClutterScene
                                : by_waves                 ? 8 / range_cell_m
                                                           : 5,
           .correlation_time_s = spec.texture_correlation_time_s.value_or(by_waves ? 1 : 3),
-          .spread_mps = spec.doppler_spread_mps.value_or(by_waves ? 0.12 : 0.5)};
+          .spread_mps = spec.doppler_spread_mps.value_or(by_waves ? 0.13 : 0.5)};
 }
 
 }  // namespace seaglint

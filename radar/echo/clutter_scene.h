@@ -80,7 +80,7 @@ struct TextureParameters {
   double shape = 2;               // of the K distribution of a range cell
   double correlation_cells = 5;   // e^{-d^2 / (2 l^2)}, l in range cells, of the texture that is not of the waves
   double correlation_time_s = 3;  // e^{-t^2 / (2 T^2)}, likewise
-  double spread_mps = 0.5;        // of the velocity of a scatterer on the moving water, mean over scatterers
+  double spread_mps = 0.5;        // of the velocity of a scatterer on moving water that does not break
 };
 TextureParameters texture_parameters(const ClutterSpec& spec, const ClutterScene& scene, double frequency_hz,
                                      double range_cell_m);

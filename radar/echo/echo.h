@@ -42,7 +42,7 @@ void require_power(const FrequencyResponse& target);
 
 // Echo of the target with sea clutter and noise. clutter.level scr: the clutter is scaled so that mean |target|^2 over
 // mean |clutter|^2 is scr_db exactly, per pulse, for every definition (the other two need maps: radar/rvmap/rv_map.h
-// rescales). clutter.level nrl: mean power sigma0 A / (4 pi), A the area of the range window. response: sampled by
+// rescales). An absolute level: mean power sigma0 A / (4 pi), A the area of the range window. response: sampled by
 // interval_sampling(train, ...).
 // Streams kClutter, kClutterPlace and kNoise of (seed, index), kTexture of (seed, scene.texture_key). Throws InputError
 // for a target without power when a level is relative to it.

@@ -30,7 +30,7 @@ struct SeaIllumination {
 // Mean over wind directions less Nathanson's tables: tests/radar/echo/sea_reflectivity_test.cpp.
 double sea_reflectivity_db(ClutterLevel model, const SeaIllumination& sea);
 
-// That of a scene at a frequency by the model of an absolute level; looking upwind where the waves travel towards the
+// sigma0 (dB) of a scene at a frequency; clutter.level must be absolute. Upwind where the waves travel towards the
 // radar.
 double sea_reflectivity_db(const ClutterSpec& clutter, const ClutterScene& scene, double frequency_hz);
 

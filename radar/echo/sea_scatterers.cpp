@@ -63,11 +63,12 @@ namespace {
 constexpr double kLongWaves_rad_s = 2.5;
 constexpr double kTiltExponent = 2.6;
 const double kLead_rad = radians(25);
-constexpr double kMostByWaves = 0.81;     // of the variance of g
-constexpr double kFullModulation = 0.06;  // rms slope of the long waves from which b is 1
-constexpr double kWidthOfPower = 0.85;    // correlation of the logarithm of width with g
-constexpr double kExcess = 2;             // of velocity over that of width, vv
-constexpr double kSpikePart = 0.3;        // of the variance of n, polarisations other than vv
+constexpr double kMostByWaves = 0.81;   // of the variance of g
+constexpr double kFullBreaking = 0.06;  // rms slope of the long waves from which b is 1
+constexpr double kLogWidth = 1.3;       // deviation of the logarithm of the width by breaking
+constexpr double kWidthOfPower = 0.85;  // correlation of the logarithm of width with g
+constexpr double kExcess = 2;           // of velocity over that of width, vv
+constexpr double kSpikePart = 0.3;      // of the variance of n, polarisations other than vv
 constexpr double kSpikeTime_s = 0.2;
 constexpr double kLongestStep_s = 0.1;
 constexpr double kStepOfCorrelation = 0.3;  // linear between nodes: 0.2 dB of mean power at shape 0.15
@@ -232,7 +233,7 @@ WaveModulation modulation_of(const LongWaves& waves, const TextureParameters& te
   WaveModulation modulation;
   modulation.tilt_log_deviation =
       tilt_log_deviation(waves.facing_slope(), scene.r_hat.z() / std::hypot(scene.r_hat.x(), scene.r_hat.y()));
-  modulation.width_modulation = std::min(1.0, waves.slope() / kFullModulation);
+  modulation.breaking = std::min(1.0, std::pow(waves.slope() / kFullBreaking, 2));
 
   const std::vector<double> pairs = pair_weights(scatterers_per_cell);
   std::vector<double> of_waves, apart;
@@ -372,7 +373,7 @@ class ModulatedScatterers {
   double step_s() const { return step_s_; }
 
   ScattererState at_node(int node) const {
-    const double t = node * step_s_, time_s = request_.scene.start_s + t, b = modulation_.width_modulation;
+    const double t = node * step_s_, time_s = request_.scene.start_s + t;
     const double apart = std::sqrt(1 - modulation_.rho * modulation_.rho),
                  of_width = std::sqrt(1 - kWidthOfPower * kWidthOfPower);
     const double correlation_time_s = request_.texture.correlation_time_s;
@@ -388,10 +389,11 @@ class ModulatedScatterers {
       const Vec2 position = positions_.at(k, t);
       const double g = modulation_.rho * waves_.at(position, time_s) + apart * n[k];
       const double h = kWidthOfPower * g + of_width * m[k];
-      const double spread = request_.texture.spread_mps, width = spread * std::exp(b * h - b * b / 2);
+      const double w0 = request_.texture.spread_mps, mean = w0 * modulation_.mean_width();
+      const double width = w0 + (mean - w0) * std::exp(kLogWidth * h - kLogWidth * kLogWidth / 2);
       state.amplitude.push_back(std::sqrt(gamma_texture(modulation_.shape, g) / request_.count));
       state.width_mps.push_back(width);
-      state.velocity_mps.push_back(positions_.radial_mps(position, time_s) + excess_ * (width - spread));
+      state.velocity_mps.push_back(positions_.radial_mps(position, time_s) + excess_ * (width - mean));
     }
     return state;
   }

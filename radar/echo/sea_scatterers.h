@@ -35,20 +35,23 @@ std::vector<double> ring_field(int cells, double correlation_cells, double corre
 // scenes rho has its bound; it is smaller for scatterers of a shape below 0.2 and for grazing angles above 10 deg.
 //
 // Speckle has the width
-//   w = w0 e^{b h - b^2/2}, h = 0.85 g + sqrt(1 - 0.85^2) m,
-// m a Gaussian field independent of the waves, w0 the given spread, b the rms slope of these waves over 0.06, at most 1
-// (fitted); the velocity along the waves is larger by 2 (w - w0). Bright scatterers are therefore faster (Watts,
-// "Modeling and simulation of coherent sea clutter", IEEE Trans. Aerosp. Electron. Syst. 48 (2012) 3303) and broader
-// (as Greco, Bordoni and Gini observe over long waves, IEEE J. Oceanic Eng. 29 (2004) 269). Sea spikes of polarisations
-// other than vv: three tenths of the variance of n change within 0.2 s, and the velocity is larger by 4 (w - w0)
+//   w = w0 (1 + 0.55 b e^{1.3 h - 1.3^2/2}), h = 0.85 g + sqrt(1 - 0.85^2) m,
+// w0 the given spread, of water that does not break, b the breaking, the square of the rms slope of these waves over
+// 0.06, at most 1, m a Gaussian field independent of the waves; the velocity along the waves is larger by 2 (w - its
+// mean). All numbers are fitted. Bright scatterers are therefore faster (Watts, "Modeling and simulation of coherent
+// sea clutter", IEEE Trans. Aerosp. Electron. Syst. 48 (2012) 3303) and broader (as Greco, Bordoni and Gini observe
+// over long waves, IEEE J. Oceanic Eng. 29 (2004) 269). Sea spikes of polarisations other than vv: three tenths of the
+// variance of n change within 0.2 s, and the velocity is larger by 4 (w - its mean)
 // (Walker, IEE Proc. Radar Sonar Navig. 148 (2001) 73, has their existence; the numbers are choices).
 struct WaveModulation {
   double tilt_log_deviation = 0;  // t
-  double width_modulation = 0;    // b
+  double breaking = 0;            // b
   double shape = 1;               // of the gamma texture of a scatterer
   double cell_shape = 1;          // of the power in a range cell; larger than that of the texture where no scatterers
                                   // of shape >= 0.1 have it, since a cell averages over them
   double rho = 0;
+
+  double mean_width() const { return 1 + 0.55 * breaking; }  // over w0
 };
 // The shape of a scatterer is such that the power in a range cell has the shape of the texture: scatterers_per_cell of
 // them in each range_cell_m = c/(2B), weighted by the response of Hann's taper, at random positions across the antenna

@@ -493,7 +493,8 @@ void visit(ClutterSpec& spec, FieldVisitor& v) {
   if (v.optional("texture", spec.texture.has_value())) {
     if (!spec.texture) spec.texture.emplace();
     v.choice("texture", *spec.texture, {"independent", "waves"},
-             "Local power of the sea: apart from the waves, or bound to the waves that move the scatterers; default: "
+             "Local power of the sea: independent of the waves, or modulated by the waves that move the scatterers; "
+             "default: "
              "waves with doppler: wave_resolved, else independent.");
   }
   visit_given(v, "texture_shape", spec.texture_shape, within(0.1, 1000),
@@ -510,8 +511,8 @@ void visit(ClutterSpec& spec, FieldVisitor& v) {
   v.number("doppler_mean_mps", spec.doppler_mean_mps, within(-20, 20),
            "Mean velocity of the clutter, positive = receding.");
   visit_given(v, "doppler_spread_mps", spec.doppler_spread_mps, within(0, 20),
-              "Standard deviation of its velocity; with texture: waves the mean of that of a scatterer on the moving "
-              "water; default: 0.5 m/s, with texture: waves 0.12 m/s.");
+              "Standard deviation of its velocity; with texture: waves that of a scatterer on moving water that does "
+              "not break; default: 0.5 m/s, with texture: waves 0.13 m/s.");
   v.number("hh_velocity_factor", spec.hh_velocity_factor, within(0, 5),
            "Mean velocity by waves and wind of hh, hv and vh relative to vv.");
   visit_given(v, "sea_state", spec.sea_state, within(0, 6),

@@ -99,8 +99,8 @@ enum class NoiseLevel { kCnr, kSnr, kThermal };
 // spread for the sea state. kWaveResolved: mean for the sea state, and per scatterer the velocity of the water at its
 // position in the sea realisation of the target.
 enum class ClutterDoppler { kPrescribed, kSeaState, kWaveResolved };
-// Local power of the sea. kIndependent: a random texture apart from the waves. kWaves: raised and lowered by the waves
-// that move the scatterers.
+// Local power of the sea. kIndependent: a random texture independent of the waves. kWaves: modulated by the waves that
+// move the scatterers.
 enum class ClutterTexture { kIndependent, kWaves };
 
 // Absent values: by the scene (radar/echo/clutter_scene.h, texture_parameters).

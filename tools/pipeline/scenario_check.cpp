@@ -510,23 +510,25 @@ std::string clutter_line(const Pipeline& pipeline) {
     const double cell_m = train.range_resolution_m();
     const TextureParameters texture = texture_parameters(spec, scene, train.band_centre_hz(), cell_m);
     const FittedFigure measured = k_shape(scene, train.band_centre_hz(), cell_m);
-    const double shape = texture_is_by_waves(spec)
-                             ? wave_modulation(texture, scene, scatterers_per_cell(spec, cell_m), cell_m).cell_shape
-                             : texture.shape;
-    text +=
-        fmt::format("; texture {}of shape {:.3g}{}; velocity {:g} m/s, spread {:g} m/s{}",
-                    texture_is_by_waves(spec) ? "modulated by the waves, " : "", shape,
-                    height_m > 0 && spec.texture_shape && measured.is_within_range
-                        ? fmt::format(" (measured clutter: {:.2g} in this scene)", measured.value)
-                    : texture_is_by_waves(spec) && !spec.texture_shape && !measured.is_within_range
-                        ? " (outside the fit of its formula)"
-                        : "",
-                    hundredths(spec.doppler_mean_mps + moments.mean_mps),
-                    hundredths(std::hypot(texture.spread_mps, platform_doppler_spread_mps(scene), moments.spread_mps)),
-                    spec.doppler == ClutterDoppler::kPrescribed
-                        ? " in any sea"
-                        : fmt::format(" at Hs {:.3g} m, azimuth {:g} deg{}", height_m, view.azimuth_deg,
-                                      is_under_way ? ", of a target without its speed" : ""));
+    double shape = texture.shape, width_mps = texture.spread_mps;
+    if (texture_is_by_waves(spec)) {
+      const WaveModulation modulation = wave_modulation(texture, scene, scatterers_per_cell(spec, cell_m), cell_m);
+      shape = modulation.cell_shape;
+      width_mps *= modulation.mean_width();
+    }
+    text += fmt::format("; texture {}of shape {:.3g}{}; velocity {:g} m/s, spread {:g} m/s{}",
+                        texture_is_by_waves(spec) ? "modulated by the waves, " : "", shape,
+                        height_m > 0 && spec.texture_shape && measured.is_within_range
+                            ? fmt::format(" (measured clutter: {:.2g} in this scene)", measured.value)
+                        : texture_is_by_waves(spec) && !spec.texture_shape && !measured.is_within_range
+                            ? " (outside the fit of its formula)"
+                            : "",
+                        hundredths(spec.doppler_mean_mps + moments.mean_mps),
+                        hundredths(std::hypot(width_mps, platform_doppler_spread_mps(scene), moments.spread_mps)),
+                        spec.doppler == ClutterDoppler::kPrescribed
+                            ? " in any sea"
+                            : fmt::format(" at Hs {:.3g} m, azimuth {:g} deg{}", height_m, view.azimuth_deg,
+                                          is_under_way ? ", of a target without its speed" : ""));
   }
   if (spec.noise_level == NoiseLevel::kCnr && !spec.enabled) return line("clutter", "none, and no noise");
   if (text.empty()) text = "none";

@@ -14,13 +14,14 @@ from validation_run import seaglint
 
 C = 299792458.0  # m/s
 BLOCK = 128      # pulses
+WIDTH_S = 4e-6   # of the pulses of SCENARIO
 SEEDS = range(1, 11)
 SCENARIO = "scenarios/clutter.yaml"
 # With Hann's taper a band of 7.5 MHz has cells as wide as those of 200 ns, 30 m.
 RECORD = {"radar.pulses": 131072, "radar.bandwidth_mhz": 7.5, "radar.hop_step_mhz": 7.5, "radar.sampling_mhz": 7.5, "radar.range_km": 2.6, "map.range_span_m": 230}
 HIGH = {"sea.significant_wave_height_m": 2.2, "sea.peak_period_s": 6.5, "clutter.texture_shape": 1.741}
 LOW = {"sea.significant_wave_height_m": 0.3, "sea.peak_period_s": 6, "clutter.texture_shape": 32.3}
-INDEPENDENT = {**HIGH, "clutter.texture": "independent", "clutter.doppler_spread_mps": 0.12}
+INDEPENDENT = {**HIGH, "clutter.texture": "independent", "clutter.doppler_spread_mps": 0.13}
 # 61 s with the cells of wave radars.
 WIDE = {"radar.pulses": 30720, "radar.pri_us": 2000, "radar.bandwidth_mhz": 20, "radar.hop_step_mhz": 20, "radar.sampling_mhz": 20, "map.range_span_m": 600}
 WIDE_BLOCK = 64  # pulses, 0.128 s
@@ -33,8 +34,8 @@ ABOUT = """I/Q of one range cell of 30 m over 131 s, 1,000 pulses a second at 9.
 All statistics are of blocks of 128 pulses and by the same definitions. Velocity is that of approach in this section."""
 CHOSEN = """Height and period of the measured seas are not known. They are chosen so that the simulated velocities have the measured spread and the power of the high sea has the measured period: Hs 2.2 m, Tp 6.5 s; Hs 0.3 m, Tp 6 s. The shape of the texture is that of the measured second moment.
 Neither polarisation nor direction of view are known; simulated are vv, grazing angle 0.6 deg, waves towards the radar with a spread of s = 10."""
-LIMITS = """The simulated widths of the high sea are a fifth larger than measured and follow the power less. In the measured low sea the power changes more slowly than speckle: over 0.5 s its correlation is 0.53, simulated 0.1. Its third and fourth moment are lower than those of a K distribution, the fourth lower than that of Rayleigh clutter. These are signs of a steady echo, which the model has not.
-A record of 131 s has 20 waves, so that its correlations are as uncertain as the deviations in the table. With <code>texture: independent</code> the power of a cell is that of speckle alone within an interval, and velocities are linear between its ends: they have no period."""
+LIMITS = """The simulated widths of the high sea are larger than measured and follow the power less; those of the low sea follow it, which measured ones do not. In the measured low sea the power changes more slowly than speckle, and its third and fourth moment are lower than those of a K distribution, the fourth lower than that of Rayleigh clutter. These are signs of a steady echo, which the model has not.
+A record of 131 s has 20 waves, so that its correlations are as uncertain as the deviations in the table. With <code>texture: independent</code> the power has a correlation time of 3 s and no period."""
 WAVES = """Power of the same high sea (seed 42, texture by the defaults) in cells of 7.5 m over 580 m and 61 s, mean of 0.128 s; below it the elevation of the same sea realisation in the middle of the beam by <code>seaglint sea --at</code>. Both have the bands that travel towards the radar with the phase speed of the waves (dashed: 10 m/s, that of the peak period), in groups that travel half as fast. {correlation}
 Right: spectra of both over wavenumber and frequency; energy lies on the dispersion relation of deep water, &omega;<sup>2</sup> = gk (dashed), on the side of approaching waves only, as in the images of wave radars. The power is no linear function of the waves; it has their second harmonic above and their groups below the relation in addition."""
 CELL = """Doppler spectrogram of the 30 m cell, high sea, seed 1: spectra of 256 pulses with Hann's taper over a minute. The velocities follow the waves, and bright moments are faster and broader; below, power, velocity and width of its blocks."""
@@ -51,7 +52,7 @@ def record(scenario, settings, file):
     return made
 
 
-def compressed(echo, ranges_m, width_s=4e-6):
+def compressed(echo, ranges_m, width_s=WIDTH_S):
     """X [pulse, range]: matched filter with Hann's taper over the band."""
     time_s, band = echo["time_s"], echo["bandwidth_hz"]
     f = np.fft.fftfreq(len(time_s), time_s[1] - time_s[0])
@@ -88,6 +89,7 @@ def statistics(cell, pri_s, wavelength_m):
         made[f"{name} moment over K's"] = np.mean(intensity**n) / of_k
     made["power and velocity, correlation"] = np.corrcoef(power, velocity)[0, 1]
     made["log power and width, correlation"] = np.corrcoef(np.log(power), width)[0, 1]
+    made["velocity weighted with power (m/s)"] = np.mean(power * velocity) / np.mean(power)
     made.update({"velocity, deviation (m/s)": velocity.std(), "width, mean (m/s)": width.mean(), "width, deviation over mean": width.std() / width.mean()})
     for seconds, lag in (("0.5", 4), ("1", 8), ("2", 16), ("3.1", 24), ("6.1", 48)):
         made[f"power over {seconds} s, correlation"] = over_lags(power, [lag])[0]

@@ -262,8 +262,8 @@ TEST(MeasuredClutter, OfALowSeaIsNot) {
   EXPECT_NEAR(mean("velocity, deviation (m/s)") / named(measured("low"), "velocity, deviation (m/s)"), 1, 0.15);
   EXPECT_NEAR(mean("width, mean (m/s)") / named(measured("low"), "width, mean (m/s)"), 1, 0.15);
   EXPECT_NEAR(mean("third moment over K's"), 1, 0.15);
-  // Measured -0.09: width varies too little apart from power.
-  EXPECT_NEAR(mean("log power and width, correlation"), -0.36, 4 * 0.04);
+  // Measured -0.09: noise of the estimate, which is larger where power is low, and little else changes the width here.
+  EXPECT_NEAR(mean("log power and width, correlation"), -0.4, 0.15);
   const double power_velocity = mean("power and velocity, correlation");
   const double power_width = mean("log power and width, correlation");
   const double velocity_mps = mean("velocity, deviation (m/s)");
@@ -286,7 +286,7 @@ TEST(MeasuredClutter, OfIndependentTextureHasNoPeriod) {
   spec.doppler = ClutterDoppler::kWaveResolved;
   spec.texture = ClutterTexture::kIndependent;
   spec.texture_shape = 1.741;
-  spec.doppler_spread_mps = 0.12;
+  spec.doppler_spread_mps = 0.13;
   const Spread simulated = over_seeds(spec, sea_of(2.2, 6.5), 4);
   print_beside(simulated, measured("high"));
   EXPECT_NEAR(named(simulated.mean, "power and velocity, correlation"), 0, 0.1);
