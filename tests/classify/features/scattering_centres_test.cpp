@@ -369,7 +369,7 @@ struct SeaOf {
     state.propagation_rad = radians(120);
     clutter.level = ClutterLevel::kNrl;
     clutter.doppler = doppler;
-    clutter.doppler_spread_mps = doppler == ClutterDoppler::kPrescribed ? 0.5 : 0.2;
+    if (doppler == ClutterDoppler::kSeaState) clutter.doppler_spread_mps = 0.2;
   }
 
   // The centres of an interval of this sea, and of `points` in it.
