@@ -212,7 +212,7 @@ std::vector<std::string> clutter_warnings(const Pipeline& pipeline) {
   if (!clutter.enabled || !(scene.significant_wave_height_m > 0)) return {};
   const double cell_m = train.range_resolution_m();
   std::vector<std::string> lines;
-  if (texture_is_by_waves(clutter)) {
+  if (texture_is_by_waves(clutter) && clutter.texture_shape) {
     const WaveField waves = pipeline.nominal_waves();
     scene.waves = &waves;
     const TextureParameters texture = texture_parameters(clutter, scene, train.band_centre_hz(), cell_m);
@@ -220,9 +220,9 @@ std::vector<std::string> clutter_warnings(const Pipeline& pipeline) {
     constexpr double kReached = 1.1;
     if (shape > kReached * texture.shape)
       lines.push_back(
-          fmt::format("clutter.texture_shape: {:.2g}{}: with texture: waves the power in a cell of {:.3g} m "
-                      "has the shape {:.2g} at least, which is taken",
-                      texture.shape, clutter.texture_shape ? "" : " by default", cell_m, shape));
+          fmt::format("clutter.texture_shape: {:g}: with texture: waves the power in a cell of {:.3g} m has "
+                      "the shape {:.2g} at least, which is taken",
+                      texture.shape, cell_m, shape));
   }
   const FittedFigure shape = k_shape(scene, train.band_centre_hz(), cell_m);
   if (!shape.is_within_range) return lines;

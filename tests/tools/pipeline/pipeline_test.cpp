@@ -462,16 +462,17 @@ dataset: {maps_per_case: 40, realisations_per_case: 40}
 // At 9.4 GHz, 2 deg, 20 km and 1.5 deg of beam, vv: shape 1.6 along the waves (clutter_test.cpp), and (pi/2) U^2/g
 // sqrt(4), U^2/g = Hs / 0.22, of the length.
 TEST(ClutterWarnings, NameTextureFarFromMeasuredClutter) {
-  const auto warnings = [](const std::string& clutter, double carrier_ghz = 9.4) {
+  const auto warnings = [](const std::string& clutter, double carrier_ghz = 9.4,
+                           const std::string& bands = "hop_count: 4") {
     return clutter_warnings(Pipeline(parse_scenario(fmt::format(R"(
 seaglint: 1
-radar: {{carrier_ghz: {}, hop_count: 4, pulses: 16, range_km: 20, link_budget: {{beamwidth_deg: 1.5}}}}
+radar: {{carrier_ghz: {}, {}, pulses: 16, range_km: 20, link_budget: {{beamwidth_deg: 1.5}}}}
 view: {{azimuth_deg: 0, elevation_deg: 2}}
 sea: {{significant_wave_height_m: 1.5, peak_period_s: 7, propagation_deg: 0, components: 64}}
 targets: {{buoy: {{label: 0, points: [{{position_m: [0, 0, 0]}}]}}}}
 clutter: {{{}}}
 )",
-                                                                carrier_ghz, clutter),
+                                                                carrier_ghz, bands, clutter),
                                                     "texture.yaml")));
   };
   EXPECT_THAT(warnings("scr_db: 10"), testing::IsEmpty());
@@ -483,7 +484,9 @@ clutter: {{{}}}
       warnings("texture_correlation_m: 2"),
       testing::ElementsAre("clutter.texture_correlation_m: 2, where measured clutter has about 15 in this scene"));
   EXPECT_THAT(warnings("doppler: wave_resolved, texture_correlation_m: 2"), testing::IsEmpty());
-  EXPECT_THAT(warnings("doppler: wave_resolved, texture_shape: 0.1"),
+  // Of a cell of 30 m, by its many scatterers.
+  EXPECT_THAT(warnings("doppler: wave_resolved, texture_shape: 0.1", 9.4,
+                       "hop_count: 1, hop_step_mhz: 5, bandwidth_mhz: 5, pulse_width_us: 4, sampling_mhz: 10"),
               testing::Contains(testing::HasSubstr("clutter.texture_shape: 0.1: with texture: waves the power in a "
                                                    "cell of ")));
 }
