@@ -40,9 +40,9 @@ std::vector<double> ring_field(int cells, double correlation_cells, double corre
 // 0.06, at most 1, m a Gaussian field independent of the waves; the velocity along the waves is larger by 2 (w - its
 // mean). All numbers are fitted. Bright scatterers are therefore faster (Watts, "Modeling and simulation of coherent
 // sea clutter", IEEE Trans. Aerosp. Electron. Syst. 48 (2012) 3303) and broader (as Greco, Bordoni and Gini observe
-// over long waves, IEEE J. Oceanic Eng. 29 (2004) 269). Sea spikes of polarisations other than vv: three tenths of the
-// variance of n change within 0.2 s, and the velocity is larger by 4 (w - its mean)
-// (Walker, IEE Proc. Radar Sonar Navig. 148 (2001) 73, has their existence; the numbers are choices).
+// over long waves, IEEE J. Oceanic Eng. 29 (2004) 269). Sea spikes of polarisations other than vv (Walker, IEE Proc.
+// Radar Sonar Navig. 148 (2001) 73; the numbers are choices): three tenths of the variance of n change within 0.2 s,
+// and the velocity is larger by 4 (w - its mean).
 struct WaveModulation {
   double tilt_log_deviation = 0;  // t
   double breaking = 0;            // b

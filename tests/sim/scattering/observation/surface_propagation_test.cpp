@@ -262,7 +262,7 @@ TEST(SurfacePropagation, AmplitudesBetweenNodesAreInterpolatedToAFewPercent) {
       power += std::norm(field(exact.at(n, b)));
     }
   }
-  EXPECT_LT(std::sqrt(error / power), 0.03);
+  EXPECT_LT(std::sqrt(error / power), 0.006);
   std::cout << fmt::format("interpolation {:.4f}\n", std::sqrt(error / power));
 }
 
