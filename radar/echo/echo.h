@@ -42,10 +42,10 @@ void require_power(const FrequencyResponse& target);
 
 // Echo of the target with sea clutter and noise. clutter.level scr: the clutter is scaled so that mean |target|^2 over
 // mean |clutter|^2 is scr_db exactly, per pulse, for every definition (the other two need maps: radar/rvmap/rv_map.h
-// rescales). An absolute level: mean power sigma0 A / (4 pi), A the area of the range window. response: sampled by
-// interval_sampling(train, ...).
-// Streams kClutter, kClutterPlace and kNoise of (seed, index), kTexture of (seed, scene.texture_key). Throws InputError
-// for a target without power when a level is relative to it.
+// rescales). An absolute level: mean power sigma0 A / (4 pi) times that of the chirp spectrum, A the area of the range
+// window. response: sampled by interval_sampling(train, ...). Streams kClutter, kClutterPlace and kNoise of (seed,
+// index), kTexture of (seed, scene.texture_key). Throws InputError for a target without power when a level is relative
+// to it.
 Echo synthesise_echo(const PulseTrain& train, const FrequencyResponse& response, const ClutterSpec& clutter,
                      std::uint64_t seed, std::uint64_t index, const ClutterScene& scene = {});
 

@@ -71,7 +71,7 @@ constexpr double kExcess = 2;           // of velocity over that of width, vv
 constexpr double kSpikePart = 0.3;      // of the variance of n, polarisations other than vv
 constexpr double kSpikeTime_s = 0.2;
 constexpr double kLongestStep_s = 0.1;
-constexpr double kStepOfCorrelation = 0.3;  // linear between nodes: 0.2 dB of mean power at shape 0.15
+constexpr double kStepOfCorrelation = 0.3;  // linear between nodes: mean power 0.07 dB low at shape 0.1
 constexpr double kSteady = 0.2;             // of the correlation time: the texture's correlation is 0.98
 
 // Second derivative of log gamma, by its recurrence and asymptotic series (Abramowitz and Stegun 6.4.12); error 1e-9.
@@ -319,7 +319,8 @@ class IndependentScatterers {
  public:
   explicit IndependentScatterers(const ScattererRequest& request)
       : request_(request),
-        step_s_(step_of(request.duration_s, kLongestStep_s)),
+        step_s_(step_of(request.duration_s,
+                        std::min(kLongestStep_s, kStepOfCorrelation * request.texture.correlation_time_s))),
         texture_seed_(Random({request.seed, Stream::kTexture, request.scene.texture_key}).bits()) {
     if (request.spec.doppler == ClutterDoppler::kWaveResolved) positions_.emplace(request);
     if (is_steady()) amplitude_ = amplitude_at(0);

@@ -31,8 +31,9 @@ std::vector<double> ring_field(int cells, double correlation_cells, double corre
 //   t = p sigma_s / E[(tan grazing + s)+]
 // the deviation of p log slope; the mean of the slopes that face the radar, over all facets, is tan(grazing) over their
 // illuminated fraction by geometrical shadowing (Smith, IEEE Trans. Antennas Propag. 15 (1967) 668). The exponent p =
-// 2.6 of reflectivity over slope, the lead a = 25 deg and the bound are fitted to measured clutter (README.md). In most
-// scenes rho has its bound; it is smaller for scatterers of a shape below 0.2 and for grazing angles above 10 deg.
+// 2.6 is that of the sine in the NRL model for vv; the lead a = 25 deg and the bound are fitted to measured clutter
+// (README.md). In most scenes rho has its bound; it is smaller for scatterers of a shape below 0.2 and for grazing
+// angles above 10 deg.
 //
 // Speckle has the width
 //   w = w0 (1 + 0.55 b e^{1.3 h - 1.3^2/2}), h = 0.85 g + sqrt(1 - 0.85^2) m,

@@ -265,10 +265,11 @@ void check_waves_between(const Scenario& scenario, const std::vector<SeaState>& 
     const double height_m = range_m * std::sin(radians(elevation)) + std::max(0.0, z) * duration_s,
                  level_m = range_m * std::cos(radians(elevation)) - std::hypot(x, y) * duration_s;
     if (height_m > level_m * std::tan(radians(kHighest_deg)) && std::hypot(x, y, z) > 0) {
-      document.fail_at("radar.platform.velocity_mps",
-                       fmt::format("the radar is above 10 deg of elevation at the end of an interval of {:.4g} s from "
-                                   "{:g} deg, not allowed {}",
-                                   duration_s, elevation, with));
+      document.fail_at(
+          "radar.platform.velocity_mps",
+          fmt::format("at this speed towards the target the radar is above 10 deg of elevation at the end of "
+                      "an interval of {:.4g} s from {:g} deg, not allowed {}",
+                      duration_s, elevation, with));
     }
   }
   if (highest_ghz(scenario.radar) > 40)

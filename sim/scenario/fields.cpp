@@ -494,8 +494,7 @@ void visit(ClutterSpec& spec, FieldVisitor& v) {
     if (!spec.texture) spec.texture.emplace();
     v.choice("texture", *spec.texture, {"independent", "waves"},
              "Local power of the sea: independent of the waves, or modulated by the waves that move the scatterers; "
-             "default: "
-             "waves with doppler: wave_resolved, else independent.");
+             "default: waves with doppler: wave_resolved, else independent.");
   }
   visit_given(v, "texture_shape", spec.texture_shape, within(0.1, 1000),
               "Shape of the K distribution of a range cell; default: 2, with texture: waves by grazing angle, cell, "

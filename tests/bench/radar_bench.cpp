@@ -58,7 +58,7 @@ void EchoWithClutter(benchmark::State& state) {
 }
 BENCHMARK(EchoWithClutter)->Unit(benchmark::kMillisecond);
 
-// Scatterers that move with the waves, their power independent of them (0) or bound to them (1).
+// Scatterers that move with the waves, their power independent of them (0) or modulated by them (1).
 void EchoWithClutterOnTheWaves(benchmark::State& state) {
   const Interval interval;
   SeaState sea;

@@ -167,11 +167,11 @@ class Equations {
  public:
   Equations(const FloatParticulars& body, bool moving) : body_(body), moving_(moving) {}
 
-  // Tilt: two oscillators about the yawed axes of the float, forced by the slope there (roll = +d eta/dy, pitch = -d
-  // eta/dx) times the effective slope coefficient r: of the righting moment w0^2 (x - r s) the part r is that of the
-  // water, normal to its surface, the part 1 - r that of a mooring, towards the vertical. Heave: stiffness and damping
-  // act on the motion relative to the water, z'' + 2 z w0 (z'
-  // - w) + w0^2 (z - eta) = 0. Surge and sway: velocity of the water at the float, with the mooring term.
+  // Tilt: two oscillators about the yawed axes of the float, forced by r times the slope there (roll = +d eta/dy, pitch
+  // = -d eta/dx), x'' + 2 z w0 x' + w0^2 (x - r s) = 0. The water gives the part r of the stiffness, towards the normal
+  // of its surface; a mooring gives the part 1 - r, towards the vertical. Heave: stiffness and damping act on the
+  // motion relative to the water, z'' + 2 z w0 (z' - w) + w0^2 (z - eta) = 0. Surge and sway: velocity of the water at
+  // the float, with the mooring term.
   FloatState derivative(const FloatState& s, const SurfaceState& water, double yaw) const {
     const Vec2 slope = body_.effective_slope * rotated(soft_limited_slope({water.slope_x, water.slope_y}), -yaw);
     const Vec2 target(slope.y(), -slope.x());
