@@ -365,6 +365,7 @@ void make_consistent(Scenario& scenario) {
     scenario.sea_reflection.surface_profile = SurfaceProfileKind::kMean;
   if (scenario.sea_reflection.enabled && scenario.sea_reflection.surface_profile == SurfaceProfileKind::kWaves) {
     scenario.radar.carrier_ghz = std::min(scenario.radar.carrier_ghz, 5.1);
+    scenario.radar.platform.velocity_mps = {};
     scenario.sea_reflection.paths = SeaPaths::kAll;
     for (double& elevation : scenario.view.elevation_deg) elevation = std::fmod(elevation, 9.9);
     for (TargetSpec& target : scenario.targets) target.motion.waves = WaveSharing::kSameField;
