@@ -249,7 +249,7 @@ TEST(ModulatedScatterers, MoveWithTheWaterAndFasterWhereBroader) {
 
 // Power of independent scatterers is constant in short intervals; in long ones power and velocity at a node are those
 // of an interval that begins there.
-TEST(ScatterersOnTheWaves, OfIndependentTextureChangeInLongIntervals) {
+TEST(IndependentScatterers, ChangeInLongIntervals) {
   const WaveField waves = realise_sea(sea_towards(0), 5, 1);
   const ClutterScene scene = scene_of(waves, 1);
   ClutterSpec spec = by_waves();
