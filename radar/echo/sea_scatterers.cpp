@@ -66,6 +66,7 @@ const double kLead_rad = radians(25);
 constexpr double kMostByWaves = 0.81;   // of the variance of g
 constexpr double kFullBreaking = 0.06;  // rms slope of the long waves from which b is 1
 constexpr double kLogWidth = 1.3;       // deviation of the logarithm of the width by breaking
+constexpr double kMostBreaking = 3;     // of h: a width of 13 w0, one scatterer in 700
 constexpr double kWidthOfPower = 0.85;  // correlation of the logarithm of width with g
 constexpr double kExcess = 2;           // of velocity over that of width, vv
 constexpr double kSpikePart = 0.3;      // of the variance of n, polarisations other than vv
@@ -389,7 +390,7 @@ class ModulatedScatterers {
     for (int k = 0; k < request_.count; ++k) {
       const Vec2 position = positions_.at(k, t);
       const double g = modulation_.rho * waves_.at(position, time_s) + apart * n[k];
-      const double h = kWidthOfPower * g + of_width * m[k];
+      const double h = std::min(kMostBreaking, kWidthOfPower * g + of_width * m[k]);
       const double w0 = request_.texture.spread_mps, mean = w0 * modulation_.mean_width();
       const double width = w0 + (mean - w0) * std::exp(kLogWidth * h - kLogWidth * kLogWidth / 2);
       state.amplitude.push_back(std::sqrt(gamma_texture(modulation_.shape, g) / request_.count));

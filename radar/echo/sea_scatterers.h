@@ -36,7 +36,7 @@ std::vector<double> ring_field(int cells, double correlation_cells, double corre
 // angles above 10 deg.
 //
 // Speckle has the width
-//   w = w0 (1 + 0.55 b e^{1.3 h - 1.3^2/2}), h = 0.85 g + sqrt(1 - 0.85^2) m,
+//   w = w0 (1 + 0.55 b e^{1.3 h - 1.3^2/2}), h = min(3, 0.85 g + sqrt(1 - 0.85^2) m),
 // w0 the given spread, of water that does not break, b the breaking, the square of the rms slope of these waves over
 // 0.06, at most 1, m a Gaussian field independent of the waves; the velocity along the waves is larger by 2 (w - its
 // mean). All numbers are fitted. Bright scatterers are therefore faster (Watts, "Modeling and simulation of coherent
