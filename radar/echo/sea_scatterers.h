@@ -52,7 +52,7 @@ struct WaveModulation {
                                   // of shape >= 0.1 have it, since a cell averages over them
   double rho = 0;
 
-  double mean_width() const { return 1 + 0.55 * breaking; }  // over w0
+  double mean_width() const { return 1 + 0.55 * breaking; }  // over w0; the limit of h lowers it by 0.6 % at most
 };
 // The shape of a scatterer is such that the power in a range cell has the shape of the texture: scatterers_per_cell of
 // them in each range_cell_m = c/(2B), weighted by the response of Hann's taper, at random positions across the antenna
@@ -97,7 +97,8 @@ struct ScattererRequest {
 // Velocity: that of the water of scene.waves at the range of each scatterer, which drifts with the mean velocity and
 // re-enters the window on its other side, and at a random position across the two-way Gaussian beam, stream
 // kClutterPlace of (seed, index); minus the mean at the moving surface, since clutter_velocity_moments() includes the
-// whole Stokes drift. Nodes are at most 0.1 s apart. Power: stream kTexture of (seed, scene.texture_key).
+// whole Stokes drift. Nodes are at most 0.1 s and three tenths of the correlation time apart. Power: stream kTexture of
+// (seed, scene.texture_key).
 // * texture: independent: power constant over intervals up to a fifth of the correlation time, one width.
 // * texture: waves: power, velocity and width by wave_modulation.
 SeaScatterers sea_scatterers(const ScattererRequest& request);
