@@ -119,6 +119,7 @@ void bind_rcs(py::module_& module) {
       .def_readwrite("up", &RcsRequest::up)
       .def_readwrite("scale", &RcsRequest::scale)
       .def_readwrite("offset_m", &RcsRequest::offset_m)
+      .def_readwrite("waterline_m", &RcsRequest::waterline_m)
       .def_readwrite("frequency_hz", &RcsRequest::frequency_hz)
       .def_readwrite("azimuth_deg", &RcsRequest::azimuth_deg)
       .def_readwrite("elevation_deg", &RcsRequest::elevation_deg)

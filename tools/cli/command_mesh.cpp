@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
@@ -12,12 +14,14 @@
 #include "sim/geometry/mesh/mesh_diagnostics.h"
 #include "sim/geometry/mesh/topology.h"
 #include "sim/geometry/placement/target_mesh.h"
+#include "sim/geometry/placement/waterline.h"
 #include "sim/geometry/shapes/generators.h"
 #include "sim/geometry/ship/make_ship.h"
 #include "tools/cli/command_line.h"
 #include "tools/figure/mesh_picture.h"
 #include "tools/options/rcs_arguments.h"
 #include "tools/pipeline/warnings.h"
+#include "tools/rcs/rcs_target.h"
 #include "tools/rcs/rcs_uncertainty.h"
 
 namespace seaglint {
@@ -227,6 +231,7 @@ void add_convert(CommandOptions& mesh, CommandContext& context) {
   struct ConvertArguments {
     std::string input, output;
     MeshPlacement placement;
+    std::optional<double> waterline_m;
   };
   CommandOptions convert = mesh.add_command(
       "convert", "Write a mesh in metres and the body frame: turned, then enlarged, then moved; in another format");
@@ -237,15 +242,27 @@ void add_convert(CommandOptions& mesh, CommandContext& context) {
       .required();
   convert.add_option("-o,--output", arguments->output, "Mesh file to write: .glb .gltf .obj .stl or .ply").required();
   add_placement_options(convert, arguments->placement);
+  add_waterline_option(convert, arguments->waterline_m);
   add_threads_option(convert, context);
-  convert.footer("Example:\n  seaglint mesh convert hull.stl --unit mm --forward +y --offset-m 0,0,-4.2 -o hull.glb");
+  convert.footer(
+      "Example:\n  seaglint mesh convert hull.stl --unit mm --forward +y --offset-m 0,0,-4.2 --waterline-m 0 -o "
+      "hull.glb");
   convert.callback([arguments, &context] {
     context.work = [arguments] {
       require_outputs({arguments->output}, {arguments->input});
-      const TriangleMesh read = read_placed_mesh(find_input(arguments->input), arguments->placement);
-      write_mesh(arguments->output, read);
-      print_out("{}\n{}{}", arguments->output, size_line(read), counts_line(read));
-      for (const std::string& finding : read.findings) print_out("finding    {}\n", on_one_line(finding));
+      TriangleMesh mesh = read_placed_mesh(find_input(arguments->input), arguments->placement);
+      const std::vector<std::string> findings = mesh.findings;
+      std::string cut;
+      if (arguments->waterline_m) {
+        require_above_waterline(mesh, *arguments->waterline_m);
+        AboveWater above = above_water(repair(mesh), *arguments->waterline_m);
+        mesh = std::move(above.mesh);
+        cut = cut_sentence(above.below);
+      }
+      write_mesh(arguments->output, mesh);
+      print_out("{}\n{}{}", arguments->output, size_line(mesh), counts_line(mesh));
+      if (!cut.empty()) print_out("cut        {}\n", cut);
+      for (const std::string& finding : findings) print_out("finding    {}\n", on_one_line(finding));
     };
   });
 }

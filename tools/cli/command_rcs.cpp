@@ -21,6 +21,7 @@
 #include "tools/pipeline/warnings.h"
 #include "tools/rcs/hot_spots.h"
 #include "tools/rcs/rcs_figure.h"
+#include "tools/rcs/rcs_statistics.h"
 #include "tools/rcs/rcs_table.h"
 #include "tools/rcs/rcs_uncertainty.h"
 #include "tools/rcs/rcs_views.h"
@@ -113,7 +114,8 @@ void require_files(const RcsArguments& arguments) {
   std::vector<std::filesystem::path> inputs(arguments.reference.files.begin(), arguments.reference.files.end());
   inputs.insert(inputs.end(), arguments.targets.begin(), arguments.targets.end());
   std::vector<std::string> outputs{arguments.output,           exports.centres, exports.hot_spots,
-                                   arguments.reference.curves, arguments.isar,  arguments.profiles};
+                                   arguments.reference.curves, arguments.isar,  arguments.profiles,
+                                   arguments.statistics};
   if (is_drawn(arguments)) {
     outputs.push_back(figure_file(arguments));
     if (is_figure_asked(arguments)) require_figure(outputs.back());
@@ -178,6 +180,23 @@ void show_images(const RcsArguments& arguments, const RcsRequest& request, const
   print_out("Range profiles: {}\n", arguments.profiles);
 }
 
+// Writes and prints the statistics of sectors. `warnings`: of the sweep's table.
+void show_statistics(const RcsArguments& arguments, const RcsRequest& request, const RcsTarget& target,
+                     const RcsSweep& sweep, std::vector<std::string> warnings) {
+  const TriangleMesh& mesh = target.prepared.mesh;
+  const RcsStatistics statistics = rcs_statistics(sweep, arguments.sector_deg);
+  const AzimuthSampling sampling = azimuth_sampling(request, mesh);
+  const std::string sampled = sampling_text(statistics, sampling);
+  if (const auto few = sampling_warning(statistics, sampling)) {
+    warn(std::array{*few});
+    warnings.push_back(*few);
+  }
+  const std::string heading =
+      rcs_heading(request, *target.prepared.scatterer, "rcs --statistics", warnings) + "# " + sampled + "\n";
+  write_file(arguments.statistics, statistics_csv(statistics, heading, mesh.part_names));
+  print_out("{}{}\nStatistics: {}\n", statistics_table(statistics, mesh.part_names), sampled, arguments.statistics);
+}
+
 // Writes the panels of the comparison's figure; without any there are no curves.
 void write_curves(const std::string& file, const std::vector<PairedCut>& cuts, double floor_db) {
   const PlotPanels panels = comparison_plots(cuts, floor_db);
@@ -216,6 +235,7 @@ ConvergedSweep compute(const RcsArguments& arguments, const RcsRequest& request,
 void run_rcs(const RcsArguments& arguments, const CommandContext& context) {
   require_files(arguments);
   RcsRequest request = arguments.make_request();
+  sector_count(arguments.sector_deg);  // throws before any work
   std::vector<std::string> warnings = request_warnings(request);
   warn(warnings);
   const RcsSweep asked = requested_sweep(request);
@@ -226,7 +246,11 @@ void run_rcs(const RcsArguments& arguments, const CommandContext& context) {
   require_images(arguments, request, prepared.mesh);
   const RcsTarget target = select_echoes(request, std::move(prepared));
   require_hot_spots(request.exports.hot_spots, target);
-  if (const auto lobes = lobe_warning(request, target.prepared.mesh)) warn(std::array{*lobes});
+  if (!arguments.statistics.empty()) {
+    request.by_part = has_statistics_by_part(request, target.prepared.mesh);
+  } else if (const auto lobes = lobe_warning(request, target.prepared.mesh)) {
+    warn(std::array{*lobes});
+  }
   for (const NamedCavity& cavity : target.cavities) {
     print_error(fmt::format("cavity {}: aperture of {:.4g} m^2, walls of {:.4g} m^2, {} patches at {:.6g} GHz\n",
                             cavity.name, cavity.size.aperture_m2, cavity.size.walls_m2, cavity.size.patches,
@@ -261,7 +285,11 @@ void run_rcs(const RcsArguments& arguments, const CommandContext& context) {
   if (request.exports.wanted()) print_out("{}", export_view(request, target, result.points));
   for (PairedCut& cut : cuts) set_models(cut, sweep);
   if (!cuts.empty()) print_out("{}", error_table(cuts, arguments.reference.floor_db));
-  if (cuts.empty()) print_out("{}", statistics_text(level_statistics(sweep)));
+  if (!arguments.statistics.empty()) {
+    show_statistics(arguments, request, target, sweep, warnings);
+  } else if (cuts.empty()) {
+    print_out("{}", statistics_text(level_statistics(sweep)));
+  }
   if (is_drawn(arguments)) show_figure(arguments, request, cuts, sweep);
   if (has_images(arguments)) show_images(arguments, request, target, sweep, context.threads);
   if (!arguments.reference.curves.empty()) write_curves(arguments.reference.curves, cuts, arguments.reference.floor_db);
@@ -281,7 +309,9 @@ void add_rcs(CommandOptions& program, CommandContext& context) {
       "plate.csv --reference "
       "ref.H.txt --reference ref.V.txt\n  seaglint rcs --target ship.glb --frequency-ghz 9.85:10.15:0.001 "
       "--azimuth-deg "
-      "29.1:30.9:0.009 -o ship.csv --isar ship_isar.png --profiles ship_profiles.png");
+      "29.1:30.9:0.009 -o ship.csv --isar ship_isar.png --profiles ship_profiles.png\n  seaglint rcs --target ship.glb "
+      "--waterline-m 0 --frequency-ghz 9.4 --azimuth-deg 0:360:0.5 --elevation-deg 1 -o ship.csv --statistics "
+      "ship_statistics.csv");
   command.callback([arguments, command, &context] {
     command.require_any_of("--transmit-elevation-deg", {"--transmit-azimuth-deg"});
     if (!shows_centres(arguments->request.exports.hot_spots))
@@ -290,11 +320,12 @@ void add_rcs(CommandOptions& program, CommandContext& context) {
     command.require_any_of("--polarisation", {"--isar", "--profiles"});
     command.require_one_of({"--output", "--cross-check"});
     command.refuse_with("--polar", {"--reference", "--uncertainty"});
-    command.refuse_with("--average", {"--cross-check", "--converge", "--uncertainty", "--reference", "--export-as",
-                                      "--export-scattering-centres", "--export-hot-spots", "--isar", "--profiles"});
-    command.refuse_with("--cross-check",
-                        {"--method", "--cavity", "--converge", "--uncertainty", "--reference", "--export-as",
-                         "--export-scattering-centres", "--export-hot-spots", "--isar", "--profiles", "--polar"});
+    command.refuse_with("--average",
+                        {"--cross-check", "--converge", "--uncertainty", "--statistics", "--reference", "--export-as",
+                         "--export-scattering-centres", "--export-hot-spots", "--isar", "--profiles"});
+    command.refuse_with("--cross-check", {"--method", "--cavity", "--converge", "--uncertainty", "--statistics",
+                                          "--reference", "--export-as", "--export-scattering-centres",
+                                          "--export-hot-spots", "--isar", "--profiles", "--polar"});
     context.work = [arguments, &context] {
       arguments->cross_check ? run_rcs_cross_check(*arguments, context) : run_rcs(*arguments, context);
     };

@@ -343,6 +343,13 @@ void add_placement_options(CommandOptions& command, MeshPlacement& placement) {
                      "Translation of the turned and enlarged mesh: the waterline belongs at z = 0");
 }
 
+void add_waterline_option(CommandOptions& command, std::optional<double>& waterline_m) {
+  command
+      .add_option("--waterline-m", waterline_m,
+                  "Remove what is below z = this of the placed mesh, and close the hull there by lids")
+      .number_within(-1e4, 1e4);
+}
+
 void RcsArguments::add_mesh_to(CommandOptions& command) {
   add_target_to(command).required();
   add_views_to(command);
@@ -358,6 +365,7 @@ CommandOption RcsArguments::add_target_to(CommandOptions& command) {
               "files are the parts of one target)")
           .repeatable("FILE");
   add_placement_options(command, request);
+  add_waterline_option(command, request.waterline_m);
   return option;
 }
 
@@ -464,6 +472,18 @@ void RcsArguments::add_to(CommandOptions& command) {
                    "the fields relative to the beams', and the part and bounces that differ most; the CSV file is then "
                    "this table, with a figure beside it (.png), and may be left out");
   command.add_option("-o,--output", output, "CSV file to write");
+  const CommandOption statistics_option = command.add_option(
+      "--statistics", statistics,
+      "Statistics of the levels, as CSV and printed: number of views, percentiles 5, 25, 50 (median), 75 and 95, mean "
+      "and largest cross-section in dBsm, of all elements, by elevation and sector of azimuth, for the whole target "
+      "and "
+      "each of its parts; over the values in m^2 of all views and frequencies of a sector");
+  command
+      .add_option("--sector-deg", sector_deg,
+                  "Width of the sectors of --statistics; it divides 360, and the first one has the bow in its middle")
+      .number_within(kNarrowestSector_deg, 360.0)
+      .show_default()
+      .needs(statistics_option);
   add_export_as_to(command).group("Selection and export");
   add_selection_options(command, request.selection);
   add_export_options(command, request.exports);

@@ -10,6 +10,7 @@
 #include "sim/field_tables/field_table.h"
 #include "tools/options/command_options.h"
 #include "tools/rcs/rcs_request.h"
+#include "tools/rcs/rcs_statistics.h"
 
 namespace seaglint {
 
@@ -41,6 +42,8 @@ struct ReferenceArguments {
 
 // --unit, --forward, --up, --scale and --offset-m, wherever a mesh file is read.
 void add_placement_options(CommandOptions& command, MeshPlacement& placement);
+// --waterline-m, where the mesh is solved or written.
+void add_waterline_option(CommandOptions& command, std::optional<double>& waterline_m);
 
 struct RcsArguments {
   RcsRequest request;                // members that options set directly; make_request() fills the others
@@ -49,6 +52,8 @@ struct RcsArguments {
                                           like, output;
   std::optional<double> transmit_azimuth_deg, transmit_elevation_deg, converge_db;
   bool cross_check = false;
+  std::string statistics;  // table of sectors; empty: none
+  double sector_deg = kSector_deg;
   bool polar = false;                                                 // the figure of the levels
   std::string isar, profiles, polarisation = "vv", style = "screen";  // figures; isar, profiles: empty for none
   std::vector<std::string> materials;                                 // NAME or PART=NAME

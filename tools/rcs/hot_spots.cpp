@@ -18,7 +18,6 @@
 #include "sim/core/process/printable.h"
 #include "sim/field_tables/field_table.h"
 #include "sim/geometry/files/mesh_io.h"
-#include "sim/geometry/placement/target_mesh.h"
 #include "sim/geometry/placement/waterline.h"
 #include "tools/figure/mesh_picture.h"
 #include "tools/page/html.h"
@@ -231,7 +230,7 @@ std::string heading(const RcsRequest& request, const Scatterer& scatterer) {
       "deg, max_bounces {}, edges {}{}, contributions: {}\n"
       "# body frame, e^{{+jwt}}, phase origin at the body's origin, S_pq: q transmitted, p received; basis of "
       "CONVENTIONS.md\n",
-      kVersion, request.target.string(), placement_text(request), request.frequency_hz[0], request.azimuth_deg[0],
+      kVersion, request.target.string(), mesh_text(request), request.frequency_hz[0], request.azimuth_deg[0],
       request.elevation_deg[0], request.max_bounces, request.edges ? "on" : "off", method_text(request, scatterer),
       text_of(request.selection));
 }

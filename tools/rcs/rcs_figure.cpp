@@ -235,20 +235,4 @@ PlotPanels level_plots(const RcsSweep& sweep, bool polar) {
   return panels;
 }
 
-std::optional<std::string> lobe_warning(const RcsRequest& request, const TriangleMesh& mesh) {
-  const std::vector<double> azimuths = averaged_azimuths(request);
-  if (request.azimuth_deg.size() < kFewestDrawn) return {};
-  double step = 0;
-  for (std::size_t i = 1; i < azimuths.size(); ++i) step = std::max(step, std::abs(azimuths[i] - azimuths[i - 1]));
-  const Bounds box = bounds(mesh);
-  const double extent = std::hypot(box.upper.x() - box.lower.x(), box.upper.y() - box.lower.y());
-  const double highest_hz = *std::ranges::max_element(request.frequency_hz);
-  const double lobe = degrees(kSpeedOfLight / highest_hz / ((request.transmitter ? 1 : 2) * extent));
-  if (step <= lobe * (1 + 1e-9)) return {};
-  return fmt::format(
-      "the azimuths are {:.4g} deg apart, the narrowest lobes of a target of {:.3g} m at {:.4g} GHz {:.2g} deg wide "
-      "({}): single values are samples of them, largest ones may be missed; steps of {:.2g} deg miss none",
-      step, extent, 1e-9 * highest_hz, lobe, request.transmitter ? "lambda / D" : "lambda / 2D", lobe / 2);
-}
-
 }  // namespace seaglint

@@ -2,9 +2,8 @@
 #pragma once
 
 // What a sweep shows at first sight: levels over its angle or frequency as a figure, their percentiles and largest
-// values as text, and steps that are wider than the lobes of the target.
+// values as text.
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,11 +42,5 @@ std::vector<std::string> solver_notes(const RcsRequest& request);
 // medians in a window of kMedianWindow_deg. No panels below kFewestDrawn values. Polar:
 // over azimuth about the target, else none.
 PlotPanels level_plots(const RcsSweep& sweep, bool polar = false);
-
-// The narrowest lobe over azimuth against the step: a sentence with the step that has two values per lobe, if the step
-// of a sweep is wider than the lobe. Two scatterers D apart across the line of sight differ by the two-way phase 2 k D
-// sin(azimuth), 2 pi per lambda / 2D; with one antenna fixed by k D sin(azimuth), 2 pi per lambda / D. D: the diagonal
-// of the mesh's horizontal bounding box.
-std::optional<std::string> lobe_warning(const RcsRequest& request, const TriangleMesh& mesh);
 
 }  // namespace seaglint

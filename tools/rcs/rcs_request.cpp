@@ -11,6 +11,7 @@
 #include "sim/core/process/error.h"
 #include "sim/core/text/names.h"
 #include "sim/core/text/words.h"
+#include "sim/geometry/placement/target_mesh.h"
 #include "sim/scattering/observation/observation.h"
 
 namespace seaglint {
@@ -25,6 +26,10 @@ Vec3 direction_to(const FixedTransmitter& transmitter) {
 // water.
 void check_sea(const RcsRequest& request) {
   if (!request.sea.reflection) return;
+  if (request.waterline_m)
+    throw InputError(
+        fmt::format("--waterline-m {}: with --sea-reflection the water is where --origin-height-m says: z = {:g} m",
+                    *request.waterline_m, -request.sea.height_m + 0.0));
   for (const double elevation : request.elevation_deg) {
     if (elevation <= 0)
       throw InputError(
@@ -80,6 +85,11 @@ RcsSweep requested_sweep(const RcsRequest& request) {
     throw InputError("--transmit-azimuth-deg: exports of one aspect and --sea-reflection are monostatic");
   }
   return sweep;
+}
+
+std::string mesh_text(const RcsRequest& request) {
+  return placement_text(request) +
+         (request.waterline_m ? fmt::format(" waterline_m {:.9g}", *request.waterline_m) : "");
 }
 
 // Behind a target only its sharp edges scatter: the echo of a sphere has a mean error of 0.65 dB between 90 and 120 deg

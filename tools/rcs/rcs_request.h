@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -59,6 +60,9 @@ struct RcsSweep {
       transmitter;  // look direction of a fixed transmitter; the sweep is then over the receiver's directions
   std::optional<Model> coarser =
       {};  // of a converged sweep: the last model with patches, or distances between rays, twice as large
+  // By view and part, of a request `by_part`: the part's matrices per frequency in the last model, m, as
+  // ViewResult::parts; a cavity is a part.
+  std::vector<std::map<std::uint16_t, std::vector<std::array<std::complex<float>, 4>>>> parts = {};
 
   std::size_t views() const { return azimuth_deg.size() * elevation_deg.size(); }
   std::size_t rows() const { return views() * frequency_hz.size(); }
@@ -113,7 +117,9 @@ struct RcsRequest : MeshPlacement {
   double ray_spacing_m = 0;          // of method rays; 0: ray_spacing()
   std::optional<double> crease_deg;  // absent: as the mesh's normals or its shape say
   double sheet_thickness_mm = 0;
-  std::string like;  // program whose settings were taken (kLikePrograms); empty: none
+  std::optional<double> waterline_m;  // what is below z = waterline_m of the placed mesh is removed (above_water())
+  bool by_part = false;               // also computes the echo of every part; without `average`
+  std::string like;                   // program whose settings were taken (kLikePrograms); empty: none
   EchoSelection selection;
   SeaUnderTarget sea;
   CavityRequest cavities;
@@ -126,6 +132,9 @@ SolverMethod solver_method_of(std::string_view name);
 // Sweep of the request's directions and frequencies, without models. Throws InputError for a contradictory request and
 // for more than four million rows.
 RcsSweep requested_sweep(const RcsRequest& request);
+
+// Placement of the mesh and its waterline, for the heads of tables: "unit mm offset_m 0,0,1.5 waterline_m 0".
+std::string mesh_text(const RcsRequest& request);
 
 // Warnings about the request, a sentence each, to be shown before the work.
 std::vector<std::string> request_warnings(const RcsRequest& request);

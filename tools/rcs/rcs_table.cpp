@@ -18,7 +18,6 @@
 #include "sim/core/process/printable.h"
 #include "sim/field_export/field_export.h"
 #include "sim/field_tables/field_table.h"
-#include "sim/geometry/placement/target_mesh.h"
 #include "sim/scattering/tracing/tracing_settings.h"
 #include "tools/rcs/rcs_request.h"
 #include "tools/rcs/rcs_uncertainty.h"
@@ -81,7 +80,7 @@ std::string rcs_heading(const RcsRequest& request, const Scatterer& scatterer, c
       "# amplitudes in metres, e^{{+jwt}}, phase origin at the body's origin, S_pq: q transmitted, p received; basis "
       "of "
       "CONVENTIONS.md\n{}",
-      kVersion, made_by, on_one_line(request.target.string()), on_one_line(placement_text(request)),
+      kVersion, made_by, on_one_line(request.target.string()), on_one_line(mesh_text(request)),
       scatterer.facets().size(), scatterer.radius(), materials_text(request.materials), text_of(request.selection),
       sea_line(request.sea), request.max_bounces, request.edges ? "on" : "off",
       request.crease_deg ? fmt::format("{:.6g}", *request.crease_deg) : "auto", request.sheet_thickness_mm,

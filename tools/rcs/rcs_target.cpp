@@ -12,6 +12,7 @@
 #include "sim/core/process/error.h"
 #include "sim/core/text/names.h"
 #include "sim/geometry/files/mesh_io.h"
+#include "sim/geometry/placement/waterline.h"
 #include "tools/rcs/rcs_request.h"
 
 namespace seaglint {
@@ -115,6 +116,14 @@ void set_target_files(RcsRequest& request, std::span<const GeometryFile> files) 
   request.mesh = std::make_shared<TriangleMesh>(welded(joined));
 }
 
+void require_above_waterline(const TriangleMesh& mesh, double waterline_m) {
+  const Bounds box = bounds(mesh);
+  if (!(box.upper.z() > waterline_m + waterline_margin(box)))
+    throw InputError(
+        fmt::format("--waterline-m: value {}: must be less than {:.6g}, else the whole target is under water",
+                    waterline_m, box.upper.z()));
+}
+
 PreparedTarget prepare_mesh(const RcsRequest& request) {
   requested_sweep(request);  // throws InputError for a contradictory request
   const auto [lowest, highest] = std::minmax_element(request.frequency_hz.begin(), request.frequency_hz.end());
@@ -129,12 +138,13 @@ PreparedTarget prepare_mesh(const RcsRequest& request) {
                                       .frequencies_place = "",
                                       .mesh_place = request.target.string()});
   ScattererSettings settings{
-      .waterline_m = std::nullopt,
+      .waterline_m = request.waterline_m,
       .crease_rad = request.crease_deg ? std::optional(radians(*request.crease_deg)) : std::nullopt,
       .sheet_thickness_m = 1e-3 * request.sheet_thickness_mm,
       .edges = request.edges,
       .lowest_hz = *lowest,
       .highest_hz = *highest};
+  if (request.waterline_m) require_above_waterline(mesh.mesh, *request.waterline_m);
   if (request.sea.reflection) {
     require_above_water(request.sea, mesh.mesh);
     settings.waterline_m = -request.sea.height_m;

@@ -38,6 +38,9 @@ struct RcsTarget {
 // Throws what read_mesh() throws.
 void set_target_files(RcsRequest& request, std::span<const GeometryFile> files);
 
+// Throws InputError where the whole mesh is below z = waterline_m (--waterline-m).
+void require_above_waterline(const TriangleMesh& mesh, double waterline_m);
+
 // Reads and prepares the request's mesh; its `warnings` are the warnings for the user. Throws InputError for a mesh or
 // material that is missing or invalid, for a contradictory request, and for a mesh that is entirely under water.
 PreparedTarget prepare_mesh(const RcsRequest& request);

@@ -6,6 +6,9 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <complex>
+#include <cstdint>
+#include <map>
 #include <utility>
 
 #include "sim/core/numbers/constants.h"
@@ -124,6 +127,7 @@ class SweepTracer {
       ViewResult& view = solved.views.front();
       model.matrices[first] = std::move(view.matrices);
       set_uncertainty(first, *view.estimate, result.sweep);
+      set_parts(first, view.parts, result.sweep);
       result.points = std::move(view.points);
       segments += solved.segments;
       return;
@@ -134,6 +138,7 @@ class SweepTracer {
                         .settings = settings,
                         .radar = {request_.range_m},
                         .estimates = requested,
+                        .by_part = requested && request_.by_part,
                         .threads = threads,
                         .stop = stop_};
     if (request_.sea.reflection) solver.sea = {reflection_of(request_.sea), request_.sea.height_m};
@@ -141,7 +146,9 @@ class SweepTracer {
     segments += solved.segments;
     for (std::size_t i = 0; i < count; ++i) {
       model.matrices[first + i] = std::move(solved.views[i].matrices);
-      if (requested) set_uncertainty(first + i, *solved.views[i].estimate, result.sweep);
+      if (!requested) continue;
+      set_uncertainty(first + i, *solved.views[i].estimate, result.sweep);
+      set_parts(first + i, solved.views[i].parts, result.sweep);
     }
   }
 
@@ -151,6 +158,16 @@ class SweepTracer {
     if (view == 0) {
       const auto at = std::ranges::find(wavenumbers_, estimate.wavenumber());
       sweep.estimated = static_cast<std::size_t>(at - wavenumbers_.begin());
+    }
+  }
+
+  void set_parts(std::size_t view, const std::map<std::uint16_t, Matrices>& parts, RcsSweep& sweep) const {
+    for (const auto& [part, matrices] : parts) {
+      auto& of_part = sweep.parts[view][part];
+      for (const ScatteringMatrix& matrix : matrices) {
+        auto& values = of_part.emplace_back();
+        for (std::size_t i = 0; i < 4; ++i) values[i] = std::complex<float>(matrix[i]);
+      }
     }
   }
 
@@ -189,6 +206,11 @@ void add_cavities(const RcsRequest& request, const RcsTarget& target, int thread
         echo[view] = reciprocal_mean(echo[view], echo[view]);
       for (RcsSweep::Model& model : sweep.models) add_to(model);
       if (sweep.flat) add_to(*sweep.flat);
+      for (std::size_t view = 0; view < sweep.parts.size(); ++view) {
+        auto& of_part = sweep.parts[view].try_emplace(static_cast<std::uint16_t>(named.part)).first->second;
+        of_part.resize(sweep.frequency_hz.size());
+        for (std::size_t i = 0; i < 4; ++i) of_part[q][i] += std::complex<float>(echo[view][i]);
+      }
       progress.advance();
     }
   }
@@ -198,7 +220,7 @@ void add_cavities(const RcsRequest& request, const RcsTarget& target, int thread
 RcsSweep::Model flat_model(RcsRequest request, int threads, const StopFlag* stop,
                            const std::function<void(const std::string&)>& say) {
   request.crease_deg = 0;
-  request.uncertainty = request.physical_optics_too = false;
+  request.uncertainty = request.physical_optics_too = request.by_part = false;
   request.exports = {};
   RcsTarget target = prepare_rcs_target(request);
   target.cavities.clear();
@@ -236,6 +258,7 @@ SolveResult view_contributions(const RcsRequest& request, const RcsTarget& targe
                 .settings = settings_of(request, target, request.edges),
                 .radar = {request.range_m},
                 .estimates = true,
+                .by_part = request.by_part,
                 .points_for_rad = default_aspect_change(scatterer, 2 * kPi / k),
                 .threads = threads,
                 .stop = stop});
@@ -283,6 +306,7 @@ RcsResult compute_rcs(const RcsRequest& request, const RcsTarget& target, int th
     RcsRequest every = request;
     every.azimuth_deg = averaged_azimuths(request);
     every.average = 1;
+    every.by_part = false;
     RcsResult result = compute_rcs(every, target, threads, stop, say);
     result.sweep = averaged(result.sweep, request);
     return result;
@@ -293,6 +317,7 @@ RcsResult compute_rcs(const RcsRequest& request, const RcsTarget& target, int th
   if (!request.edges || request.physical_optics_too) sweep.models.push_back({"po", false, empty});
   if (request.edges) sweep.models.push_back({"po+diffraction", true, empty});
   sweep.uncertainty.resize(sweep.views());
+  if (request.by_part) sweep.parts.resize(sweep.views());
   const int count = thread_count(threads);
   SweepTracer(request, target, count, stop).run(result, say);
   if (request.uncertainty) sweep.flat = flat_model(request, threads, stop, say);

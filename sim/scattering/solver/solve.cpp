@@ -47,7 +47,7 @@ SolveResult solve_without_sea(const SolveRequest& request, std::span<const Bista
   std::vector<ChunkPoints> points(pairs.size());
   for (std::size_t pair = 0; pair < pairs.size(); ++pair) {
     observations.push_back(observation_of(scatterer, pairs[pair], radar));
-    sums.emplace_back(SweepSum(plan, estimated), trace.chunk_count(pair));
+    sums.emplace_back(SweepSum(plan, estimated, request.by_part), trace.chunk_count(pair));
     if (request.points_for_rad) points[pair].resize(trace.chunk_count(pair));
   }
   SolveResult result;
@@ -63,7 +63,7 @@ SolveResult solve_without_sea(const SolveRequest& request, std::span<const Bista
       [&](std::size_t pair, std::size_t chunk) { sums[pair].complete(chunk); }, request.stop);
   for (std::size_t pair = 0; pair < pairs.size(); ++pair) {
     const SweepSum& sum = sums[pair].sum();
-    result.views.push_back({sum.matrices(), sum.estimate(), joined(std::move(points[pair]))});
+    result.views.push_back({sum.matrices(), sum.estimate(), joined(std::move(points[pair])), sum.parts()});
   }
   return result;
 }
@@ -93,9 +93,15 @@ ViewResult over_sea(const SolveRequest& request, const BistaticGeometry& view, s
       for (int i = 0; i < 4; ++i) factor[i] = SeaReflection::path_factor(path, rho, i) * std::polar(1.0, k * detour);
       return factor;
     };
+    for (const auto& [part, matrices] : by_path.views[w].parts)
+      view_result.parts.try_emplace(part, request.wavenumbers.size());
     for (std::size_t q = 0; q < request.wavenumbers.size(); ++q) {
       const ScatteringMatrix factor = factors(request.wavenumbers[q]);
-      for (int i = 0; i < 4; ++i) view_result.matrices[q][i] += factor[i] * by_path.views[w].matrices[q][i];
+      const auto add = [&](Matrices& to, const Matrices& from) {
+        for (int i = 0; i < 4; ++i) to[q][i] += factor[i] * from[q][i];
+      };
+      add(view_result.matrices, by_path.views[w].matrices);
+      for (const auto& [part, matrices] : by_path.views[w].parts) add(view_result.parts.at(part), matrices);
     }
     if (!request.estimates) continue;
     // hv and vh of one path that meets the sea once differ; those of both together do not.

@@ -4,6 +4,8 @@
 // The solver: scattering matrices of a body at rest in one or several views, over a sweep of frequencies, also over the
 // sea; and the frequency response of a moving body over a coherent interval.
 
+#include <cstdint>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -36,6 +38,7 @@ struct SolveRequest {
   std::optional<SeaUnderBody> sea = {};  // four propagation paths; of views of one antenna above the surface
   bool one_way = false;                  // hv and vh as the beams have them, equal only to the accuracy of the method
   bool estimates = false;                // uncertainty, at the frequency nearest to the middle of the sweep
+  bool by_part = false;                  // also the matrices of every part
   std::optional<double> points_for_rad = {};  // points that hold over this aspect change; of one wavenumber, no sea
   int threads = 1;
   const StopFlag* stop = nullptr;
@@ -47,6 +50,10 @@ struct ViewResult {
   Matrices matrices;
   std::optional<ViewEstimate> estimate;
   std::vector<Point> points;  // in an order independent of the number of threads; their direct sum is the matrix
+  // Of a request `by_part`: the coherent sum of the contributions of one part, by its index in the mesh. A reflection
+  // belongs to the part that it leaves last, an edge to the part of its first facet. The sum over the parts is
+  // `matrices`; parts without contributions are not in it.
+  std::map<std::uint16_t, Matrices> parts;
 };
 
 struct SolveResult {

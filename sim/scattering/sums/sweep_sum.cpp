@@ -96,8 +96,17 @@ ScatteringMatrix one_way_at(std::span<const Point> points, const FrequencyBand& 
 
 }  // namespace
 
-SweepSum::SweepSum(const SweepPlan& plan, std::optional<std::size_t> estimated) : plan_(plan), single_(plan.size()) {
-  for (const SweepPlan::Band& of : plan.bands()) bands_.emplace_back(of.band);
+SweepSum::Sum::Sum(const SweepPlan& plan) : single(plan.size()) {
+  for (const SweepPlan::Band& of : plan.bands()) bands.emplace_back(of.band);
+}
+
+void SweepSum::Sum::add(const Sum& other) {
+  for (std::size_t b = 0; b < bands.size(); ++b) bands[b].add(other.bands[b]);
+  for (std::size_t q = 0; q < single.size(); ++q) add_to(single[q], other.single[q]);
+}
+
+SweepSum::SweepSum(const SweepPlan& plan, std::optional<std::size_t> estimated, bool by_part)
+    : plan_(plan), by_part_(by_part), whole_(plan) {
   if (!estimated) return;
   const double k = plan.wavenumber(*estimated);
   estimate_.emplace(k);
@@ -117,16 +126,23 @@ void SweepSum::add(std::span<const Contribution> contributions, const Observatio
 }
 
 void SweepSum::add(const Contribution& contribution, const Observation& observation) {
-  for (std::size_t b = 0; b < bands_.size(); ++b) {
+  Sum* const part = by_part_ ? &parts_.try_emplace(contribution.source.part, plan_).first->second : nullptr;
+  for (std::size_t b = 0; b < whole_.bands.size(); ++b) {
     const auto& [band, first_node, frequencies] = plan_.bands()[b];
     if (!varies_slowly(contribution, band)) {
-      for (const std::size_t q : frequencies)
-        add_to(single_[q], scattered(contribution, observation, plan_.wavenumber(q), first_node));
+      for (const std::size_t q : frequencies) {
+        const ScatteringMatrix at_q = scattered(contribution, observation, plan_.wavenumber(q), first_node);
+        add_to(whole_.single[q], at_q);
+        if (part) add_to(part->single[q], at_q);
+      }
       continue;
     }
     points_.clear();
     decompose(contribution, observation, {band, first_node}, points_);
-    for (const Point& point : points_) bands_[b].add(point);
+    for (const Point& point : points_) {
+      whole_.bands[b].add(point);
+      if (part) part->bands[b].add(point);
+    }
     if (estimate_ && b == estimated_band_ && observation.sense != PathSense::kExchanged &&
         ViewEstimate::concerns(contribution))
       add_to_estimate(contribution, observation, band);
@@ -152,16 +168,22 @@ void SweepSum::add_to_estimate(const Contribution& contribution, const Observati
 }
 
 void SweepSum::add(const SweepSum& other) {
-  for (std::size_t b = 0; b < bands_.size(); ++b) bands_[b].add(other.bands_[b]);
-  for (std::size_t q = 0; q < single_.size(); ++q) add_to(single_[q], other.single_[q]);
+  whole_.add(other.whole_);
+  for (const auto& [part, sum] : other.parts_) parts_.try_emplace(part, plan_).first->second.add(sum);
   if (estimate_) estimate_->add(*other.estimate_);
 }
 
-Matrices SweepSum::matrices() const {
-  Matrices all = single_;
-  for (std::size_t b = 0; b < bands_.size(); ++b) {
-    for (const std::size_t q : plan_.bands()[b].points) add_to(all[q], bands_[b].at(plan_.wavenumber(q)));
+Matrices SweepSum::matrices_of(const Sum& sum) const {
+  Matrices all = sum.single;
+  for (std::size_t b = 0; b < sum.bands.size(); ++b) {
+    for (const std::size_t q : plan_.bands()[b].points) add_to(all[q], sum.bands[b].at(plan_.wavenumber(q)));
   }
+  return all;
+}
+
+std::map<std::uint16_t, Matrices> SweepSum::parts() const {
+  std::map<std::uint16_t, Matrices> all;
+  for (const auto& [part, sum] : parts_) all.emplace(part, matrices_of(sum));
   return all;
 }
 

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <span>
@@ -51,27 +52,38 @@ class BandSum {
   std::int64_t first_ = 0;
 };
 
-// Sum of the contributions of one pair of directions over the frequencies of a sweep. `estimated`: frequency of the
-// view's estimate, which changes no matrix. The plan must outlive the object.
+// Sum of the contributions of one pair of directions over the frequencies of a sweep, `by_part` also of every part of
+// the mesh (ContributionSource). `estimated`: frequency of the view's estimate. Neither changes a matrix of the whole.
+// The plan must outlive the object.
 class SweepSum {
  public:
-  explicit SweepSum(const SweepPlan& plan, std::optional<std::size_t> estimated = std::nullopt);
+  explicit SweepSum(const SweepPlan& plan, std::optional<std::size_t> estimated = std::nullopt, bool by_part = false);
 
   // The contributions of one beam or one edge. Reciprocal ones (PathSense::kExchanged) have no estimate.
   void add(std::span<const Contribution> contributions, const Observation& observation);
   void add(const SweepSum& other);
 
-  Matrices matrices() const;
+  Matrices matrices() const { return matrices_of(whole_); }
+  std::map<std::uint16_t, Matrices> parts() const;
   const std::optional<ViewEstimate>& estimate() const { return estimate_; }
 
  private:
+  struct Sum {
+    explicit Sum(const SweepPlan& plan);
+    void add(const Sum& other);
+
+    std::vector<BandSum> bands;  // of the plan's bands
+    Matrices single;             // of contributions that oscillate over their band, per frequency
+  };
+  Matrices matrices_of(const Sum& sum) const;
   void add(const Contribution& contribution, const Observation& observation);
   void add_to_estimate(const Contribution& contribution, const Observation& observation, const FrequencyBand& band);
 
   const SweepPlan& plan_;
-  std::vector<BandSum> bands_;  // of the plan's bands
-  Matrices single_;             // of contributions that oscillate over their band, per frequency
-  std::vector<Point> points_;   // of one contribution
+  bool by_part_;
+  Sum whole_;
+  std::map<std::uint16_t, Sum> parts_;
+  std::vector<Point> points_;  // of one contribution
   std::optional<ViewEstimate> estimate_;
   std::size_t estimated_band_ = 0, estimated_node_ = 0;  // of the plan: that with its frequency, and its nearest node
 };

@@ -66,21 +66,5 @@ TEST(LevelPlots, HaveMediansThatGoOnOverAFullTurn) {
   EXPECT_NEAR(level_plots(rising(180)).plots[0].series[2].y[0], 2.5, 1e-9);
 }
 
-// A plate of 0.6 m by 0.8 m lies flat: 1 m from corner to corner; lambda = 0.03 m, lambda / 2D = 0.859 deg.
-TEST(LobeWarning, ComparesTheStepWithTheNarrowestLobe) {
-  TriangleMesh mesh;
-  mesh.vertices = {{0, 0, 0}, {0.6, 0, 0}, {0.6, 0.8, 0}, {0, 0.8, 0}};
-  mesh.triangles = {{{0, 1, 2}}, {{0, 2, 3}}};
-  RcsRequest request;
-  request.frequency_hz = {kSpeedOfLight / 0.03};
-  for (int i = 0; i < 20; ++i) request.azimuth_deg.push_back(i);
-  const std::optional<std::string> warning = lobe_warning(request, mesh);
-  ASSERT_TRUE(warning);
-  EXPECT_THAT(*warning, HasSubstr("1 deg apart, the narrowest lobes of a target of 1 m at 9.993 GHz 0.86 deg wide"));
-  EXPECT_THAT(*warning, HasSubstr("steps of 0.43 deg"));
-  for (double& azimuth : request.azimuth_deg) azimuth *= 0.85;
-  EXPECT_FALSE(lobe_warning(request, mesh));
-}
-
 }  // namespace
 }  // namespace seaglint

@@ -8,13 +8,17 @@
 #include <fmt/format.h>
 #include <unistd.h>
 #include <cmath>
+#include <limits>
+#include <memory>
 
+#include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/real_functions.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/field_tables/field_table.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/shapes/generators.h"
+#include "tests/refusal.h"
 #include "tools/rcs/rcs_table.h"
 #include "tools/rcs/rcs_target.h"
 #include "tools/rcs/rcs_views.h"
@@ -165,6 +169,93 @@ TEST_F(PlateRequest, WarnsOfReceiversBehindTheTarget) {
   request_.transmitter = FixedTransmitter{150, 0};
   ASSERT_EQ(request_warnings(request_).size(), 1u);
   EXPECT_THAT(request_warnings(request_).front(), HasSubstr("receivers up to 150 deg from the transmitter"));
+}
+
+// A box 8 m by 3 m from z = -1 to 2 m, with a mast on it, 0.2 m by 0.3 m.
+class HullInWater : public testing::Test {
+ protected:
+  HullInWater() {
+    request_.target = "hull";
+    request_.mesh = hull_from(-1);
+    request_.frequency_hz = {kFrequencyHz};
+    request_.azimuth_deg = {0, 25, 90, 140};
+    request_.elevation_deg = {3};
+    request_.by_part = true;
+  }
+
+  static std::shared_ptr<const TriangleMesh> hull_from(double bottom_m) {
+    MeshBuilder builder;
+    builder.begin_part("hull");
+    add_box(builder, upright({0, 0, bottom_m}), {8, 3, 2 - bottom_m});
+    builder.begin_part("mast");
+    add_box(builder, upright({1, 0.2, 2}), {0.2, 0.3, 1.5});
+    return std::make_shared<TriangleMesh>(builder.take());
+  }
+  RcsSweep sweep() const { return compute_rcs(request_, prepare_rcs_target(request_), 1).sweep; }
+  std::string refusal() const {
+    return refusal_of([&] { prepare_rcs_target(request_); });
+  }
+
+  RcsRequest request_;
+};
+
+// Rays are traced in single precision, 6e-8 of 8 m, whose phase is 2 k L.
+TEST_F(HullInWater, HasTheEchoOfTheHullThatEndsAtTheWaterline) {
+  const double tolerance = 6e-8 * 2 * (2 * kPi * kFrequencyHz / kSpeedOfLight) * 8;
+  const RcsSweep uncut = sweep();
+  request_.waterline_m = 0;
+  const PreparedTarget cut = prepare_mesh(request_);
+  EXPECT_EQ(bounds(cut.mesh).lower.z(), 0);
+  EXPECT_NEAR(surface_area(cut.mesh), 2 * (8 * 3 + 8 * 2 + 3 * 2) + 2 * (0.2 * 0.3 + 0.2 * 1.5 + 0.3 * 1.5), 1e-9);
+  EXPECT_THAT(cut.warnings, testing::Contains(HasSubstr("46 m^2 of its surface, down to 1 m below the water, is cut "
+                                                        "off at the waterline, z = 0 m")));
+  const RcsSweep above = sweep();
+  request_.waterline_m.reset();
+  request_.mesh = hull_from(0);
+  const RcsSweep drawn = sweep();
+  for (std::size_t view = 0; view < 4; ++view) {
+    const auto of = [&](const RcsSweep& from, std::size_t e) { return from.models.back().matrices[view][0][e]; };
+    for (const std::size_t e : kCoPolar) {
+      EXPECT_LT(std::abs(of(above, e) - of(drawn, e)), tolerance * std::abs(of(drawn, e))) << view << ' ' << e;
+      EXPECT_GT(std::abs(of(uncut, e) - of(drawn, e)), 0.01 * std::abs(of(drawn, e))) << view << ' ' << e;
+    }
+  }
+}
+
+// The waterline is that of the placed mesh: here of one in millimetres, 1 m higher.
+TEST_F(HullInWater, IsCutAsItIsPlaced) {
+  request_.waterline_m = 0;
+  const TriangleMesh expected = prepare_mesh(request_).mesh;
+  request_.scale = 1e-3;
+  request_.mesh = std::make_shared<TriangleMesh>(enlarged(*request_.mesh, 1000));
+  request_.offset_m = {0, 0, 1};
+  request_.waterline_m = 1;
+  const PreparedTarget placed = prepare_mesh(request_);
+  EXPECT_EQ(bounds(placed.mesh).lower.z(), 1);
+  EXPECT_NEAR(surface_area(placed.mesh), surface_area(expected), 1e-9);
+  EXPECT_THAT(rcs_heading(request_, *placed.scatterer, "rcs"),
+              HasSubstr("hull unit m scale 0.001 offset_m 0,0,1 waterline_m 1: "));
+}
+
+TEST_F(HullInWater, IsRefusedWhereAllOfItIsBelowOrTheSeaReflects) {
+  const char* below = "else the whole target is under water";
+  for (const double height : {3.5, 4.0, std::numeric_limits<double>::quiet_NaN()}) {
+    request_.waterline_m = height;
+    EXPECT_HAS(refusal(), "--waterline-m: value ");
+    EXPECT_HAS(refusal(), "must be less than 3.5, " + std::string(below));
+  }
+  request_.waterline_m = 3.4;
+  EXPECT_EQ(refusal(), "accepted");
+  request_.sea.reflection = true;
+  request_.sea.height_m = 0.5;
+  EXPECT_HAS(refusal(), "--waterline-m 3.4: with --sea-reflection the water is where --origin-height-m says: z = -0.5");
+}
+
+// Nothing is below: as without the option.
+TEST_F(HullInWater, IsUnchangedWhereNothingIsBelow) {
+  const RcsSweep plain = sweep();
+  request_.waterline_m = -1;
+  EXPECT_EQ(sweep().models.back().matrices, plain.models.back().matrices);
 }
 
 TEST(LikePrograms, SetFacetsEdgesAndBounces) {

@@ -41,6 +41,7 @@ class RcsRequest:
     up: str
     scale: float
     offset_m: list[float]
+    waterline_m: float | None
     frequency_hz: list[float]
     azimuth_deg: list[float]
     elevation_deg: list[float]

@@ -20,9 +20,10 @@ def _word(name, value):
     return value
 
 
-def _request(placement, materials, crease_deg, edges, max_bounces, min_patch_m, sheet_thickness_mm, method, ray_spacing_m, like):
+def _request(placement, waterline_m, materials, crease_deg, edges, max_bounces, min_patch_m, sheet_thickness_mm, method, ray_spacing_m, like):
     """What the mesh is made of and how it is solved; None: the default, or what `like` has."""
     request = place(_core.RcsRequest(), *placement)
+    request.waterline_m = None if waterline_m is None else number("waterline_m", waterline_m, -1e4, 1e4)
     request.edges = True if edges is None else bool(edges)
     request.crease_deg = None if crease_deg is None else number("crease_deg", crease_deg, 0, 60)
     request.max_bounces = _core.default_bounces if max_bounces is None else count("max_bounces", max_bounces)
@@ -44,7 +45,7 @@ def _target(target):
 
 
 def rcs(target: Mesh | str | os.PathLike, frequencies_hz: ArrayLike, azimuth_deg: ArrayLike = 0.0, elevation_deg: ArrayLike = 0.0, *, unit: str = "m",
-        forward: str = "+x", up: str = "+z", scale: float = 1.0, offset_m: ArrayLike = (0.0, 0.0, 0.0),
+        forward: str = "+x", up: str = "+z", scale: float = 1.0, offset_m: ArrayLike = (0.0, 0.0, 0.0), waterline_m: float | None = None,
         materials: str | Mapping[str, str] | None = None, crease_deg: float | None = None, edges: bool | None = None, max_bounces: int | None = None, min_patch_m: float = 0.0,
         sheet_thickness_mm: float = 0.0, range_m: float = 0.0, transmitter_deg: tuple[float, float] | None = None, cavities: Sequence[str] = (), only: Sequence[str] = (),
         without: Sequence[str] = (), method: str = "beams", ray_spacing_m: float = 0.0, like: str | None = None, threads: int = 0) -> NDArray[np.complex128]:
@@ -53,7 +54,8 @@ def rcs(target: Mesh | str | os.PathLike, frequencies_hz: ArrayLike, azimuth_deg
     Polarisations in the order h, v; sigma = 4 pi |S|^2. e^{+jwt}, phase origin at the mesh's origin, basis of
     CONVENTIONS.md.
 
-    target: Mesh or file (then `unit` is that of the file), turned, enlarged and moved as by Mesh(). frequencies_hz, azimuth_deg, elevation_deg: numbers or
+    target: Mesh or file (then `unit` is that of the file), turned, enlarged and moved as by Mesh(); what is then below
+    z = waterline_m is removed. frequencies_hz, azimuth_deg, elevation_deg: numbers or
     sequences; azimuth 0 = radar ahead of the bow, counter-clockwise from above.
     materials: "aluminium", a file, or {part: material}, "" for all other parts. crease_deg: None as the mesh says,
     0 = all facets flat. edges: edge diffraction; None: on. max_bounces: None: 40. like: "hfss", "feko" or "cst": crease_deg,
@@ -62,7 +64,7 @@ def rcs(target: Mesh | str | os.PathLike, frequencies_hz: ArrayLike, azimuth_deg
     "beams", or "rays" (ray_spacing_m apart; 0: from the size of the target).
     The other settings are the options of `seaglint rcs`.
     """
-    request = _request((unit, forward, up, scale, offset_m), materials, crease_deg, edges, max_bounces, min_patch_m, sheet_thickness_mm, method, ray_spacing_m, like)
+    request = _request((unit, forward, up, scale, offset_m), waterline_m, materials, crease_deg, edges, max_bounces, min_patch_m, sheet_thickness_mm, method, ray_spacing_m, like)
     request.frequency_hz, request.azimuth_deg, request.elevation_deg = axis("frequencies_hz", frequencies_hz), axis("azimuth_deg", azimuth_deg), axis("elevation_deg", elevation_deg)
     request.range_m = number("range_m", range_m, 0, 1e9)
     if transmitter_deg is not None:
@@ -87,7 +89,7 @@ def _numbers(name, value):
 
 
 def compare(export: str | os.PathLike | Sequence[str | os.PathLike], against: str | os.PathLike | None = None, *, target: Mesh | str | os.PathLike | None = None, unit: str = "m",
-            forward: str = "+x", up: str = "+z", scale: float = 1.0, offset_m: ArrayLike = (0.0, 0.0, 0.0),
+            forward: str = "+x", up: str = "+z", scale: float = 1.0, offset_m: ArrayLike = (0.0, 0.0, 0.0), waterline_m: float | None = None,
             materials: str | Mapping[str, str] | None = None, crease_deg: float | None = None, edges: bool | None = None, max_bounces: int | None = None, min_patch_m: float = 0.0,
             sheet_thickness_mm: float = 0.0, polarisation: str | list[str] | None = None, incidence: str | tuple[float, float] | list | None = None,
             frequency_hz: float | list[float] | None = None, elevation_deg: float | list[float] | None = None, phi: tuple[float, float] | list | None = None, origin_m: tuple[float, float, float] | list | None = None,
@@ -127,7 +129,7 @@ def compare(export: str | os.PathLike | Sequence[str | os.PathLike], against: st
     if target is None:
         extent = None if interpolate_m is None else number("interpolate_m", interpolate_m, 1e-3, 1e4)
         return json.loads(_core.compare_tables(exports, os.fspath(against), bool(as_is), extent, threads_of(threads)))
-    request = _request((unit, forward, up, scale, offset_m), materials, crease_deg, edges, max_bounces, min_patch_m, sheet_thickness_mm, method, ray_spacing_m, like)
+    request = _request((unit, forward, up, scale, offset_m), waterline_m, materials, crease_deg, edges, max_bounces, min_patch_m, sheet_thickness_mm, method, ray_spacing_m, like)
     figures, texts = _core.compare_target(exports, request, _target(target), bool(as_is), threads_of(threads))
     warn(texts)
     return json.loads(figures)
