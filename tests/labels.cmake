@@ -35,7 +35,7 @@ set(medium_tests
   --gtest_filter=FuzzInputs.*:InfinitePrism.*:Interpolation.HasTheStated*:IntervalResponse.*
   --gtest_filter=ClutterModulatedByTheWaves.*:ModulatedScatterers.*:ScatterersOnTheWaves.*:ClutterLevel.*
   --gtest_filter=MatchedTraining.*:MechanismWorth.*:MergedDataSet.HasTheSameBytes*:MergedFacets.*
-  --gtest_filter=MeshFile.SixtyThousand*:MotionSummary.*:MultipleDiffraction.*:Network.*:Pedestal.*:PermutedLabels.*
+  --gtest_filter=MeshFile.SixtyThousand*:MotionSummary.*:MultipleDiffraction.*:Network.*:PartSums.*:Pedestal.*:PermutedLabels.*
   --gtest_filter=PlateEdges.*:Progress.*:Rays.*:RigidRaft.Moves*:RoundTrip.EveryField*:SampleCrossCheck.*
   --gtest_filter=ScenarioFuzzing.*:SeaReflection.*:SeaReflectivity.*:ShardFile.*:ShipRao.*:SimulateRao.*
   --gtest_filter=SimulateShip.*:SurfacePropagation.*:Sweep.*:TextTableFuzzing.*:TopHat.*:Training.*:ViewEstimate.*:WallCurrents.*

@@ -174,6 +174,48 @@ TEST_F(RcsCommand, AveragesTheCrossSectionOverEveryStep) {
   expect_refused(rcs({"--frequency-ghz", "10", "--azimuth-deg", "-8:8:1", "--polar", "--figure", "off"}), "--polar");
 }
 
+TEST_F(RcsCommand, WritesAndPrintsTheStatisticsOfItsSectors) {
+  const std::string file = folder_.path() / "statistics.csv";
+  const Words turn{"--frequency-ghz", "10", "--azimuth-deg", "-30:30:1", "--statistics", file};
+  const ProgramResult result = completed(rcs(with(turn, {"--sector-deg", "20"})));
+  EXPECT_HAS(result.out, "dBsm over views and frequencies, elevation 0 deg, 10 GHz\n");
+  EXPECT_HAS(result.out, "azimuth step 1 deg, lobes 1.7 deg (lambda / 2D, D = 0.5 m): about 12 independent samples");
+  EXPECT_HAS(result.out, "Statistics: " + file);
+  double largest = -300;
+  for (const auto& row : read_table(table()).rows) largest = std::max(largest, row[11]);
+  const std::string text = read_file(file);
+  EXPECT_HAS(text, "# seaglint");
+  EXPECT_HAS(text, "\nwhole,hh,0,0,20,20,");
+  EXPECT_HAS(text, "\nwhole,vv,all,340,20,20,");
+  const std::string all = text.substr(text.find("\nwhole,hh,all,all,61,61,") + 1);
+  EXPECT_HAS(all.substr(0, all.find('\n')), fmt::format(",{:.4f}", largest));
+  expect_refused(rcs(with(turn, {"--sector-deg", "50"})), "--sector-deg: value 50: must divide 360");
+  expect_refused(rcs({"--frequency-ghz", "10", "--azimuth-deg", "0", "--statistics", table()}), "written twice");
+  EXPECT_EQ(rcs(with(turn, {"--average", "4"})).code, 2);
+  EXPECT_EQ(rcs({"--frequency-ghz", "10", "--azimuth-deg", "0", "--sector-deg", "20"}).code, 2);
+}
+
+// The lower third of a plate from z = -0.15 to 0.15 m is under water.
+TEST_F(RcsCommand, CutsAtTheWaterlineAsMeshConvertDoes) {
+  const Words sweep{"--frequency-ghz", "10", "--azimuth-deg", "0:20:5"};
+  const std::string cut = folder_.path() / "cut.glb";
+  EXPECT_HAS(completed(rcs(with(sweep, {"--waterline-m", "-0.05"}))).err, "0.1 m below the water, is cut off");
+  EXPECT_HAS(read_file(table()), "plate.glb unit m waterline_m -0.05: ");
+  const auto rows = read_table(table()).rows;
+  const ProgramResult converted = completed({"mesh", "convert", plate(), "--waterline-m", "-0.05", "-o", cut});
+  EXPECT_HAS(converted.out, "cut        0.05 m^2 of its surface, down to 0.1 m below the water");
+  completed(with({"rcs", "--target", cut, "-o", table()}, sweep));
+  const auto expected = read_table(table()).rows;
+  ASSERT_EQ(rows.size(), expected.size());
+  for (std::size_t row = 0; row < rows.size(); ++row)
+    for (std::size_t i = 3; i < 11; ++i)
+      EXPECT_NEAR(rows[row][i], expected[row][i], 2e-7 * 4) << row;  // digits of 0.5 m in float32 times 2 k
+  for (const Words& command :
+       {with({"rcs", "--target", plate(), "-o", table()}, sweep), Words{"mesh", "convert", plate(), "-o", cut}})
+    expect_refused(run_program(with(command, {"--waterline-m", "0.2"})),
+                   "--waterline-m: value 0.2: must be less than 0.15, else the whole target is under water");
+}
+
 // The curves of the comparison's figure are the levels of the table, and their differences from the reference.
 TEST_F(RcsCommand, CurvesAreThoseOfTheTable) {
   const std::string curves = folder_.path() / "curves.json";

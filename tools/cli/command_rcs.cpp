@@ -194,6 +194,8 @@ void show_statistics(const RcsArguments& arguments, const RcsRequest& request, c
   const std::string heading =
       rcs_heading(request, *target.prepared.scatterer, "rcs --statistics", warnings) + "# " + sampled + "\n";
   write_file(arguments.statistics, statistics_csv(statistics, heading, mesh.part_names));
+  if (mesh.part_names.size() > 1 && !request.by_part)
+    print_out("No statistics by part: {} rows of {} parts are too many\n", sweep.rows(), mesh.part_names.size());
   print_out("{}{}\nStatistics: {}\n", statistics_table(statistics, mesh.part_names), sampled, arguments.statistics);
 }
 

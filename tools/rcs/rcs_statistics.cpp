@@ -263,7 +263,7 @@ std::string parts_table(const RcsStatistics& statistics, std::span<const std::st
   }
   if (parts.empty()) return "";
   std::ranges::stable_sort(parts, std::greater(), &PartLevels::highest);
-  std::string text = "parts, each alone          hh median     mean   vv median     mean\n";
+  std::string text = "parts, all azimuths        hh median     mean   vv median     mean\n";
   for (std::size_t i = 0; i < std::min(kMost, parts.size()); ++i) {
     const auto& [hh, vv] = parts[i].area;
     text += fmt::format("{:<26} {:9.1f}{:9.1f}{:12.1f}{:9.1f}\n", shown(parts[i].name, 26), level_of(hh.median_m2),
@@ -277,9 +277,10 @@ std::string parts_table(const RcsStatistics& statistics, std::span<const std::st
 
 std::string statistics_table(const RcsStatistics& statistics, std::span<const std::string> part_names) {
   constexpr std::size_t kMostSectors = 24;
-  std::string text =
-      fmt::format("dBsm, {}\n     azimuth (deg)   views     5 %    25 %  median    75 %    95 %    mean  largest\n",
-                  scope(statistics));
+  std::string text = fmt::format(
+      "dBsm over views and frequencies, {}\n     azimuth (deg)   views     5 %    25 %  median    75 %    95 %    mean "
+      " largest\n",
+      scope(statistics));
   std::size_t left_out = 0;
   for (const std::size_t element : kCoPolar) {
     std::size_t sectors = 0;
