@@ -250,17 +250,17 @@ void add_convert(CommandOptions& mesh, CommandContext& context) {
   convert.callback([arguments, &context] {
     context.work = [arguments] {
       require_outputs({arguments->output}, {arguments->input});
-      TriangleMesh mesh = read_placed_mesh(find_input(arguments->input), arguments->placement);
-      const std::vector<std::string> findings = mesh.findings;
+      TriangleMesh written = read_placed_mesh(find_input(arguments->input), arguments->placement);
+      const std::vector<std::string> findings = written.findings;
       std::string cut;
       if (arguments->waterline_m) {
-        require_above_waterline(mesh, *arguments->waterline_m);
-        AboveWater above = above_water(repair(mesh), *arguments->waterline_m);
-        mesh = std::move(above.mesh);
+        require_above_waterline(written, *arguments->waterline_m);
+        AboveWater above = above_water(repair(written), *arguments->waterline_m);
+        written = std::move(above.mesh);
         cut = cut_sentence(above.below);
       }
-      write_mesh(arguments->output, mesh);
-      print_out("{}\n{}{}", arguments->output, size_line(mesh), counts_line(mesh));
+      write_mesh(arguments->output, written);
+      print_out("{}\n{}{}", arguments->output, size_line(written), counts_line(written));
       if (!cut.empty()) print_out("cut        {}\n", cut);
       for (const std::string& finding : findings) print_out("finding    {}\n", on_one_line(finding));
     };
