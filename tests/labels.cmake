@@ -32,7 +32,7 @@ set(medium_tests
   --gtest_filter=Benchmark.EveryShippedOne*:BodiesInWater.OfA*:BodyOnDeck.*:Bombs.*:CavityEcho.*:CentresInClutter.*
   --gtest_filter=CleanCentres.Outside*:Clutter.*:ClutterFalseAlarms.*:CoatedTarget.*:ContributionBound.*
   --gtest_filter=CurvedSurface.*:CylinderBeforeAPatch.*:EdgeDiffraction.*:Evaluation.*:FieldExport.*
-  --gtest_filter=FuzzInputs.*:InfinitePrism.*:Interpolation.HasTheStated*:IntervalResponse.*
+  --gtest_filter=*Fleet.*:FuzzInputs.*:InfinitePrism.*:Interpolation.HasTheStated*:IntervalResponse.*
   --gtest_filter=ClutterModulatedByTheWaves.*:ModulatedScatterers.*:ScatterersOnTheWaves.*:ClutterLevel.*
   --gtest_filter=MatchedTraining.*:MechanismWorth.*:MergedDataSet.HasTheSameBytes*:MergedFacets.*
   --gtest_filter=MeshFile.SixtyThousand*:MotionSummary.*:MultipleDiffraction.*:Network.*:PartSums.*:Pedestal.*:PermutedLabels.*

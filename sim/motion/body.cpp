@@ -12,6 +12,7 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
 #include "sim/core/text/names.h"
+#include "sim/geometry/placement/hydrostatics.h"
 #include "sim/motion/ship/rao_files.h"
 
 namespace seaglint {
@@ -25,6 +26,7 @@ constexpr int kStrips = 40;
 constexpr double kWaterlineToOverallLength = 0.985;
 constexpr double kWaterlineToOverallBeam = 0.95;
 constexpr double kBeamToDraught = 3.1;
+constexpr double kMetacentricHeight = 1.95;  // m, of the same model
 
 bool is_wamit(const std::filesystem::path& file) { return file.extension() == ".4"; }
 
@@ -168,8 +170,11 @@ std::string motion_file_reading(const Body& body) {
   return "";
 }
 
-BodyShape shape_of(const TriangleMesh& mesh) {
-  return {.box = bounds(mesh), .hull = sections_of_mesh(mesh, kStrips), .main_height_m = main_height(mesh)};
+BodyShape shape_of(const TriangleMesh& mesh, std::optional<double> centre_of_gravity_m) {
+  BodyShape shape{.box = bounds(mesh), .hull = sections_of_mesh(mesh, kStrips), .main_height_m = main_height(mesh)};
+  if (centre_of_gravity_m)
+    shape.metacentric_height_m = hydrostatics_of(mesh).metacentric_height_m(*centre_of_gravity_m);
+  return shape;
 }
 
 std::string orientation_finding(const BodyShape& shape) {
@@ -236,7 +241,10 @@ Body make_body(const MotionSpec& spec, const BodyShape& shape, const std::filesy
     throw InputError("motion.position: not allowed here: valid only with translations: true");
   Body body{spec, {}, shape, Vec3::Zero()};
   if (spec.model == MotionModel::kShip) {
-    const ShipParticulars ship = particulars_of(spec, ship_sections(spec, shape, folder), shape);
+    MotionSpec ship_spec = spec;
+    ship_spec.metacentric_height_m =
+        given_or(spec.metacentric_height_m, shape.metacentric_height_m.value_or(kMetacentricHeight));
+    const ShipParticulars ship = particulars_of(ship_spec, ship_sections(spec, shape, folder), shape);
     body.rotation_centre = ship.rotation_centre;
     body.model = ship;
   } else if (spec.model == MotionModel::kFloat) {

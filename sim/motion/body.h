@@ -4,6 +4,7 @@
 // A body prepared for motion once per target: the sections of a ship are solved here, not per sea realisation.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <variant>
 
@@ -24,9 +25,11 @@ struct BodyShape {
   // A rigid raft of reflectors, whose mesh says nothing about its hull: box and hull are empty, zero fields that they
   // would give are errors. Its frame has its origin on the water.
   bool is_raft = false;
+  std::optional<double> metacentric_height_m = {};  // GM, where the centre of gravity is known
   double main_height_m = 0;  // extent in z of nine tenths of the surface: of a ship without its masts
 };
-BodyShape shape_of(const TriangleMesh& mesh);
+// centre_of_gravity_m: height above the waterline, if known.
+BodyShape shape_of(const TriangleMesh& mesh, std::optional<double> centre_of_gravity_m = {});
 
 // Why a hull does not have its bow along x and its masts along z, as a sentence with its length, breadth and height and
 // the keys that turn it: it is broader than long, its surface is higher than broad (main_height_m), or it is symmetric

@@ -18,6 +18,21 @@
 
 namespace seaglint {
 
+void check_ship(const ShipSpec& ship) {
+  const auto [lowest, highest, reference] = kShipLengths_m[static_cast<std::size_t>(ship.kind)];
+  if (ship.loading && !(*ship.loading >= 0 && *ship.loading <= 1))
+    throw InputError(fmt::format("loading: value {:g}: must be within 0 and 1", *ship.loading));
+  const double length = ship.length_m;
+  if (length == 0 || (length >= lowest && length <= highest)) return;  // written so that a NaN fails
+  std::string others;
+  for (std::size_t kind = 0; kind < std::size(kShipLengths_m); ++kind) {
+    if (length >= kShipLengths_m[kind].lowest && length <= kShipLengths_m[kind].highest)
+      others += fmt::format("{} {}", others.empty() ? "; of that length is a" : ",", kShipKindNames[kind]);
+  }
+  throw InputError(fmt::format("length_m: value {:g}: must be within {:g} and {:g} for a {}{}", length, lowest, highest,
+                               kShipKindNames[static_cast<std::size_t>(ship.kind)], others));
+}
+
 namespace {
 
 constexpr int kMinSamples = 8;  // of a pulse
@@ -382,6 +397,22 @@ void check_layout(const TargetSpec& target, const ScenarioDocument& document) {
   }
 }
 
+// A generated ship has its own unit, axes and place.
+void check_generated(const TargetSpec& target, const ScenarioDocument& document) {
+  if (!target.ship) return;
+  const std::string path = "targets." + target.name;
+  try {
+    check_ship(*target.ship);
+  } catch (const InputError& error) {
+    document.fail_at(path + ".ship", error.what());
+  }
+  const YamlNode* node = document.root.find("targets")->find(target.name);
+  for (const char* key : {"unit", "orientation", "offset_m"}) {
+    if (node->find(key) != nullptr)
+      document.fail_at(fmt::format("{}.{}", path, key), "not allowed here: valid only with a mesh file");
+  }
+}
+
 void check_target(const TargetSpec& target, const ScenarioDocument& document) {
   if (document.root.find("targets")->find(target.name) == nullptr) return;  // the sea alone
   const std::string path = "targets." + target.name;
@@ -391,9 +422,11 @@ void check_target(const TargetSpec& target, const ScenarioDocument& document) {
   check_layout(target, document);
   check_speed(target, document);
   check_solver(target, document);
-  if (target.mesh.empty() && target.points.empty()) document.fail_at(path, "must have a mesh or points");
+  const int kinds = (target.mesh.empty() ? 0 : 1) + (target.ship ? 1 : 0) + (target.points.empty() ? 0 : 1);
+  if (kinds != 1)
+    document.fail_at(path, fmt::format("must have a mesh, a ship or points{}", kinds == 0 ? "" : ", one of them only"));
+  check_generated(target, document);
   if (target.points.empty()) return;
-  if (!target.mesh.empty()) document.fail_at(path, "must have a mesh or points, not both");
   // Points have velocities of their own: a motion section is an error.
   const YamlNode* node = document.root.find("targets")->find(target.name);
   for (const char* key : {"unit", "scale", "orientation", "offset_m", "material", "part_materials",
@@ -407,7 +440,7 @@ void check_target(const TargetSpec& target, const ScenarioDocument& document) {
 void check_intra_pulse_motion(const Scenario& scenario, const ScenarioDocument& document) {
   if (!scenario.radar.intra_pulse_motion) return;
   for (const TargetSpec& target : scenario.targets) {
-    if (!target.mesh.empty()) {
+    if (has_mesh(target)) {
       document.fail_at(
           "radar.intra_pulse_motion",
           fmt::format("must be false with a mesh, here targets.{}: only points move during a pulse", target.name));

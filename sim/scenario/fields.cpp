@@ -327,8 +327,8 @@ void visit(MotionSpec& spec, FieldVisitor& v) {
   v.number("effective_slope", spec.effective_slope, within(0, 1),
            "Effective wave slope coefficient of a float: tilt over the slope of long waves; below 1 where a mooring or "
            "a weight on a line holds it upright.");
-  v.number("metacentric_height_m", spec.metacentric_height_m, within(0.01, 20),
-           "Transverse metacentric height of a ship.");
+  v.number("metacentric_height_m", spec.metacentric_height_m, zero_or_within(0.01, 20),
+           "Transverse metacentric height of a ship; 0: of a generated ship from its mesh and loading, else 1.95.");
   v.number("roll_gyradius_m", spec.roll_gyradius_m, within(0, 100),
            "Radius of gyration in roll about the centre of gravity; 0: from roll_period_s.");
   v.number("pitch_gyradius_m", spec.pitch_gyradius_m, within(0, 500),
@@ -375,6 +375,20 @@ void visit(MotionSpec& spec, FieldVisitor& v) {
   v.number("step_s", spec.step_s, within(0.001, 0.1),
            "Time step of integration and of samples; at most an eighth of the shortest natural period.");
   v.number("spin_up_s", spec.spin_up_s, within(0, 3600), "Time simulated before t = 0.");
+}
+
+void visit(ShipSpec& spec, FieldVisitor& v) {
+  v.require("kind");
+  v.choice("kind", spec.kind, kShipKindNames, "Kind of ship.");
+  v.number("length_m", spec.length_m, zero_or_within(3, 500),
+           "Length overall, within the range of the kind; 0: that of its reference ship for seed 0, else by the seed.");
+  visit_given(v, "loading", spec.loading, within(0, 1),
+              "From the lightest loading, 0, to laden, 1; default: laden for seed 0, else by the seed.");
+  v.choice("detail", spec.detail, kShipDetailNames,
+           "hull (with houses), fittings (and masts, cargo gear, boats), rails (all).");
+  v.value("seed", NaturalField{spec.seed},
+          "Individual ship of its kind: proportions, loading, trim, fittings; 0: the reference ship; "
+          "integers(1 1000000): one per sea.");
 }
 
 void visit(SolverSpec& spec, FieldVisitor& v) {
@@ -434,8 +448,12 @@ void visit(TargetSpec& spec, FieldVisitor& v) {
   v.list("points", spec.points, 10000, visit, "Ideal point scatterers in the place of a mesh.");
   visit_given(v, "mesh", spec.mesh,
               "Mesh file, searched in the scenario's folder, the working directory, then the program's data.");
-  const bool is_mesh = spec.points.empty();
-  if (v.optional("unit", is_mesh))
+  if (v.optional("ship", spec.ship.has_value())) {
+    if (!spec.ship) spec.ship.emplace();
+    v.section("ship", *spec.ship, visit, "Generated ship in the place of a mesh file.");
+  }
+  const bool is_mesh = spec.points.empty(), is_file = is_mesh && !spec.ship;
+  if (v.optional("unit", is_file))
     visit_word(v, "unit", spec.unit, {"m", "cm", "mm", "km", "in", "ft"}, "Unit of the mesh file.");
   if (v.optional("scale", is_mesh))
     v.number("scale", spec.scale, within(1e-3, 1e3),

@@ -43,7 +43,7 @@ struct MotionSpec {
   double heave_period_s = 0;
   double heave_damping = 0;
   double effective_slope = 1;
-  double metacentric_height_m = 1.95;
+  double metacentric_height_m = 0;
   double roll_gyradius_m = 0;
   double pitch_gyradius_m = 0;
   double yaw_gyradius_m = 0;
@@ -131,11 +131,59 @@ struct MeshPlacement {
 };
 inline constexpr const char* kMeshAxes[] = {"+x", "-x", "+y", "-y", "+z", "-z"};
 
+// Kinds of ships whose meshes are generated (sim/geometry/ship/README.md).
+enum class ShipKind : std::uint8_t {
+  kFrigate,
+  kCorvette,
+  kPatrolBoat,
+  kContainerShip,
+  kTanker,
+  kBulkCarrier,
+  kFishingVessel,
+  kFerry,
+  kTug,
+  kInflatableBoat
+};
+inline constexpr const char* kShipKindNames[] = {"frigate", "corvette",       "patrol_boat",    "container_ship",
+                                                 "tanker",  "bulk_carrier",   "fishing_vessel", "ferry",
+                                                 "tug",     "inflatable_boat"};
+
+enum class ShipDetail : std::uint8_t {
+  kHull,      // hull and houses
+  kFittings,  // and masts, cranes, cargo gear, boats, deck fittings
+  kRails,     // and rails, ladders, nets
+};
+inline constexpr const char* kShipDetailNames[] = {"hull", "fittings", "rails"};
+
+// Lengths overall of each kind, m.
+struct ShipLengths {
+  double lowest = 0, highest = 0, reference = 0;  // the last: of seed 0
+};
+inline constexpr ShipLengths kShipLengths_m[] = {{90, 200, 144}, {55, 95, 75},   {18, 55, 34}, {110, 400, 230},
+                                                 {90, 340, 183}, {90, 300, 190}, {12, 75, 28}, {70, 230, 160},
+                                                 {20, 45, 30},   {5, 13, 7.5}};
+
+// A generated ship: the individual of a seed. Seed 0 is the reference ship of its kind, laden.
+struct ShipSpec {
+  ShipKind kind = ShipKind::kFrigate;
+  double length_m = 0;                 // overall; 0: of the reference ship, else drawn by the seed
+  std::optional<double> loading = {};  // 0 lightest to 1 laden; default: laden for seed 0, else drawn by the seed
+  ShipDetail detail = ShipDetail::kRails;
+  std::uint64_t seed = 0;
+
+  bool operator==(const ShipSpec&) const = default;
+};
+
+// Throws InputError, "length_m: value ...", for a length that its kind does not have, with the kinds that have it, and
+// for a loading outside of 0 to 1.
+void check_ship(const ShipSpec& ship);
+
 struct TargetSpec : MeshPlacement {
   std::string name;
   TargetRole role = TargetRole::kClass;
   int label = 0;
-  std::string mesh;
+  std::string mesh;  // file; empty with a generated ship, or points
+  std::optional<ShipSpec> ship;
   std::string material = "pec";
   std::vector<PartMaterialSpec> part_materials;
   double sheet_thickness_mm = 0;
@@ -150,6 +198,10 @@ struct TargetSpec : MeshPlacement {
 
 // The target of a scenario with `targets: {}`: no bodies and no points, thus no echo; name and class are "sea".
 inline constexpr const char* kSeaAlone = "sea";
-inline bool is_sea_alone(const TargetSpec& target) { return target.mesh.empty() && target.points.empty(); }
+inline bool is_sea_alone(const TargetSpec& target) {
+  return target.mesh.empty() && !target.ship && target.points.empty();
+}
+// Bodies with a mesh, from a file or generated.
+inline bool has_mesh(const TargetSpec& target) { return !target.mesh.empty() || target.ship.has_value(); }
 
 }  // namespace seaglint

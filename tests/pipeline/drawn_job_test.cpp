@@ -106,6 +106,9 @@ const std::vector<DrawnKey>& drawn_job_keys() {
   const Override hh{"radar.polarisation", "hh"}, of_state{"clutter.doppler", "sea_state"};
   const Override series_with_translations{"targets.hull.motion",
                                           "{model: series, file: series.csv, translations: true}"};
+  const Override boat{"targets.hull",
+                      "{label: 1, ship: {kind: inflatable_boat, detail: hull}, motion: {model: ship, "
+                      "spin_up_s: 10}}"};
   static const std::vector<DrawnKey> keys{
       {"view.azimuth_deg", "uniform(10, 170)"},
       {"view.elevation_deg", "uniform(2, 6)"},
@@ -153,6 +156,11 @@ const std::vector<DrawnKey>& drawn_job_keys() {
       {"sea_reflection.surface_profile", "choice(mean, waves)", "", {all_paths, common_waves}},
       {"targets.NAME.points.N.amplitude_m", "loguniform(0.5, 2)", "dots"},
       {"targets.NAME.mesh", "choice(hull.obj, corner.obj)", "hull", {fixed}},
+      {"targets.NAME.ship.kind", "choice(inflatable_boat, tug)", "hull", {boat}},
+      {"targets.NAME.ship.length_m", "uniform(6, 10)", "hull", {boat}},
+      {"targets.NAME.ship.loading", "uniform(0, 1)", "hull", {boat}},
+      {"targets.NAME.ship.detail", "choice(hull, fittings)", "hull", {boat}},
+      {"targets.NAME.ship.seed", "integers(1, 1000000)", "hull", {boat}},
       {"targets.NAME.unit", "choice(m, ft)", "corner"},
       {"targets.NAME.orientation.forward", "choice(+x, -x)"},
       {"targets.NAME.orientation.up", "choice(+z, +y)", "hull", {fixed}},

@@ -13,10 +13,12 @@
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/mesh/mesh_diagnostics.h"
 #include "sim/geometry/mesh/topology.h"
+#include "sim/geometry/placement/hydrostatics.h"
 #include "sim/geometry/placement/target_mesh.h"
 #include "sim/geometry/placement/waterline.h"
 #include "sim/geometry/shapes/generators.h"
 #include "sim/geometry/ship/make_ship.h"
+#include "sim/motion/body.h"
 #include "tools/cli/command_line.h"
 #include "tools/figure/mesh_picture.h"
 #include "tools/options/rcs_arguments.h"
@@ -105,27 +107,76 @@ CommandOptions add_kind(CommandOptions& make, CommandContext& context, const cha
   return kind;
 }
 
-void add_ship_kind(CommandOptions& make, CommandContext& context) {
-  auto form = std::make_shared<ShipForm>();
-  auto detail = std::make_shared<std::string>("rails");
-  CommandOptions kind =
-      add_kind(make, context, "ship", "Naval combatant, cut at the waterline z = 0", "-o ship.glb", [form, detail] {
-        ShipForm f = *form;
-        f.detail = *detail == "hull"       ? ShipDetail::kHull
-                   : *detail == "fittings" ? ShipDetail::kFittings
-                                           : ShipDetail::kRails;
-        return make_ship(f);
-      });
-  kind.add_option("--length-m", form->length_m, "Length overall").show_default();
-  kind.add_option("--beam-m", form->beam_m, "Beam at the waterline").show_default();
-  kind.add_option("--freeboard-m", form->freeboard_m, "Height of the deck amidships").show_default();
-  kind.add_option("--bow-height-m", form->bow_height_m, "Height of the deck at the bow").show_default();
-  kind.add_option("--stern-height-m", form->stern_height_m, "Height of the deck at the stern").show_default();
-  kind.add_option("--plate-length-m", form->panel_m, "Length of a hull plate").show_default();
-  kind.add_option("--plate-dent-m", form->plating_m, "Largest dent of a hull plate's corner").show_default();
-  kind.add_option("--rail-width-m", form->rail_width_m, "Width of rail posts").show_default();
-  kind.add_option("--detail", *detail, "How much is built: hull (with houses), fittings, rails (all)")
-      .one_of({"hull", "fittings", "rails"})
+// Volume, waterplane, centres, metacentres and natural periods of the body below z = 0; empty for a mesh that ends
+// there. With a centre of gravity at this height above the water also GM and the natural periods of `motion.model:
+// ship`.
+std::string hydrostatics_lines(const TriangleMesh& mesh, std::optional<double> centre_of_gravity_m) {
+  const Hydrostatics h = hydrostatics_of(mesh);
+  if (!(h.volume_m3 > 0)) return "";
+  std::string text = fmt::format(
+      "afloat     {:.6g} m^3 below z = 0 ({:.4g} t of sea water), waterline {:.4g} m x {:.4g} m, draught {:.4g} m\n"
+      "           waterplane {:.5g} m^2 about x = {:.3g} m, centre of buoyancy ({:.3g}, {:.3g}) m, wetted {:.5g} m^2\n"
+      "           block coefficient {:.3f}, waterplane coefficient {:.3f}\n"
+      "           KB {:.4g} m, BM {:.4g} m, longitudinal BM {:.4g} m\n",
+      h.volume_m3, 1e-3 * kSeaWaterDensity * h.volume_m3, h.length_m, h.beam_m, h.draught_m, h.waterplane_m2,
+      h.flotation_x_m, h.buoyancy_m.x(), h.buoyancy_m.z(), h.wetted_m2, h.block_coefficient, h.waterplane_coefficient,
+      h.draught_m + h.buoyancy_m.z(), h.transverse_bm_m, h.longitudinal_bm_m);
+  if (!centre_of_gravity_m) return text;
+  const double gm = h.metacentric_height_m(*centre_of_gravity_m);
+  text += fmt::format("           centre of gravity {:.4g} m above the water: KG {:.4g} m, GM {:.4g} m\n",
+                      *centre_of_gravity_m, h.draught_m + *centre_of_gravity_m, gm);
+  if (!(gm > 0)) return text + "           the body is unstable: GM must be above 0\n";
+  const Body body = make_body({.model = MotionModel::kShip}, shape_of(mesh, centre_of_gravity_m));
+  const auto& ship = std::get<ShipParticulars>(body.model);
+  const auto period = [](const Oscillator& mode) { return 2 * kPi / mode.omega0; };
+  return text + fmt::format("           natural periods: roll {:.3g} s, pitch {:.3g} s, heave {:.3g} s\n",
+                            period(ship.roll), period(ship.pitch), period(ship.heave));
+}
+
+void add_ship_kinds(CommandOptions& make, CommandContext& context) {
+  auto spec = std::make_shared<ShipSpec>();
+  auto kind = std::make_shared<std::string>(kShipKindNames[0]), detail = std::make_shared<std::string>("rails");
+  auto above = std::make_shared<bool>(false);
+  auto output = std::make_shared<std::string>();
+  const auto index_of = [](std::span<const char* const> names, const std::string& name) {
+    return std::ranges::find(names, std::string_view(name)) - names.begin();
+  };
+  CommandOptions ship = make.add_command("ship", "Ship of a kind, an individual for every seed, with its hydrostatics");
+  ship.add_option("-o,--output", *output, "Mesh file to write: .glb .gltf .obj .stl or .ply").required();
+  ship.add_option("--kind", *kind, "Kind of ship")
+      .one_of({std::begin(kShipKindNames), std::end(kShipKindNames)})
+      .show_default();
+  ship.add_option("--length-m", spec->length_m,
+                  "Length overall; 0: that of the kind's reference ship for seed 0, else by the seed")
+      .show_default();
+  ship.add_option("--loading", spec->loading, "0 lightest to 1 laden; without: laden for seed 0, else by the seed")
+      .number_within(0.0, 1.0);
+  ship.add_option("--seed", spec->seed, "Individual of its kind; 0: the reference ship").show_default();
+  ship.add_option("--detail", *detail, "How much is built: hull (with houses), fittings, rails (all)")
+      .one_of({std::begin(kShipDetailNames), std::end(kShipDetailNames)})
+      .show_default();
+  ship.add_flag("--above-water", *above, "Cut at the waterline z = 0 and closed there");
+  add_threads_option(ship, context);
+  ship.footer("Example:\n  seaglint mesh make ship --kind tanker --length-m 183 --seed 3 -o tanker.glb");
+  ship.callback([=, &context] {
+    context.work = [=] {
+      spec->kind = static_cast<ShipKind>(index_of(kShipKindNames, *kind));
+      spec->detail = static_cast<ShipDetail>(index_of(kShipDetailNames, *detail));
+      const Ship made = make_ship(*spec);
+      const TriangleMesh mesh = *above ? above_water(made.mesh, 0).mesh : made.mesh;
+      write_mesh(*output, mesh);
+      print_out("{}\n{}{}{}", *output, size_line(mesh), counts_line(mesh),
+                hydrostatics_lines(made.mesh, made.centre_of_gravity_m));
+      print_out("scenario   targets.NAME: {{mesh: {}, motion: {{model: ship, metacentric_height_m: {:.3g}}}}}\n",
+                *output, hydrostatics_of(made.mesh).metacentric_height_m(made.centre_of_gravity_m));
+    };
+  });
+  auto combatant_detail = std::make_shared<std::string>("rails");
+  CommandOptions combatant = add_kind(
+      make, context, "combatant", "The combatant of 144 m of assets, cut at the waterline z = 0", "-o ship.glb",
+      [=] { return make_combatant(static_cast<ShipDetail>(index_of(kShipDetailNames, *combatant_detail))); });
+  combatant.add_option("--detail", *combatant_detail, "How much is built: hull (with houses), fittings, rails (all)")
+      .one_of({std::begin(kShipDetailNames), std::end(kShipDetailNames)})
       .show_default();
 }
 
@@ -181,6 +232,7 @@ struct InfoArguments {
   std::string file;
   MeshPlacement placement;
   double wedge_deg = 20;
+  std::optional<double> centre_of_gravity_m;
   std::string picture;
   PictureView view;
 };
@@ -192,8 +244,9 @@ void print_info(const InfoArguments& arguments) {
   const TriangleMesh mesh = read_placed_mesh(find_input(arguments.file), arguments.placement);
   const Topology topology = topology_of(mesh);
   if (!arguments.picture.empty()) write_file(arguments.picture, png_bytes(picture_of(mesh, arguments.view)));
-  print_out("{}\n{}{}{}{}{}", arguments.file, size_line(mesh), counts_line(mesh), part_lines(mesh, topology),
-            material_lines(mesh), topology_lines(mesh, topology, arguments.wedge_deg));
+  print_out("{}\n{}{}{}{}{}{}", arguments.file, size_line(mesh), counts_line(mesh),
+            hydrostatics_lines(mesh, arguments.centre_of_gravity_m), part_lines(mesh, topology), material_lines(mesh),
+            topology_lines(mesh, topology, arguments.wedge_deg));
   for (const std::string& finding : diagnostic_messages(diagnose(mesh))) print_out("finding    {}\n", finding);
 }
 
@@ -208,6 +261,9 @@ void add_info(CommandOptions& mesh, CommandContext& context) {
   info.add_option("--min-wedge-angle-deg", arguments->wedge_deg, "Smallest angle between the normals at a wedge")
       .number_within(0.0, 180.0)
       .show_default();
+  info.add_option("--centre-of-gravity-m", arguments->centre_of_gravity_m,
+                  "Height of the centre of gravity above z = 0, the water: for GM and natural periods")
+      .number_within(-100.0, 100.0);
   const CommandOption picture = info.add_option("--picture", arguments->picture, "Write a picture, .png");
   info.add_option("--azimuth-deg", arguments->view.azimuth_deg, "The picture's viewpoint, as the radar's")
       .number_within(-720, 720)
@@ -303,7 +359,7 @@ void add_mesh(CommandOptions& program, CommandContext& context) {
   CommandOptions make = mesh.add_command("make", "Make a mesh: a ship, a reflector or a canonical target");
   make.require_command();
   make.footer("Example:\n  seaglint mesh make reflector -o reflector.glb");
-  add_ship_kind(make, context);
+  add_ship_kinds(make, context);
   add_reflector_kinds(make, context);
   add_simple_kinds(make, context);
   add_info(mesh, context);

@@ -271,7 +271,7 @@ class EffectSearch {
 std::string sea_reason(const TargetSpec& target) {
   if (is_sea_alone(target)) return "";
   const std::string path = "targets." + target.name;
-  if (target.mesh.empty()) return fmt::format("{} is of points, which do not follow the sea", path);
+  if (!has_mesh(target)) return fmt::format("{} is of points, which do not follow the sea", path);
   if (target.motion.model == MotionModel::kFixed) return fmt::format("{} does not move ({}.motion)", path, path);
   if (target.motion.model == MotionModel::kSeries)
     return fmt::format("{} moves as its file in any sea ({}.motion)", path, path);
@@ -461,7 +461,7 @@ std::string motion_lines(const Pipeline& pipeline) {
                     moves, where, rests.empty() ? "" : "; ", rests));
   }
   for (const TargetSpec& target : pipeline.scenario().targets) {
-    if (target.mesh.empty())
+    if (!has_mesh(target) && !is_sea_alone(target))
       add(fmt::format("{}: {} points with velocities of their own in any sea", target.name, target.points.size()));
   }
   return text;

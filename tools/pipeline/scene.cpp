@@ -12,6 +12,7 @@
 #include "sim/core/process/error.h"
 #include "sim/geometry/placement/target_mesh.h"
 #include "sim/geometry/placement/waterline.h"
+#include "sim/geometry/ship/make_ship.h"
 #include "sim/motion/target_motion.h"
 #include "sim/scattering/observation/observation.h"
 #include "sim/sea/realisation.h"
@@ -35,7 +36,7 @@ MeshPlacement placement_of(const TargetSpec& spec, double scale) {
   return placement;
 }
 
-Bounds box_of(const FileMesh& file, const MeshPlacement& placement) {
+Bounds box_of(const SourceMesh& file, const MeshPlacement& placement) {
   const Vec3 offset(placement.offset_m);
   return {placement.scale * file.box.lower + offset, placement.scale * file.box.upper + offset};
 }
@@ -50,18 +51,18 @@ MeshPlacement axes_of(const TargetSpec& spec) {
 
 // Mesh and materials of a body of one size, with their keys for error messages.
 TargetSource source_of(const Scenario& scenario, const TargetSpec& spec, double scale,
-                       std::shared_ptr<const FileMesh> file) {
+                       std::shared_ptr<const SourceMesh> mesh) {
   const std::string path = "targets." + spec.name;
-  TargetSource source{.mesh = find_mesh(scenario, spec),
+  TargetSource source{.mesh = spec.ship ? std::filesystem::path() : find_mesh(scenario, spec),
                       .placement = placement_of(spec, scale),
-                      .loaded = std::shared_ptr<const TriangleMesh>(file, &file->mesh),
+                      .loaded = std::shared_ptr<const TriangleMesh>(mesh, &mesh->mesh),
                       .materials = {},
                       .material_folder = scenario.folder,
                       .lowest_hz = 1e9 * lowest_ghz(scenario.radar),
                       .highest_hz = 1e9 * highest_ghz(scenario.radar),
                       .materials_place = place_of(scenario, path),
                       .frequencies_place = place_of(scenario, path),
-                      .mesh_place = place_of(scenario, path + ".mesh")};
+                      .mesh_place = place_of(scenario, path + (spec.ship ? ".ship" : ".mesh"))};
   for (std::size_t i = 0; i < spec.part_materials.size(); ++i) {
     const PartMaterialSpec& part = spec.part_materials[i];
     source.materials.push_back(
@@ -89,11 +90,14 @@ bool moves_by_size(const TargetSpec& spec) {
 }
 
 // Motion model of a body from its enlarged mesh, of a rigid raft from the keys alone.
-Body load_body(const Scenario& scenario, const TargetSpec& spec, const TriangleMesh& mesh) {
+// centre_of_gravity_m: height above the waterline, where the mesh's generator gives it.
+Body load_body(const Scenario& scenario, const TargetSpec& spec, const TriangleMesh& mesh,
+               std::optional<double> centre_of_gravity_m) {
   try {
-    return make_body(spec.motion,
-                     is_raft(spec.layout) ? BodyShape{.box = {}, .hull = {}, .is_raft = true} : shape_of(mesh),
-                     scenario.folder);
+    return make_body(
+        spec.motion,
+        is_raft(spec.layout) ? BodyShape{.box = {}, .hull = {}, .is_raft = true} : shape_of(mesh, centre_of_gravity_m),
+        scenario.folder);
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", place_of(scenario, "targets." + spec.name), error.what()));
   }
@@ -113,14 +117,25 @@ std::shared_ptr<const Value> TargetCache::Kept<Key, Value>::get(const Key& key, 
   return entries_.emplace_back(std::move(entry)).value;
 }
 
-std::shared_ptr<const FileMesh> TargetCache::file(const Scenario& scenario, const TargetSpec& spec) {
-  const FileKey key{find_mesh(scenario, spec), axes_of(spec)};
+TargetCache::SourceKey TargetCache::source_key(const Scenario& scenario, const TargetSpec& spec) {
+  return {spec.ship ? std::filesystem::path() : find_mesh(scenario, spec), spec.ship, axes_of(spec)};
+}
+
+std::shared_ptr<const SourceMesh> TargetCache::source(const Scenario& scenario, const TargetSpec& spec) {
+  const SourceKey key = source_key(scenario, spec);
   const std::lock_guard lock(mutex_);
-  return files_.get(key, [&] {
-    FileMesh file{read_placed_mesh(key.file, key.axes), {}, 0};
-    file.box = bounds(file.mesh);
-    file.radius_m = largest_radius_m(file.mesh);
-    return file;
+  return sources_.get(key, [&] {
+    SourceMesh source;
+    if (key.ship) {
+      Ship ship = make_ship(*key.ship);
+      source.mesh = std::move(ship.mesh);
+      source.centre_of_gravity_m = ship.centre_of_gravity_m;
+    } else {
+      source.mesh = read_placed_mesh(key.file, key.axes);
+    }
+    source.box = bounds(source.mesh);
+    source.radius_m = largest_radius_m(source.mesh);
+    return source;
   });
 }
 
@@ -128,23 +143,25 @@ BodyModel TargetCache::model(const Scenario& scenario, const TargetSpec& spec, d
                              std::optional<double> height_m, bool with_scatterer) {
   BodyModel model;
   model.scale = scale;
-  model.file = file(scenario, spec);
-  model.box = box_of(*model.file, placement_of(spec, scale));
+  model.source = source(scenario, spec);
+  model.box = box_of(*model.source, placement_of(spec, scale));
   const std::lock_guard lock(mutex_);
   std::optional<TargetMesh> placed_mesh;
   const auto mesh = [&]() -> TargetMesh& {
-    if (!placed_mesh) placed_mesh = load_target_mesh(source_of(scenario, spec, scale, model.file));
+    if (!placed_mesh) placed_mesh = load_target_mesh(source_of(scenario, spec, scale, model.source));
     return *placed_mesh;
   };
-  const FileKey file_key{find_mesh(scenario, spec), axes_of(spec)};
-  model.motion = motions_.get({file_key, placement_of(spec, moves_by_size(spec) ? scale : 1), scenario.folder,
-                               spec.motion, is_raft(spec.layout)},
-                              [&] { return load_body(scenario, spec, mesh().mesh); });
+  const SourceKey key = source_key(scenario, spec);
+  std::optional<double> gravity_m = model.source->centre_of_gravity_m;
+  if (gravity_m) *gravity_m *= scale;
+  model.motion = motions_.get(
+      {key, placement_of(spec, moves_by_size(spec) ? scale : 1), scenario.folder, spec.motion, is_raft(spec.layout)},
+      [&] { return load_body(scenario, spec, mesh().mesh, gravity_m); });
   if (!with_scatterer) return model;
   const ScattererSettings settings = scatterer_settings(scenario, spec, height_m);
-  model.prepared = prepared_.get(
-      {file_key, placement_of(spec, scale), scenario.folder, spec.material, spec.part_materials, settings},
-      [&] { return prepare_target(std::move(mesh()), settings); });
+  model.prepared =
+      prepared_.get({key, placement_of(spec, scale), scenario.folder, spec.material, spec.part_materials, settings},
+                    [&] { return prepare_target(std::move(mesh()), settings); });
   model.radius_m = largest_radius_m(model.prepared->mesh);
   return model;
 }
@@ -163,14 +180,14 @@ struct HeightsOfBody {
   double bottom_m = 0, top_m = 0, margin_m = 0;
 };
 
-HeightsOfBody heights_of(const TargetSpec& spec, const FileMesh& file, double scale) {
+HeightsOfBody heights_of(const TargetSpec& spec, const SourceMesh& file, double scale) {
   const Bounds body = box_of(file, placement_of(spec, scale));
   return {body.lower.z(), body.upper.z(), waterline_margin(body)};
 }
 
 // Throws InputError for a body that is entirely under water and, if the sea reflects, for bodies at several heights of
 // which one reaches into the water.
-void check_above_water(const Scenario& scenario, const TargetSpec& spec, const FileMesh& file) {
+void check_above_water(const Scenario& scenario, const TargetSpec& spec, const SourceMesh& file) {
   const std::string target = fmt::format("targets.{}", spec.name);
   const std::vector<double> scales = body_scales(spec.layout, spec.scale), heights_m = body_heights_m(spec.layout);
   for (std::size_t i = 0; i < scales.size(); ++i) {
@@ -200,7 +217,7 @@ void check_above_water(const Scenario& scenario, const TargetSpec& spec, const F
     throw InputError(
         fmt::format("{}: its highest point is at z = {:.6g} m: must be above 0, the water, else the whole target is "
                     "under water; offset_m lifts it",
-                    place_of(scenario, target + ".mesh"), body.top_m));
+                    place_of(scenario, target + (spec.ship ? ".ship" : ".mesh")), body.top_m));
   }
 }
 
@@ -217,13 +234,13 @@ void check_sizes(const Scenario& scenario, const TargetSpec& spec, std::size_t s
 std::vector<std::shared_ptr<const BodyModel>> load_models(const TargetRequest& request, const TargetSpec& spec,
                                                           TargetCache& cache) {
   const Scenario& scenario = request.scenario;
-  const std::shared_ptr<const FileMesh> file = cache.file(scenario, spec);
-  check_above_water(scenario, spec, *file);
+  const std::shared_ptr<const SourceMesh> source = cache.source(scenario, spec);
+  check_above_water(scenario, spec, *source);
   const std::vector<double> scales = body_scales(spec.layout, spec.scale), heights_m = body_heights_m(spec.layout);
   std::vector<std::pair<double, std::optional<double>>> bodies;  // scale, and height of those in the water
   for (std::size_t i = 0; i < scales.size(); ++i) {
     const double height_m = rest_height_m(spec) + heights_m[i];
-    const HeightsOfBody body = heights_of(spec, *file, scales[i]);
+    const HeightsOfBody body = heights_of(spec, *source, scales[i]);
     const bool touches = scenario.sea_reflection.enabled ? body.bottom_m + height_m <= body.margin_m
                                                          : body.bottom_m + height_m < -body.margin_m;
     bodies.emplace_back(scales[i], touches ? std::optional(height_m) : std::nullopt);
@@ -289,7 +306,7 @@ void check_scene_range(const Scenario& scenario, const TargetSpec& spec, const T
 // Sets the rest positions of the target's bodies, the first numbered `bodies`, and increases `bodies` by their number.
 void place_bodies(Target& target, std::size_t& bodies) {
   target.first_body = bodies;
-  if (target.spec.mesh.empty()) return;
+  if (!has_mesh(target.spec)) return;
   target.rest_positions = rest_positions(target.spec);
   bodies += target.rest_positions.size();
 }
@@ -318,7 +335,7 @@ std::vector<Target> placed_targets(const Scenario& scenario, TargetUse use, cons
     Target& target = targets.emplace_back();
     target.spec = spec;
     const bool is_part = spec.role == TargetRole::kPart;  // placed with each target that it accompanies
-    if (!spec.mesh.empty() && !(is_part && use == TargetUse::kMotion)) load(target);
+    if (has_mesh(spec) && !(is_part && use == TargetUse::kMotion)) load(target);
     if (is_part) continue;
     place_bodies(target, bodies);
     if (use == TargetUse::kEcho) check_scene_range(scenario, spec, target, std::nullopt);
@@ -359,11 +376,11 @@ double largest_reach_m(const TargetRequest& request, TargetCache& cache) {
           request.plan.drawn(request.scenario, {.sea_state = static_cast<int>(state), .realisation = realisation});
       const std::vector<Target> targets = placed_targets(drawn, request.use, [&](Target& target) {
         const TargetSpec& spec = target.spec;
-        const std::shared_ptr<const FileMesh> file = cache.file(drawn, spec);
-        check_above_water(drawn, spec, *file);
+        const std::shared_ptr<const SourceMesh> source = cache.source(drawn, spec);
+        check_above_water(drawn, spec, *source);
         const double offset_m = Vec3(spec.offset_m).norm();
         for (const double scale : body_scales(spec.layout, spec.scale))
-          target.radii_m.push_back(scale * (file->radius_m + offset_m / spec.scale));
+          target.radii_m.push_back(scale * (source->radius_m + offset_m / spec.scale));
       });
       reach = std::max(reach, reach_of_all_m(drawn, targets));
     }
@@ -471,7 +488,7 @@ std::vector<NamedTrajectory> named_bodies(const std::vector<Target>& targets, co
     for (std::size_t i = 0; i < scene.bodies[t].size() && !(raft && i > 0); ++i) {
       const BodyModel& model = *target.models[i];
       bodies.push_back({target.spec.layout && !raft ? fmt::format("{}_{}", target.spec.name, i + 1) : target.spec.name,
-                        scene.bodies[t][i], placed(model.file->mesh, placement_of(target.spec, model.scale)),
+                        scene.bodies[t][i], placed(model.source->mesh, placement_of(target.spec, model.scale)),
                         mean_speed(*model.motion)});
     }
   }

@@ -23,9 +23,10 @@
 
 namespace seaglint {
 
-// A mesh as its file has it, in metres with its axes turned, neither enlarged nor moved.
-struct FileMesh {
+// A mesh as its file or its generator has it, in metres with its axes turned, neither enlarged nor moved.
+struct SourceMesh {
   TriangleMesh mesh;
+  std::optional<double> centre_of_gravity_m;  // height above the waterline, of a generated ship
   Bounds box;
   double radius_m = 0;  // largest distance of a vertex from the origin
 };
@@ -35,7 +36,7 @@ struct BodyModel {
   double scale = 1;                                // factor by which the mesh of the file is enlarged, after its unit
   Bounds box;                                      // of the whole mesh at this scale and offset
   double radius_m = 0;                             // largest distance of a vertex of `prepared` from the mesh's origin
-  std::shared_ptr<const FileMesh> file;            // whole
+  std::shared_ptr<const SourceMesh> source;        // whole
   std::shared_ptr<const PreparedTarget> prepared;  // cut at the waterline; null for TargetUse::kMotion
   std::shared_ptr<const Body> motion;  // of a rigid raft that of the raft, whatever the size of its reflectors
 };
@@ -56,7 +57,7 @@ struct Target {
 // the kKept others used last. Any thread may use it.
 class TargetCache {
  public:
-  std::shared_ptr<const FileMesh> file(const Scenario& scenario, const TargetSpec& spec);
+  std::shared_ptr<const SourceMesh> source(const Scenario& scenario, const TargetSpec& spec);
   // Of one body. height_m: of the mesh's origin above the water; absent where the body does not reach the water.
   BodyModel model(const Scenario& scenario, const TargetSpec& spec, double scale, std::optional<double> height_m,
                   bool with_scatterer);
@@ -76,13 +77,16 @@ class TargetCache {
     };
     std::vector<Entry> entries_;  // the one used last at the end
   };
-  struct FileKey {
-    std::filesystem::path file;
+  struct SourceKey {
+    std::filesystem::path file;  // or
+    std::optional<ShipSpec> ship;
     MeshPlacement axes;
-    bool operator==(const FileKey&) const = default;
+    bool operator==(const SourceKey&) const = default;
   };
+  static SourceKey source_key(const Scenario& scenario, const TargetSpec& spec);
+
   struct MotionKey {
-    FileKey mesh;
+    SourceKey mesh;
     MeshPlacement placement;
     std::filesystem::path folder;  // searched for the files that are named
     MotionSpec motion;
@@ -90,7 +94,7 @@ class TargetCache {
     bool operator==(const MotionKey&) const = default;
   };
   struct ScattererKey {
-    FileKey mesh;
+    SourceKey mesh;
     MeshPlacement placement;
     std::filesystem::path folder;
     std::string material;
@@ -100,7 +104,7 @@ class TargetCache {
   };
 
   std::mutex mutex_;
-  Kept<FileKey, FileMesh> files_;
+  Kept<SourceKey, SourceMesh> sources_;
   Kept<ScattererKey, PreparedTarget> prepared_;
   Kept<MotionKey, Body> motions_;
 };

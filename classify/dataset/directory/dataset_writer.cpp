@@ -112,11 +112,23 @@ std::string label_text(const Scenario& scenario, int label) {
   return fmt::format("{} ({})", label, markdown_text(classes[static_cast<std::size_t>(label)]));
 }
 
+// "generated tanker, 183 m, seed 3", or the distributions of its keys.
+std::string ship_text(const Scenario& scenario, const TargetSpec& target) {
+  const ShipSpec& ship = *target.ship;
+  const auto text = [&](const char* key, const std::string& value) {
+    return markdown_text(value_text(scenario, fmt::format("targets.{}.ship.{}", target.name, key), value));
+  };
+  return fmt::format("generated {}, {}, seed {}", text("kind", kShipKindNames[static_cast<std::size_t>(ship.kind)]),
+                     text("length_m", ship.length_m > 0 ? fmt::format("{:g} m", ship.length_m) : "length of its seed"),
+                     text("seed", fmt::format("{}", ship.seed)));
+}
+
 // A row for each target; a part has no label and no samples.
 std::string targets_table(const Scenario& scenario, const SamplePlan& plan) {
   std::string table = "| target | label | samples | made of |\n|---|---|---|---|\n";
   for (const TargetSpec& target : scenario.targets) {
     std::string made_of = is_sea_alone(target)  ? "nothing: the sea alone"
+                          : target.ship         ? ship_text(scenario, target)
                           : target.mesh.empty() ? fmt::format("{} ideal points", target.points.size())
                                                 : markdown_text(target.mesh);
     const std::string scale = value_text(scenario, "targets." + target.name + ".scale",

@@ -127,7 +127,7 @@ ShipParticulars ship_particulars(const MotionSpec& spec, const HullSections& hul
   }
 
   // The ship floats on an even keel: G above B, below the metacentre by GM.
-  const Hydrostatics& h = ship.strips->hydrostatics();
+  const StripHydrostatics& h = ship.strips->hydrostatics();
   ship.centre_of_gravity = {h.buoyancy_x, 0, h.buoyancy_z + h.waterplane_yy / h.volume - ship.metacentric_height};
   ship.rotation_centre = ship.centre_of_gravity;
   if (spec.rotation_centre_m) ship.rotation_centre = Vec3(*spec.rotation_centre_m);

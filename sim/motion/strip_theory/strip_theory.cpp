@@ -72,7 +72,7 @@ StripTheory::StripTheory(const HullSections& hull) {
   }
   step_ = std::sqrt(kGravity * kMaxHalfBeamNumber / (0.5 * beam)) / kFrequencies;
   const double width = hull.length / static_cast<double>(hull.sections.size());
-  Hydrostatics& h = hydrostatics_;
+  StripHydrostatics& h = hydrostatics_;
   double volume_x = 0, volume_z = 0;
   for (const HullSection& section : hull.sections) {
     if (section.breadth < kThinnest * draught || section.draught < kThinnest * draught ||

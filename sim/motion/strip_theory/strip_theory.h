@@ -22,7 +22,7 @@ struct ShipWave {
 };
 
 // Hydrostatic integrals about the origin (waterline amidships).
-struct Hydrostatics {
+struct StripHydrostatics {
   double volume = 0;         // m^3
   double waterplane = 0;     // m^2
   double waterplane_x = 0;   // int x breadth dx, m^3
@@ -43,7 +43,7 @@ class StripTheory {
   // InputError for a hull without breadth or draught.
   explicit StripTheory(const HullSections& hull);
 
-  const Hydrostatics& hydrostatics() const { return hydrostatics_; }
+  const StripHydrostatics& hydrostatics() const { return hydrostatics_; }
 
   // Force per displacement, w^2 A - j w B, at the encounter frequency w (rad/s, any sign) and speed (m/s): of (sway,
   // roll, yaw) and of (heave, pitch) about the origin, [force][displacement].
@@ -80,7 +80,7 @@ class StripTheory {
   Place place(double omega) const;
 
   double step_ = 0;  // rad/s: the tables are at step_, 2 step_, ...
-  Hydrostatics hydrostatics_;
+  StripHydrostatics hydrostatics_;
   std::vector<Strip> strips_;
 };
 

@@ -336,12 +336,15 @@ Scenario full_scenario() {
   TargetSpec ring = array;
   ring.name = "ring";
   ring.layout = LayoutSpec{.area = AreaLayout{}};
+  TargetSpec made;
+  made.name = "made";
+  made.ship = ShipSpec{.loading = 0.5};
   TargetSpec points;
   points.name = "points";
   points.points.resize(2);
   scenario.sea.depth_m = 30;
   scenario.clutter.sea_state = 3;
-  scenario.targets = {ship, array, ring, points};
+  scenario.targets = {ship, array, ring, made, points};
   scenario.dataset.classes = {"null", "true", "1e3", "d", "e", "f", "g", "h", "i", "k"};  // one for every label
   return scenario;
 }
@@ -406,7 +409,11 @@ void make_consistent(Scenario& scenario) {
     // A part must be a companion; this one is the ship's.
     if (target.name == "array" && scenario.seed % 2 == 0) target.role = TargetRole::kPart;
     if (target.role == TargetRole::kPart) target.label = 0;
-    if (!target.mesh.empty()) scenario.radar.intra_pulse_motion = false;
+    if (has_mesh(target)) scenario.radar.intra_pulse_motion = false;
+    if (target.ship) {
+      const auto [lowest, highest, reference] = kShipLengths_m[static_cast<std::size_t>(target.ship->kind)];
+      target.ship->length_m = lowest + (highest - lowest) * target.ship->length_m / 500;
+    }
     for (CompanionSpec& companion : target.companions) companion.target = "array";
     for (TargetSpec& array : scenario.targets)
       if (!target.companions.empty() && array.name == "array")

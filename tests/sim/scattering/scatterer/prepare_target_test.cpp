@@ -144,7 +144,7 @@ TEST(BodySize, TurnsAndMovesWithTheTarget) {
 
 // 57 closed parts that overlap slightly: all have the hull's size.
 TEST(BodySize, OfTheShipIsThatOfItsHull) {
-  const Scatterer ship(make_ship());
+  const Scatterer ship(make_combatant());
   EXPECT_NEAR(min_patch(ship), 5e-3, 1e-4);
   EXPECT_EQ(std::ranges::min(ship.bodies().radius), std::ranges::max(ship.bodies().radius));
 }

@@ -7,11 +7,9 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <limits>
 #include <set>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/mesh/topology.h"
@@ -23,7 +21,7 @@ namespace {
 
 class ShipMesh : public testing::Test {
  protected:
-  static void SetUpTestSuite() { mesh = make_ship(); }
+  static void SetUpTestSuite() { mesh = make_combatant(); }
   static void TearDownTestSuite() { mesh = {}; }
   static inline TriangleMesh mesh;
 };
@@ -137,35 +135,11 @@ TEST_F(ShipMesh, HasAtMostItsNumberOfTriangles) {
   EXPECT_LE(mesh.triangles.size(), 40000u);
 }
 
-TEST(ShipForm, ScalesWithLengthAndBeamAndStaysClosed) {
-  for (const auto& [length, beam] : {std::pair{100.0, 13.0}, {120.0, 15.0}, {180.0, 21.0}}) {
-    const TriangleMesh mesh = make_ship({.length_m = length, .beam_m = beam});
-    // The flagstaffs keep their rake and may reach beyond a short ship's ends.
-    EXPECT_NEAR(bounds(mesh).upper.x() - bounds(mesh).lower.x(), length, 0.3);
-    const Topology topology = topology_of(mesh);
-    for (std::size_t p = 0; p < mesh.part_names.size(); ++p) EXPECT_TRUE(topology.part_closed[p]) << mesh.part_names[p];
-    EXPECT_TRUE(topology.degenerate.empty());
-  }
-}
-
-TEST(ShipForm, DetailAddsParts) {
-  const std::size_t hull = make_ship({.detail = ShipDetail::kHull}).triangles.size();
-  const std::size_t fittings = make_ship({.detail = ShipDetail::kFittings}).triangles.size();
+TEST(Combatant, DetailAddsParts) {
+  const std::size_t hull = make_combatant(ShipDetail::kHull).triangles.size();
+  const std::size_t fittings = make_combatant(ShipDetail::kFittings).triangles.size();
   EXPECT_LT(hull, fittings);
-  EXPECT_LT(fittings, make_ship().triangles.size());
-}
-
-TEST(ShipForm, OutOfRangeIsRefused) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(make_ship({.length_m = 20}), InputError);
-  EXPECT_THROW(make_ship({.length_m = nan}), InputError);
-  EXPECT_THROW(make_ship({.beam_m = 40}), InputError);
-  EXPECT_THROW(make_ship({.freeboard_m = 1}), InputError);
-  EXPECT_THROW(make_ship({.bow_height_m = 5}), InputError);
-  EXPECT_THROW(make_ship({.stern_height_m = nan}), InputError);
-  EXPECT_THROW(make_ship({.panel_m = 0.01}), InputError);
-  EXPECT_THROW(make_ship({.plating_m = -1}), InputError);
-  EXPECT_THROW(make_ship({.rail_width_m = 1}), InputError);
+  EXPECT_LT(fittings, make_combatant().triangles.size());
 }
 
 // The files in assets/ are the output of the generators.
@@ -181,7 +155,7 @@ void expect_same_bytes(const TriangleMesh& mesh, const char* name) {
       << "assets/" << name << " differs from the output of its command in assets/README.md";
 }
 
-TEST(Assets, ShipEqualsItsGeneratorsOutput) { expect_same_bytes(make_ship(), "combatant_144m.glb"); }
+TEST(Assets, ShipEqualsItsGeneratorsOutput) { expect_same_bytes(make_combatant(), "combatant_144m.glb"); }
 
 TEST(Assets, ReflectorEqualsItsGeneratorsOutput) {
   expect_same_bytes(make_icosahedral_reflector(), "icosahedral_reflector.glb");
@@ -198,7 +172,7 @@ TEST(Assets, HaveTheirChecksums) {
 }
 
 TEST(Assets, AreUnchangedByARoundTripThroughTheirFiles) {
-  const TriangleMesh ship = make_ship(), again = read_mesh(kAssets / "combatant_144m.glb");
+  const TriangleMesh ship = make_combatant(), again = read_mesh(kAssets / "combatant_144m.glb");
   ASSERT_EQ(again.triangles.size(), ship.triangles.size());
   EXPECT_EQ(again.part_names, ship.part_names);
   for (std::size_t t = 0; t < ship.triangles.size(); ++t) {
@@ -211,7 +185,7 @@ TEST(Assets, AreUnchangedByARoundTripThroughTheirFiles) {
 
 // The hull is smooth between its knuckles; the file rounds normals to float32.
 TEST(Assets, HaveTheNormalsOfTheShipsSmoothSurfaces) {
-  const TriangleMesh ship = make_ship(), again = read_mesh(kAssets / "combatant_144m.glb");
+  const TriangleMesh ship = make_combatant(), again = read_mesh(kAssets / "combatant_144m.glb");
   ASSERT_EQ(again.corner_normals.size(), ship.corner_normals.size());
   std::size_t smooth = 0;
   for (std::size_t t = 0; t < ship.triangles.size(); ++t) {
