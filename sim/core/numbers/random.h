@@ -36,6 +36,7 @@ enum class Stream : std::uint32_t {
   kRayLattice = 18,
   kDraw = 19,
   kLayout = 20,
+  kDecoy = 21,
   kTest = 1000,
 };
 
