@@ -29,7 +29,7 @@ set(slow_tests
 )
 set(rest_tests "*")
 set(medium_tests
-  --gtest_filter=Benchmark.EveryShippedOne*:BodiesInWater.OfA*:BodyOnDeck.*:Bombs.*:CavityEcho.*:CentresInClutter.*
+  --gtest_filter=BatteredDecoys.*:Benchmark.EveryShippedOne*:BodiesInWater.OfA*:BodyOnDeck.*:Bombs.*:CavityEcho.*:CentresInClutter.*
   --gtest_filter=CleanCentres.Outside*:Clutter.*:ClutterFalseAlarms.*:CoatedTarget.*:ContributionBound.*
   --gtest_filter=CurvedSurface.*:CylinderBeforeAPatch.*:EdgeDiffraction.*:Evaluation.*:FieldExport.*
   --gtest_filter=*Fleet.*:FuzzInputs.*:InfinitePrism.*:Interpolation.HasTheStated*:IntervalResponse.*

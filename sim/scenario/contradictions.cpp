@@ -397,12 +397,12 @@ void check_layout(const TargetSpec& target, const ScenarioDocument& document) {
   }
 }
 
-// A generated ship has its own unit, axes and place.
+// A generated mesh has its own unit, axes and place.
 void check_generated(const TargetSpec& target, const ScenarioDocument& document) {
-  if (!target.ship) return;
+  if (!is_generated(target)) return;
   const std::string path = "targets." + target.name;
   try {
-    check_ship(*target.ship);
+    if (target.ship) check_ship(*target.ship);
   } catch (const InputError& error) {
     document.fail_at(path + ".ship", error.what());
   }
@@ -422,9 +422,11 @@ void check_target(const TargetSpec& target, const ScenarioDocument& document) {
   check_layout(target, document);
   check_speed(target, document);
   check_solver(target, document);
-  const int kinds = (target.mesh.empty() ? 0 : 1) + (target.ship ? 1 : 0) + (target.points.empty() ? 0 : 1);
+  const int kinds =
+      (target.mesh.empty() ? 0 : 1) + (target.ship ? 1 : 0) + (target.decoy ? 1 : 0) + (target.points.empty() ? 0 : 1);
   if (kinds != 1)
-    document.fail_at(path, fmt::format("must have a mesh, a ship or points{}", kinds == 0 ? "" : ", one of them only"));
+    document.fail_at(
+        path, fmt::format("must have a mesh, a ship, a decoy or points{}", kinds == 0 ? "" : ", one of them only"));
   check_generated(target, document);
   if (target.points.empty()) return;
   // Points have velocities of their own: a motion section is an error.

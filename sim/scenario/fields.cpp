@@ -391,6 +391,39 @@ void visit(ShipSpec& spec, FieldVisitor& v) {
           "integers(1 1000000): one per sea.");
 }
 
+void visit(DecoySpec& spec, FieldVisitor& v) {
+  v.require("kind");
+  v.choice("kind", spec.kind, kDecoyKindNames,
+           "icosahedral (20 trihedra), octahedral (8), trihedral_cluster (a ring of them), trihedral or dihedral.");
+  v.number("leg_m", spec.leg_m, within(0.05, 5), "Leg of a trihedron; side of a dihedral's faces.");
+  v.choice("panel", spec.panel, kDecoyPanelNames, "Panels of an octahedral or trihedral reflector.");
+  v.choice("pose", spec.pose, kDecoyPoseNames,
+           "Octahedral: rain_catcher, one trihedron upwards, or point_up, one corner upwards.");
+  v.integer("cells", spec.cells, within(3, 12), "Trihedra of a trihedral_cluster.");
+  v.number("boresight_elevation_deg", spec.boresight_elevation_deg, within(-45, 45),
+           "Elevation of the boresights of a trihedral_cluster, a trihedral or a dihedral.");
+  v.number("angle_error_deg", spec.angle_error_deg, within(0, 5), "Standard deviation of every right angle.");
+  if (v.optional("seam_errors_deg", spec.seam_errors_deg != DecoySpec().seam_errors_deg))
+    v.triple("seam_errors_deg", spec.seam_errors_deg, within(-10, 10),
+             "Trihedral: error of the right angle at each seam; starboard, port, upper.");
+  v.number("surface_error_mm", spec.surface_error_mm, within(0, 100),
+           "Root mean square of a panel's displacement, at most leg / 50.");
+  v.number("rounding_mm", spec.rounding_mm, zero_or_within(0.1, 1000),
+           "Radius of the seams, of the tubes if inflatable, at most leg / 5; 0: sharp.");
+  v.flag("inflatable", spec.inflatable, "Tubes along the outer edges.");
+  v.integer("missing_panels", spec.missing_panels, within(0, 60), "Panels missing, at random.");
+  v.integer("dented_panels", spec.dented_panels, within(0, 60), "Panels with a dent, at random.");
+  v.number("dent_depth", spec.dent_depth, above_up_to(0, 0.2), "Depth of a dent over the leg.");
+  v.number("frame_mm", spec.frame_mm, zero_or_within(0.1, 500), "Width of bars along the outer edges; 0: none.");
+  v.choice("support", spec.support, kDecoySupportNames,
+           "none; float with a mast; raft, an inflatable ring; tow, a float with its line. The reflector is "
+           "motion.origin_above_waterline_m above the water.");
+  v.choice("float_shape", spec.float_shape, kDecoyFloatNames, "Shape of the float, of supports float and tow.");
+  v.number("float_m", spec.float_m, zero_or_within(0.05, 20), "Diameter of float or raft; 0: by the leg.");
+  v.number("tether_m", spec.tether_m, within(0, 100), "Length of the line above the water.");
+  v.value("seed", NaturalField{spec.seed}, "Seed of all imperfections; integers(1 1000000): one decoy per sea.");
+}
+
 void visit(SolverSpec& spec, FieldVisitor& v) {
   v.choice("method", spec.method, kSolverMethodNames,
            "How the reflectors of every path are found: beams, exact on flat panels; rays, shooting and bouncing.");
@@ -452,7 +485,11 @@ void visit(TargetSpec& spec, FieldVisitor& v) {
     if (!spec.ship) spec.ship.emplace();
     v.section("ship", *spec.ship, visit, "Generated ship in the place of a mesh file.");
   }
-  const bool is_mesh = spec.points.empty(), is_file = is_mesh && !spec.ship;
+  if (v.optional("decoy", spec.decoy.has_value())) {
+    if (!spec.decoy) spec.decoy.emplace();
+    v.section("decoy", *spec.decoy, visit, "Generated corner-reflector decoy in the place of a mesh file.");
+  }
+  const bool is_mesh = spec.points.empty(), is_file = is_mesh && !is_generated(spec);
   if (v.optional("unit", is_file))
     visit_word(v, "unit", spec.unit, {"m", "cm", "mm", "km", "in", "ft"}, "Unit of the mesh file.");
   if (v.optional("scale", is_mesh))

@@ -178,12 +178,52 @@ struct ShipSpec {
 // for a loading outside of 0 to 1.
 void check_ship(const ShipSpec& ship);
 
+// A corner-reflector decoy as it is built (sim/geometry/decoy/make_decoy.h).
+enum class DecoyKind { kIcosahedral, kOctahedral, kTrihedralCluster, kTrihedral, kDihedral };
+enum class DecoyPanel { kTriangular, kSquare, kCircular };
+enum class DecoyPose { kRainCatcher, kPointUp };  // of an octahedral one: a cell or a corner upwards
+enum class DecoySupport { kNone, kFloat, kRaft, kTow };
+enum class DecoyFloat { kDisc, kSphere };
+inline constexpr const char* kDecoyKindNames[] = {"icosahedral", "octahedral", "trihedral_cluster", "trihedral",
+                                                  "dihedral"};
+inline constexpr const char* kDecoyPanelNames[] = {"triangular", "square", "circular"};
+inline constexpr const char* kDecoyPoseNames[] = {"rain_catcher", "point_up"};
+inline constexpr const char* kDecoySupportNames[] = {"none", "float", "raft", "tow"};
+inline constexpr const char* kDecoyFloatNames[] = {"disc", "sphere"};
+
+struct DecoySpec {
+  DecoyKind kind = DecoyKind::kIcosahedral;
+  double leg_m = 0.372;                            // of a trihedron; side of a dihedral's faces, 0.05 <= x <= 5
+  DecoyPanel panel = DecoyPanel::kTriangular;      // octahedral, trihedral
+  DecoyPose pose = DecoyPose::kRainCatcher;        // octahedral
+  int cells = 5;                                   // trihedral_cluster, 3 <= x <= 12
+  double boresight_elevation_deg = 0;              // trihedral_cluster, trihedral, dihedral, -45 <= x <= 45
+  std::uint64_t seed = 0;                          // of all imperfections
+  double angle_error_deg = 0;                      // standard deviation of every right angle, 0 <= x <= 5
+  std::array<double, 3> seam_errors_deg{0, 0, 0};  // trihedral: of the right angle at each seam, -10 <= x <= 10
+  double surface_error_mm = 0;                     // rms of a panel's displacement, 0 <= x <= leg / 50
+  double rounding_mm = 0;                          // radius of seams, of tubes if inflatable, 0 or 0.1 <= x <= leg / 5
+  bool inflatable = false;                         // tubes along the outer edges
+  int missing_panels = 0;                          // 0 <= x <= panels
+  int dented_panels = 0;                           // 0 <= x <= panels that are left
+  double dent_depth = 0.05;                        // of a dent, over the leg, 0 < x <= 0.2
+  double frame_mm = 0;                             // width of bars along the outer edges, 0 or 0.1 <= x <= leg / 10
+  DecoySupport support = DecoySupport::kNone;
+  DecoyFloat float_shape = DecoyFloat::kDisc;  // float, tow
+  double float_m = 0;                          // diameter of float or raft, 0 or 0.05 <= x <= 20; 0: by the leg
+  double mast_m = 0.75;                        // height of the reflector's middle above the water, 0 < x <= 50
+  double tether_m = 0;                         // length of the line above the water, 0 <= x <= 100
+
+  bool operator==(const DecoySpec&) const = default;
+};
+
 struct TargetSpec : MeshPlacement {
   std::string name;
   TargetRole role = TargetRole::kClass;
   int label = 0;
-  std::string mesh;  // file; empty with a generated ship, or points
+  std::string mesh;  // file; empty with a generated mesh, or points
   std::optional<ShipSpec> ship;
+  std::optional<DecoySpec> decoy;
   std::string material = "pec";
   std::vector<PartMaterialSpec> part_materials;
   double sheet_thickness_mm = 0;
@@ -196,12 +236,15 @@ struct TargetSpec : MeshPlacement {
   bool operator==(const TargetSpec&) const = default;
 };
 
+// A ship or a decoy that the program makes.
+inline bool is_generated(const TargetSpec& target) { return target.ship || target.decoy; }
+
 // The target of a scenario with `targets: {}`: no bodies and no points, thus no echo; name and class are "sea".
 inline constexpr const char* kSeaAlone = "sea";
 inline bool is_sea_alone(const TargetSpec& target) {
-  return target.mesh.empty() && !target.ship && target.points.empty();
+  return target.mesh.empty() && !is_generated(target) && target.points.empty();
 }
 // Bodies with a mesh, from a file or generated.
-inline bool has_mesh(const TargetSpec& target) { return !target.mesh.empty() || target.ship.has_value(); }
+inline bool has_mesh(const TargetSpec& target) { return !target.mesh.empty() || is_generated(target); }
 
 }  // namespace seaglint

@@ -109,6 +109,15 @@ const std::vector<DrawnKey>& drawn_job_keys() {
   const Override boat{"targets.hull",
                       "{label: 1, ship: {kind: inflatable_boat, detail: hull}, motion: {model: ship, "
                       "spin_up_s: 10}}"};
+  const auto decoy = [](const char* keys) {
+    return Override{"targets.corner",
+                    fmt::format("{{label: 0, decoy: {{{}}}, motion: {{model: float, spin_up_s: 10}}}}", keys)};
+  };
+  const Override octahedral = decoy("kind: octahedral"), cluster = decoy("kind: trihedral_cluster");
+  const Override soft = decoy("kind: octahedral, rounding_mm: 20"),
+                 dented = decoy("kind: octahedral, dented_panels: 2");
+  const Override afloat = decoy("kind: octahedral, support: float"),
+                 towed = decoy("kind: octahedral, support: tow, tether_m: 4");
   static const std::vector<DrawnKey> keys{
       {"view.azimuth_deg", "uniform(10, 170)"},
       {"view.elevation_deg", "uniform(2, 6)"},
@@ -161,6 +170,25 @@ const std::vector<DrawnKey>& drawn_job_keys() {
       {"targets.NAME.ship.loading", "uniform(0, 1)", "hull", {boat}},
       {"targets.NAME.ship.detail", "choice(hull, fittings)", "hull", {boat}},
       {"targets.NAME.ship.seed", "integers(1, 1000000)", "hull", {boat}},
+      {"targets.NAME.decoy.kind", "choice(icosahedral, octahedral)", "corner", {octahedral}},
+      {"targets.NAME.decoy.leg_m", "uniform(0.3, 0.6)", "corner", {octahedral}},
+      {"targets.NAME.decoy.panel", "choice(triangular, square, circular)", "corner", {octahedral}},
+      {"targets.NAME.decoy.pose", "choice(rain_catcher, point_up)", "corner", {octahedral}},
+      {"targets.NAME.decoy.cells", "integers(3, 6)", "corner", {cluster}},
+      {"targets.NAME.decoy.boresight_elevation_deg", "uniform(-5, 5)", "corner", {cluster}},
+      {"targets.NAME.decoy.angle_error_deg", "uniform(0, 2)", "corner", {octahedral}},
+      {"targets.NAME.decoy.surface_error_mm", "uniform(0, 2)", "corner", {octahedral}},
+      {"targets.NAME.decoy.rounding_mm", "uniform(5, 20)", "corner", {octahedral}},
+      {"targets.NAME.decoy.inflatable", "choice(true, false)", "corner", {soft}},
+      {"targets.NAME.decoy.missing_panels", "integers(0, 3)", "corner", {octahedral}},
+      {"targets.NAME.decoy.dented_panels", "integers(0, 3)", "corner", {octahedral}},
+      {"targets.NAME.decoy.dent_depth", "uniform(0.02, 0.1)", "corner", {dented}},
+      {"targets.NAME.decoy.frame_mm", "uniform(5, 20)", "corner", {octahedral}},
+      {"targets.NAME.decoy.support", "choice(none, float, raft)", "corner", {octahedral}},
+      {"targets.NAME.decoy.float_shape", "choice(disc, sphere)", "corner", {afloat}},
+      {"targets.NAME.decoy.float_m", "uniform(0.6, 1)", "corner", {afloat}},
+      {"targets.NAME.decoy.tether_m", "uniform(4, 6)", "corner", {towed}},
+      {"targets.NAME.decoy.seed", "integers(1, 1000000)", "corner", {octahedral}},
       {"targets.NAME.unit", "choice(m, ft)", "corner"},
       {"targets.NAME.orientation.forward", "choice(+x, -x)"},
       {"targets.NAME.orientation.up", "choice(+z, +y)", "hull", {fixed}},
@@ -250,7 +278,7 @@ targets.NAME.label targets.NAME.role targets.NAME.points.N.position_m targets.NA
 targets.NAME.part_materials.N.part targets.NAME.part_materials.N.material targets.NAME.companions.N.target
 targets.NAME.motion.rotation_centre_m targets.NAME.motion.file targets.NAME.motion.series_start_s
 targets.NAME.motion.wamit_ulen_m targets.NAME.motion.wamit_heading targets.NAME.motion.wamit_time_factor
-targets.NAME.motion.sections targets.NAME.motion.rao_scale targets.NAME.motion.rao_phase_deg
+targets.NAME.decoy.seam_errors_deg targets.NAME.motion.sections targets.NAME.motion.rao_scale targets.NAME.motion.rao_phase_deg
 targets.NAME.motion.rao_rotations targets.NAME.motion.rao_follows_long_waves targets.NAME.motion.wamit_body
 targets.NAME.motion.wamit_xbody_m targets.NAME.motion.wamit_first_column targets.NAME.offset_m sea.table
 sea.table_time sea.scatter_diagram

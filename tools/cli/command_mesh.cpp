@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -10,6 +12,7 @@
 #include "sim/core/process/file.h"
 #include "sim/core/process/printable.h"
 #include "sim/core/text/names.h"
+#include "sim/geometry/decoy/make_decoy.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/mesh/mesh_diagnostics.h"
 #include "sim/geometry/mesh/topology.h"
@@ -205,6 +208,64 @@ void add_reflector_kinds(CommandOptions& make, CommandContext& context) {
   dihedral.add_option("--opening-deg", *opening, "Angle between the plates").show_default();
 }
 
+// The options of `mesh make decoy`: a spec, its enumerations by their words.
+struct DecoyArguments {
+  DecoySpec spec;
+  std::string kind = kDecoyKindNames[0], panel = kDecoyPanelNames[0], pose = kDecoyPoseNames[0],
+              support = kDecoySupportNames[0], float_shape = kDecoyFloatNames[0];
+
+  DecoySpec make_spec() const {
+    const auto index = [](const auto& names, const std::string& word) {
+      return std::find(std::begin(names), std::end(names), word) - std::begin(names);
+    };
+    DecoySpec made = spec;
+    made.kind = static_cast<DecoyKind>(index(kDecoyKindNames, kind));
+    made.panel = static_cast<DecoyPanel>(index(kDecoyPanelNames, panel));
+    made.pose = static_cast<DecoyPose>(index(kDecoyPoseNames, pose));
+    made.support = static_cast<DecoySupport>(index(kDecoySupportNames, support));
+    made.float_shape = static_cast<DecoyFloat>(index(kDecoyFloatNames, float_shape));
+    return made;
+  }
+};
+
+void add_decoy_kind(CommandOptions& make, CommandContext& context) {
+  auto arguments = std::make_shared<DecoyArguments>();
+  CommandOptions kind = add_kind(make, context, "decoy", "Corner-reflector decoy as it is built, with its support",
+                                 "--kind octahedral --leg-m 0.4 --angle-error-deg 0.5 --support float -o decoy.glb",
+                                 [arguments] { return make_decoy(arguments->make_spec()); });
+  const auto add_word = [&kind](const char* option, std::string& word, const auto& names, const char* what) {
+    kind.add_option(option, word, what).one_of({std::begin(names), std::end(names)}).show_default();
+  };
+  DecoySpec& spec = arguments->spec;
+  add_word("--kind", arguments->kind, kDecoyKindNames, "Arrangement of its trihedra");
+  kind.add_option("--leg-m", spec.leg_m, "Length of a leg of its trihedra, side of a dihedral's faces").show_default();
+  add_word("--panel", arguments->panel, kDecoyPanelNames, "Panels of an octahedral or a trihedral one");
+  add_word("--pose", arguments->pose, kDecoyPoseNames, "Octahedral: a cell or a corner upwards");
+  kind.add_option("--cells", spec.cells, "Trihedra of a trihedral_cluster").show_default();
+  kind.add_option("--boresight-elevation-deg", spec.boresight_elevation_deg,
+                  "Of a trihedral_cluster, a trihedral or a dihedral one")
+      .show_default();
+  kind.add_option("--seed", spec.seed, "Of all imperfections").show_default();
+  kind.add_option("--angle-error-deg", spec.angle_error_deg, "Standard deviation of every right angle").show_default();
+  kind.add_option("--seam-errors-deg", spec.seam_errors_deg,
+                  "Trihedral: errors of the right angles at its lower starboard, lower port and upper seam");
+  kind.add_option("--surface-error-mm", spec.surface_error_mm, "Rms displacement of the panels along their normals")
+      .show_default();
+  kind.add_option("--rounding-mm", spec.rounding_mm, "Radius of the seams").show_default();
+  kind.add_flag("--inflatable", spec.inflatable, "Tubes of that radius along the outer edges");
+  kind.add_option("--missing-panels", spec.missing_panels, "Panels that are missing, at random").show_default();
+  kind.add_option("--dented-panels", spec.dented_panels, "Panels with a dent, at random").show_default();
+  kind.add_option("--dent-depth", spec.dent_depth, "Depth of a dent over the leg").show_default();
+  kind.add_option("--frame-mm", spec.frame_mm, "Width of bars along the outer edges, 0 = none").show_default();
+  add_word("--support", arguments->support, kDecoySupportNames, "What carries it in the water");
+  add_word("--float-shape", arguments->float_shape, kDecoyFloatNames, "Of support float and tow");
+  kind.add_option("--float-m", spec.float_m, "Diameter of float or raft, 0 = 2 legs (disc), 1.2 (sphere), 3 (raft)")
+      .show_default();
+  kind.add_option("--mast-m", spec.mast_m, "Height of the reflector's middle above the water").show_default();
+  kind.add_option("--tether-m", spec.tether_m, "Length of the line from the float to the water, 0 = none")
+      .show_default();
+}
+
 void add_simple_kinds(CommandOptions& make, CommandContext& context) {
   auto length = std::make_shared<double>(1.0), width = std::make_shared<double>(1.0);
   CommandOptions plate =
@@ -361,6 +422,7 @@ void add_mesh(CommandOptions& program, CommandContext& context) {
   make.footer("Example:\n  seaglint mesh make reflector -o reflector.glb");
   add_ship_kinds(make, context);
   add_reflector_kinds(make, context);
+  add_decoy_kind(make, context);
   add_simple_kinds(make, context);
   add_info(mesh, context);
   add_convert(mesh, context);

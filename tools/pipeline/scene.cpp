@@ -10,6 +10,7 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
+#include "sim/geometry/decoy/make_decoy.h"
 #include "sim/geometry/placement/target_mesh.h"
 #include "sim/geometry/placement/waterline.h"
 #include "sim/geometry/ship/make_ship.h"
@@ -49,11 +50,13 @@ MeshPlacement axes_of(const TargetSpec& spec) {
   return axes;
 }
 
+const char* source_name(const TargetSpec& spec) { return spec.ship ? ".ship" : spec.decoy ? ".decoy" : ".mesh"; }
+
 // Mesh and materials of a body of one size, with their keys for error messages.
 TargetSource source_of(const Scenario& scenario, const TargetSpec& spec, double scale,
                        std::shared_ptr<const SourceMesh> mesh) {
   const std::string path = "targets." + spec.name;
-  TargetSource source{.mesh = spec.ship ? std::filesystem::path() : find_mesh(scenario, spec),
+  TargetSource source{.mesh = is_generated(spec) ? std::filesystem::path() : find_mesh(scenario, spec),
                       .placement = placement_of(spec, scale),
                       .loaded = std::shared_ptr<const TriangleMesh>(mesh, &mesh->mesh),
                       .materials = {},
@@ -62,7 +65,7 @@ TargetSource source_of(const Scenario& scenario, const TargetSpec& spec, double 
                       .highest_hz = 1e9 * highest_ghz(scenario.radar),
                       .materials_place = place_of(scenario, path),
                       .frequencies_place = place_of(scenario, path),
-                      .mesh_place = place_of(scenario, path + (spec.ship ? ".ship" : ".mesh"))};
+                      .mesh_place = place_of(scenario, path + source_name(spec))};
   for (std::size_t i = 0; i < spec.part_materials.size(); ++i) {
     const PartMaterialSpec& part = spec.part_materials[i];
     source.materials.push_back(
@@ -118,18 +121,29 @@ std::shared_ptr<const Value> TargetCache::Kept<Key, Value>::get(const Key& key, 
 }
 
 TargetCache::SourceKey TargetCache::source_key(const Scenario& scenario, const TargetSpec& spec) {
-  return {spec.ship ? std::filesystem::path() : find_mesh(scenario, spec), spec.ship, axes_of(spec)};
+  SourceKey key{is_generated(spec) ? std::filesystem::path() : find_mesh(scenario, spec), spec.ship, spec.decoy,
+                axes_of(spec)};
+  // What carries the reflector reaches down to the water.
+  if (key.decoy && rest_height_m(spec) > 0) key.decoy->mast_m = rest_height_m(spec) / spec.scale;
+  return key;
 }
 
 std::shared_ptr<const SourceMesh> TargetCache::source(const Scenario& scenario, const TargetSpec& spec) {
   const SourceKey key = source_key(scenario, spec);
   const std::lock_guard lock(mutex_);
-  return sources_.get(key, [&] {
+  return sources_.get(key, [&]() -> SourceMesh {
     SourceMesh source;
     if (key.ship) {
       Ship ship = make_ship(*key.ship);
       source.mesh = std::move(ship.mesh);
       source.centre_of_gravity_m = ship.centre_of_gravity_m;
+    } else if (key.decoy) {
+      try {
+        source.mesh = make_decoy(*key.decoy);
+      } catch (const InputError& error) {
+        throw InputError(
+            fmt::format("{}: {}", place_of(scenario, fmt::format("targets.{}.decoy", spec.name)), error.what()));
+      }
     } else {
       source.mesh = read_placed_mesh(key.file, key.axes);
     }
@@ -217,7 +231,7 @@ void check_above_water(const Scenario& scenario, const TargetSpec& spec, const S
     throw InputError(
         fmt::format("{}: its highest point is at z = {:.6g} m: must be above 0, the water, else the whole target is "
                     "under water; offset_m lifts it",
-                    place_of(scenario, target + (spec.ship ? ".ship" : ".mesh")), body.top_m));
+                    place_of(scenario, target + source_name(spec)), body.top_m));
   }
 }
 

@@ -78,8 +78,9 @@ class TargetCache {
     std::vector<Entry> entries_;  // the one used last at the end
   };
   struct SourceKey {
-    std::filesystem::path file;  // or
+    std::filesystem::path file;  // empty for a generated mesh
     std::optional<ShipSpec> ship;
+    std::optional<DecoySpec> decoy;
     MeshPlacement axes;
     bool operator==(const SourceKey&) const = default;
   };

@@ -58,7 +58,7 @@ void add_mesh_warnings(std::vector<std::string>& lines, const Target& target) {
 
 // What of the target's bodies is below the water: that of the deepest one.
 void add_waterline_warning(std::vector<std::string>& lines, const Target& target) {
-  if (target.spec.ship) return;  // drawn with its underwater body on purpose
+  if (is_generated(target.spec)) return;  // made with what is below the water
   std::size_t cut = 0;
   SubmergedPart deepest;
   for (const auto& model : target.models) {

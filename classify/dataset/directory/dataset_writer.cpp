@@ -123,12 +123,24 @@ std::string ship_text(const Scenario& scenario, const TargetSpec& target) {
                      text("seed", fmt::format("{}", ship.seed)));
 }
 
+// "generated octahedral decoy, legs of 0.5 m, seed 3", or the distributions of its keys.
+std::string decoy_text(const Scenario& scenario, const TargetSpec& target) {
+  const DecoySpec& decoy = *target.decoy;
+  const auto text = [&](const char* key, const std::string& value) {
+    return markdown_text(value_text(scenario, fmt::format("targets.{}.decoy.{}", target.name, key), value));
+  };
+  return fmt::format("generated {} decoy, legs of {} m, seed {}",
+                     text("kind", kDecoyKindNames[static_cast<std::size_t>(decoy.kind)]),
+                     text("leg_m", fmt::format("{:g}", decoy.leg_m)), text("seed", fmt::format("{}", decoy.seed)));
+}
+
 // A row for each target; a part has no label and no samples.
 std::string targets_table(const Scenario& scenario, const SamplePlan& plan) {
   std::string table = "| target | label | samples | made of |\n|---|---|---|---|\n";
   for (const TargetSpec& target : scenario.targets) {
     std::string made_of = is_sea_alone(target)  ? "nothing: the sea alone"
                           : target.ship         ? ship_text(scenario, target)
+                          : target.decoy        ? decoy_text(scenario, target)
                           : target.mesh.empty() ? fmt::format("{} ideal points", target.points.size())
                                                 : markdown_text(target.mesh);
     const std::string scale = value_text(scenario, "targets." + target.name + ".scale",

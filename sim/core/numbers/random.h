@@ -36,7 +36,8 @@ enum class Stream : std::uint32_t {
   kRayLattice = 18,
   kDraw = 19,
   kLayout = 20,
-  kShip = 21,
+  kDecoy = 21,
+  kShip = 22,
   kTest = 1000,
 };
 

@@ -339,12 +339,15 @@ Scenario full_scenario() {
   TargetSpec made;
   made.name = "made";
   made.ship = ShipSpec{.loading = 0.5};
+  TargetSpec decoy;
+  decoy.name = "decoy";
+  decoy.decoy = DecoySpec{.seam_errors_deg = {1, 2, 3}};
   TargetSpec points;
   points.name = "points";
   points.points.resize(2);
   scenario.sea.depth_m = 30;
   scenario.clutter.sea_state = 3;
-  scenario.targets = {ship, array, ring, made, points};
+  scenario.targets = {ship, array, ring, made, decoy, points};
   scenario.dataset.classes = {"null", "true", "1e3", "d", "e", "f", "g", "h", "i", "k"};  // one for every label
   return scenario;
 }

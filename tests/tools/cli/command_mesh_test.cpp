@@ -7,6 +7,7 @@
 #include "sim/core/process/file.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/shapes/generators.h"
+#include "sim/scenario/target_spec.h"
 #include "tests/refusal.h"
 #include "tests/temporary_folder.h"
 #include "tools/cli/command_line.h"
@@ -62,6 +63,56 @@ TEST_F(MeshCommand, CreatesEveryKindOfMesh) {
   }
   run({"mesh", "make", "ship", "--length-m", "120", "--detail", "hull", "-o", file});
   EXPECT_NEAR(bounds(read_mesh(file)).upper.x(), 60, 0.01);
+}
+
+TEST_F(MeshCommand, MakesDecoysOfEveryKindWithTheirImperfections) {
+  const std::string file = (folder / "a.glb").string();
+  for (const char* kind : kDecoyKindNames) {
+    EXPECT_HAS(run({"mesh", "make", "decoy", "--kind", kind, "-o", file}), "triangles") << kind;
+    EXPECT_HAS(run({"mesh",
+                    "make",
+                    "decoy",
+                    "--kind",
+                    kind,
+                    "--leg-m",
+                    "0.5",
+                    "--seed",
+                    "7",
+                    "--angle-error-deg",
+                    "0.5",
+                    "--surface-error-mm",
+                    "1",
+                    "--rounding-mm",
+                    "20",
+                    "--inflatable",
+                    "--missing-panels",
+                    "1",
+                    "--dented-panels",
+                    "1",
+                    "--dent-depth",
+                    "0.1",
+                    "--support",
+                    "raft",
+                    "--mast-m",
+                    "1.2",
+                    "--tether-m",
+                    "3",
+                    "-o",
+                    file}),
+               "triangles")
+        << kind;
+    EXPECT_HAS(run({"mesh", "info", file}), "mast") << kind;
+  }
+  run({"mesh", "make", "decoy", "--kind", "octahedral", "--panel", "circular", "--pose", "point_up", "--frame-mm", "10",
+       "--support", "float", "--float-shape", "sphere", "--float-m", "0.5", "-o", file});
+  run({"mesh", "make", "decoy", "--kind", "trihedral_cluster", "--cells", "4", "--boresight-elevation-deg", "10", "-o",
+       file});
+  run({"mesh", "make", "decoy", "--kind", "trihedral", "--seam-errors-deg", "0,0,1", "-o", file});
+  EXPECT_HAS(refusal_of([&] {
+               run({"mesh", "make", "decoy", "--kind", "sphere", "-o", file});
+             }),
+             "{icosahedral,octahedral,trihedral_cluster,trihedral,dihedral}");
+  EXPECT_HAS(refusal_of([&] { run({"mesh", "make", "decoy", "--panel", "square", "-o", file}); }), "octahedral");
 }
 
 TEST_F(MeshCommand, ReportsTheContentsOfAFileInItsUnit) {
