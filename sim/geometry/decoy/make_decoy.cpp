@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
@@ -47,7 +46,7 @@ void check_bounds(const DecoySpec& spec) {
   require_zero_or_within(spec.rounding_mm, 0.1, leg_mm / 5, "rounding_mm (a fifth of the leg at most)");
   require_zero_or_within(spec.frame_mm, 0.1, leg_mm / 10, "frame_mm (a tenth of the leg at most)");
   const int panels = decoy_panel_count(spec);
-  require_within(spec.missing_panels, 0, panels, "missing_panels");
+  require_within(spec.missing_panels, 0, panels - 1, "missing_panels");
   require_within(spec.dented_panels, 0, panels - spec.missing_panels, "dented_panels (of those left)");
   require_within(spec.dent_depth, std::numeric_limits<double>::min(), 0.2, "dent_depth");
   require_zero_or_within(spec.float_m, 0.05, 20, "float_m");

@@ -234,10 +234,10 @@ TEST(DecoyDent, HasItsDepthInAsManyPanels) {
       double depth = 0;
       for (const Vec3& p : part_named(mesh, panel.part).vertices)
         depth = std::max(depth, std::abs((p - panel.corner).dot(normal)));
-      // The node nearest to the middle of a triangle is (5, 5, 6) / 16, others are nearer to theirs.
+      // The node nearest to the middle of a triangle is (3, 3, 2) / 8, others are nearer to theirs.
       if (depth > 1e-9) {
         ++dented;
-        EXPECT_NEAR(depth, 0.03 * spec.leg_m, 0.03 * spec.leg_m * (1 - std::pow(27 * 150 / 4096.0, 2)) + kRounding)
+        EXPECT_NEAR(depth, 0.03 * spec.leg_m, 0.03 * spec.leg_m * (1 - std::pow(27 * 18 / 512.0, 2)) + kRounding)
             << name_of(spec.kind);
       }
     }
@@ -421,7 +421,7 @@ TEST(DecoySpecs, WithContradictionsAreRefusedWithTheirBound) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(refusal([](DecoySpec& s) { s.leg_m = 6; }), "decoy leg_m: 6 is outside 0.05..5");
   EXPECT_HAS(refusal([&](DecoySpec& s) { s.leg_m = nan; }), "leg_m");
-  EXPECT_EQ(refusal([](DecoySpec& s) { s.missing_panels = 61; }), "decoy missing_panels: 61 is outside 0..60");
+  EXPECT_EQ(refusal([](DecoySpec& s) { s.missing_panels = 60; }), "decoy missing_panels: 60 is outside 0..59");
   EXPECT_HAS(refusal([](DecoySpec& s) { s.missing_panels = 59, s.dented_panels = 2; }), "2 is outside 0..1");
   EXPECT_HAS(refusal([](DecoySpec& s) { s.rounding_mm = 75; }), "0.1..74.4");
   EXPECT_HAS(refusal([](DecoySpec& s) { s.frame_mm = 38; }), "0.1..37.2");
