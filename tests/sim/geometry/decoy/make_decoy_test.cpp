@@ -15,6 +15,7 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
 #include "sim/geometry/mesh/topology.h"
+#include "sim/geometry/placement/waterline.h"
 #include "sim/geometry/shapes/generators.h"
 #include "tests/refusal.h"
 
@@ -409,6 +410,17 @@ TEST(DecoySupports, StandInTheWaterUnderTheReflector) {
         const Bounds end = bounds(line);
         EXPECT_NEAR(end.lower.z(), -1, 0.0061);
         EXPECT_GT(support == DecoySupport::kTow ? end.upper.x() : -end.lower.x(), 3);
+
+        // Cut off at the water, every solid is closed there.
+        const AboveWater above = above_water(mesh, -1);
+        EXPECT_EQ(above.below.open_m, 0);
+        EXPECT_GT(above.below.depth_m, 0.05);
+        const Topology topology = topology_of(above.mesh);
+        for (std::size_t p = 0; p < above.mesh.part_names.size(); ++p) {
+          if (is_solid(above.mesh.part_names[p])) {
+            EXPECT_TRUE(topology.part_closed[p]) << above.mesh.part_names[p];
+          }
+        }
       }
 }
 
