@@ -274,8 +274,8 @@ double mean(const std::vector<double>& values) {
 // Over 600 random directions of the whole sphere at 16 frequencies within a tenth, vertical polarisation. The sum of
 // the apertures neglects two effects. Plates and dihedrals fill the minima between the cells of an octahedral
 // reflector. The trihedra of an icosahedral one interfere, which lowers the median of their sum but not its mean. Paths
-// of three reflections alone have the median of the interfering apertures; 0.1 dB of it is three standard deviations of
-// its estimate from both, which differ by the paths of three reflections that leave a cell.
+// of three reflections alone have the median of the interfering apertures in the same directions: 0.1 dB is allowed for
+// those that leave a cell.
 TEST(DecoyMedian, IsThatOfTheApertureOfItsTrihedraWithinADecibel) {
   for (const DecoyKind kind : {DecoyKind::kOctahedral, DecoyKind::kIcosahedral})
     for (const double frequency : {10e9, 16e9}) {
