@@ -204,7 +204,7 @@ struct DecoySpec {
   double surface_error_mm = 0;                     // rms of a panel's displacement, 0 <= x <= leg / 50
   double rounding_mm = 0;                          // radius of seams, of tubes if inflatable, 0 or 0.1 <= x <= leg / 5
   bool inflatable = false;                         // tubes along the outer edges
-  int missing_panels = 0;                          // 0 <= x <= panels
+  int missing_panels = 0;                          // 0 <= x < panels
   int dented_panels = 0;                           // 0 <= x <= panels that are left
   double dent_depth = 0.05;                        // of a dent, over the leg, 0 < x <= 0.2
   double frame_mm = 0;                             // width of bars along the outer edges, 0 or 0.1 <= x <= leg / 10

@@ -417,7 +417,7 @@ void add_mesh(CommandOptions& program, CommandContext& context) {
   mesh.footer(
       "Example:\n  seaglint mesh make ship -o ship.glb\n  seaglint mesh info ship.glb\n"
       "  seaglint mesh sensitivity --target ship.glb --frequency-ghz 9.4 --azimuth-deg 0:180:45");
-  CommandOptions make = mesh.add_command("make", "Make a mesh: a ship, a reflector or a canonical target");
+  CommandOptions make = mesh.add_command("make", "Make a mesh: a ship, a reflector, a decoy or a canonical target");
   make.require_command();
   make.footer("Example:\n  seaglint mesh make reflector -o reflector.glb");
   add_ship_kinds(make, context);

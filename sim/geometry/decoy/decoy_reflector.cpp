@@ -20,8 +20,10 @@ namespace {
 // Indices of RandomKey; the surface of panel i has kSurfaceIndex + i.
 enum DecoyIndex : std::uint64_t { kAngleIndex, kChoiceIndex, kSurfaceIndex };
 
-constexpr int kDivisions = 16;  // of the side of a curved panel: ten per period of the shortest mode
-constexpr int kArcSides = 16;   // of a quarter of a circle, whose polygon has 0.16 % less area
+// Of the side of a curved panel, five per period of the shortest mode. On the axis of a trihedron whose heights cost
+// 0.9 dB, 16 change the echo by 0.04 dB.
+constexpr int kDivisions = 8;
+constexpr int kArcSides = 16;  // of a quarter of a circle, whose polygon has 0.16 % less area
 constexpr int kFilletSides = 6;
 
 // Points at the same place are one vertex, to a billionth of `size` (m).

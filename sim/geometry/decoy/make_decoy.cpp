@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
@@ -24,16 +23,16 @@ constexpr double kLineRadius_m = 0.006;
 // Written so that a NaN fails.
 void require_within(double value, double least, double most, const char* name) {
   if (!(value >= least && value <= most))
-    throw InputError(fmt::format("decoy {}: {} is outside {:g}..{:g}", name, value, least, most));
+    throw InputError(fmt::format("{}: value {:g}: must be within {:g} and {:g}", name, value, least, most));
 }
 
 void require_zero_or_within(double value, double least, double most, const char* name) {
   if (!(value == 0 || (value >= least && value <= most)))
-    throw InputError(fmt::format("decoy {}: {} is neither 0 nor within {:g}..{:g}", name, value, least, most));
+    throw InputError(fmt::format("{}: value {:g}: must be 0 or within {:g} and {:g}", name, value, least, most));
 }
 
 void refuse_if(bool is_set, const char* name, const char* kinds) {
-  if (is_set) throw InputError(fmt::format("decoy {}: applies to {} only", name, kinds));
+  if (is_set) throw InputError(fmt::format("{}: not allowed here: applies to {} only", name, kinds));
 }
 
 void check_bounds(const DecoySpec& spec) {
@@ -43,12 +42,12 @@ void check_bounds(const DecoySpec& spec) {
   require_within(spec.boresight_elevation_deg, -45, 45, "boresight_elevation_deg");
   require_within(spec.angle_error_deg, 0, 5, "angle_error_deg");
   for (const double error : spec.seam_errors_deg) require_within(error, -10, 10, "seam_errors_deg");
-  require_within(spec.surface_error_mm, 0, leg_mm / 50, "surface_error_mm (a fiftieth of the leg at most)");
-  require_zero_or_within(spec.rounding_mm, 0.1, leg_mm / 5, "rounding_mm (a fifth of the leg at most)");
-  require_zero_or_within(spec.frame_mm, 0.1, leg_mm / 10, "frame_mm (a tenth of the leg at most)");
+  require_within(spec.surface_error_mm, 0, leg_mm / 50, "surface_error_mm");
+  require_zero_or_within(spec.rounding_mm, 0.1, leg_mm / 5, "rounding_mm");
+  require_zero_or_within(spec.frame_mm, 0.1, leg_mm / 10, "frame_mm");
   const int panels = decoy_panel_count(spec);
-  require_within(spec.missing_panels, 0, panels, "missing_panels");
-  require_within(spec.dented_panels, 0, panels - spec.missing_panels, "dented_panels (of those left)");
+  require_within(spec.missing_panels, 0, panels - 1, "missing_panels");
+  require_within(spec.dented_panels, 0, panels - spec.missing_panels, "dented_panels");
   require_within(spec.dent_depth, std::numeric_limits<double>::min(), 0.2, "dent_depth");
   require_zero_or_within(spec.float_m, 0.05, 20, "float_m");
   require_within(spec.mast_m, std::numeric_limits<double>::min(), 50, "mast_m");
@@ -68,15 +67,15 @@ void check_contradictions(const DecoySpec& spec) {
   refuse_if(spec.seam_errors_deg != defaults.seam_errors_deg && !is(DecoyKind::kTrihedral), "seam_errors_deg",
             "trihedral");
   if (spec.inflatable && spec.rounding_mm == 0)
-    throw InputError("decoy inflatable: needs rounding_mm, the radius of its tubes");
+    throw InputError("inflatable: needs rounding_mm, the radius of its tubes");
   if (spec.inflatable && spec.frame_mm > 0)
-    throw InputError("decoy frame_mm: an inflatable decoy has tubes in place of a frame");
+    throw InputError("frame_mm: an inflatable decoy has tubes in place of a frame");
   const bool floats = spec.support == DecoySupport::kFloat || spec.support == DecoySupport::kTow;
   refuse_if(spec.float_shape != defaults.float_shape && !floats, "float_shape", "support float and tow");
   refuse_if(spec.float_m > 0 && spec.support == DecoySupport::kNone, "float_m", "support float, raft and tow");
   refuse_if(spec.tether_m > 0 && spec.support == DecoySupport::kNone, "tether_m", "support float, raft and tow");
   if (spec.support == DecoySupport::kTow && spec.tether_m == 0)
-    throw InputError("decoy tether_m: a tow needs the length of its line");
+    throw InputError("tether_m: a tow needs the length of its line");
 }
 
 // A closed rod along a path, its cross-section a regular polygon with a vertex of the last section at every point of
@@ -220,7 +219,7 @@ Flotation add_flotation(MeshBuilder& builder, const DecoySpec& spec, double half
 void add_tether(MeshBuilder& builder, const DecoySpec& spec, const Vec3& bow) {
   const double height = bow.z() + spec.mast_m, ahead = spec.support == DecoySupport::kTow ? 1 : -1;
   if (!(spec.tether_m >= 2 * height))
-    throw InputError(fmt::format("decoy tether_m: {} must be 0 or at least {:.3g}, twice the height of its end",
+    throw InputError(fmt::format("tether_m: value {}: must be 0 or at least {:.3g}, twice the height of its end",
                                  spec.tether_m, 2 * height));
   // Length of a flat parabola over a level distance x: x + 2 h^2 / (3 x), to the fourth order in h / x.
   const double x = 0.5 * (spec.tether_m + std::sqrt(spec.tether_m * spec.tether_m - 8.0 / 3 * height * height));
@@ -269,9 +268,10 @@ void add_support(MeshBuilder& builder, const DecoySpec& spec, const DecoyReflect
   }
   const Flotation flotation = add_flotation(builder, spec, half_width);
   if (!(lowest > flotation.clear_of))
-    throw InputError(fmt::format("decoy mast_m: {} must be above {:.3g}, so that the reflector is clear of its {}",
-                                 spec.mast_m, spec.mast_m + flotation.clear_of - lowest,
-                                 spec.support == DecoySupport::kRaft ? "raft" : "float"));
+    throw InputError(fmt::format(
+        "the reflector's middle is {:g} m above the water: must be above {:.3g} m, so that it is clear of its {}",
+        spec.mast_m, spec.mast_m + flotation.clear_of - lowest,
+        spec.support == DecoySupport::kRaft ? "raft" : "float"));
   add_mast(builder, spec, reflector, mesh, flotation.top);
   if (spec.tether_m > 0) add_tether(builder, spec, flotation.bow);
 }

@@ -147,6 +147,15 @@ inline TriangleMesh random_body(std::uint64_t seed) {
   return body;
 }
 
+// Area normal to the direction that returns after three bounces, for edges of length 1 and direction cosines l <= m <=
+// n (R. C. Spencer, Optical Theory of the Corner Reflector, MIT Radiation Laboratory report 433, 1944; J. W. Crispin
+// and K. M. Siegel, Methods of Radar Cross-Section Analysis, 1968, ch. 2).
+inline double triangular_aperture(double l, double m, double n) {
+  const double sum = l + m + n;
+  return l + m >= n ? sum - 2 / sum : 4 * l * m / sum;
+}
+inline double square_aperture(double l, double m, double n) { return m >= n / 2 ? l * (4 - n / m) : 4 * l * m / n; }
+
 // Bodies solved by the integral equations of tests/reference/rcs.
 
 // The cross-sections of sections.py, counter-clockwise, m.

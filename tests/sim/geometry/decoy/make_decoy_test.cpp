@@ -15,6 +15,7 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
 #include "sim/geometry/mesh/topology.h"
+#include "sim/geometry/placement/waterline.h"
 #include "sim/geometry/shapes/generators.h"
 #include "tests/refusal.h"
 
@@ -234,10 +235,10 @@ TEST(DecoyDent, HasItsDepthInAsManyPanels) {
       double depth = 0;
       for (const Vec3& p : part_named(mesh, panel.part).vertices)
         depth = std::max(depth, std::abs((p - panel.corner).dot(normal)));
-      // The node nearest to the middle of a triangle is (5, 5, 6) / 16, others are nearer to theirs.
+      // The node nearest to the middle of a triangle is (3, 3, 2) / 8, others are nearer to theirs.
       if (depth > 1e-9) {
         ++dented;
-        EXPECT_NEAR(depth, 0.03 * spec.leg_m, 0.03 * spec.leg_m * (1 - std::pow(27 * 150 / 4096.0, 2)) + kRounding)
+        EXPECT_NEAR(depth, 0.03 * spec.leg_m, 0.03 * spec.leg_m * (1 - std::pow(27 * 18 / 512.0, 2)) + kRounding)
             << name_of(spec.kind);
       }
     }
@@ -409,6 +410,17 @@ TEST(DecoySupports, StandInTheWaterUnderTheReflector) {
         const Bounds end = bounds(line);
         EXPECT_NEAR(end.lower.z(), -1, 0.0061);
         EXPECT_GT(support == DecoySupport::kTow ? end.upper.x() : -end.lower.x(), 3);
+
+        // Cut off at the water, every solid is closed there.
+        const AboveWater above = above_water(mesh, -1);
+        EXPECT_EQ(above.below.open_m, 0);
+        EXPECT_GT(above.below.depth_m, 0.05);
+        const Topology topology = topology_of(above.mesh);
+        for (std::size_t p = 0; p < above.mesh.part_names.size(); ++p) {
+          if (is_solid(above.mesh.part_names[p])) {
+            EXPECT_TRUE(topology.part_closed[p]) << above.mesh.part_names[p];
+          }
+        }
       }
 }
 
@@ -419,10 +431,10 @@ TEST(DecoySpecs, WithContradictionsAreRefusedWithTheirBound) {
     return refusal_of([&] { make_decoy(spec); });
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(refusal([](DecoySpec& s) { s.leg_m = 6; }), "decoy leg_m: 6 is outside 0.05..5");
+  EXPECT_EQ(refusal([](DecoySpec& s) { s.leg_m = 6; }), "leg_m: value 6: must be within 0.05 and 5");
   EXPECT_HAS(refusal([&](DecoySpec& s) { s.leg_m = nan; }), "leg_m");
-  EXPECT_EQ(refusal([](DecoySpec& s) { s.missing_panels = 61; }), "decoy missing_panels: 61 is outside 0..60");
-  EXPECT_HAS(refusal([](DecoySpec& s) { s.missing_panels = 59, s.dented_panels = 2; }), "2 is outside 0..1");
+  EXPECT_EQ(refusal([](DecoySpec& s) { s.missing_panels = 60; }), "missing_panels: value 60: must be within 0 and 59");
+  EXPECT_HAS(refusal([](DecoySpec& s) { s.missing_panels = 59, s.dented_panels = 2; }), "value 2: must be within 0 and 1");
   EXPECT_HAS(refusal([](DecoySpec& s) { s.rounding_mm = 75; }), "0.1..74.4");
   EXPECT_HAS(refusal([](DecoySpec& s) { s.frame_mm = 38; }), "0.1..37.2");
   EXPECT_HAS(refusal([](DecoySpec& s) { s.surface_error_mm = 8; }), "0..7.44");

@@ -20,15 +20,6 @@ using namespace testing_echoes;
 
 // Corner reflectors against the apertures of geometrical optics.
 
-// Area normal to the direction that returns after three bounces, for edges of length 1 and direction cosines l <= m <=
-// n (R. C. Spencer, Optical Theory of the Corner Reflector, MIT Radiation Laboratory report 433, 1944; J. W. Crispin
-// and K. M. Siegel, Methods of Radar Cross-Section Analysis, 1968, ch. 2).
-double triangular_aperture(double l, double m, double n) {
-  const double sum = l + m + n;
-  return l + m >= n ? sum - 2 / sum : 4 * l * m / sum;
-}
-double square_aperture(double l, double m, double n) { return m >= n / 2 ? l * (4 - n / m) : 4 * l * m / n; }
-
 // Mean over +-25 deg in azimuth and in elevation about the axis of the solver's level less the aperture's 4 pi A^2 /
 // lambda^2. One- and two-bounce echoes interfere with the three-bounce one: power is averaged over a tenth of the
 // frequency at each direction, which leaves their own power, below 1e-3 dB on average.
