@@ -435,13 +435,13 @@ TEST(DecoySpecs, WithContradictionsAreRefusedWithTheirBound) {
   EXPECT_HAS(refusal([&](DecoySpec& s) { s.leg_m = nan; }), "leg_m");
   EXPECT_EQ(refusal([](DecoySpec& s) { s.missing_panels = 60; }), "missing_panels: value 60: must be within 0 and 59");
   EXPECT_HAS(refusal([](DecoySpec& s) { s.missing_panels = 59, s.dented_panels = 2; }), "value 2: must be within 0 and 1");
-  EXPECT_HAS(refusal([](DecoySpec& s) { s.rounding_mm = 75; }), "0.1..74.4");
-  EXPECT_HAS(refusal([](DecoySpec& s) { s.frame_mm = 38; }), "0.1..37.2");
-  EXPECT_HAS(refusal([](DecoySpec& s) { s.surface_error_mm = 8; }), "0..7.44");
+  EXPECT_HAS(refusal([](DecoySpec& s) { s.rounding_mm = 75; }), "within 0.1 and 74.4");
+  EXPECT_HAS(refusal([](DecoySpec& s) { s.frame_mm = 38; }), "within 0.1 and 37.2");
+  EXPECT_HAS(refusal([](DecoySpec& s) { s.surface_error_mm = 8; }), "within 0 and 7.44");
   EXPECT_HAS(refusal([](DecoySpec& s) { s.panel = DecoyPanel::kSquare; }), "octahedral and trihedral only");
   EXPECT_HAS(refusal([](DecoySpec& s) { s.pose = DecoyPose::kPointUp; }), "octahedral only");
   EXPECT_HAS(refusal([](DecoySpec& s) { s.cells = 4; }), "trihedral_cluster only");
-  EXPECT_HAS(refusal([](DecoySpec& s) { s.cells = 13; }, DecoyKind::kTrihedralCluster), "3..12");
+  EXPECT_HAS(refusal([](DecoySpec& s) { s.cells = 13; }, DecoyKind::kTrihedralCluster), "within 3 and 12");
   EXPECT_HAS(refusal([](DecoySpec& s) { s.seam_errors_deg[1] = 1; }), "trihedral only");
   EXPECT_HAS(refusal([](DecoySpec& s) { s.boresight_elevation_deg = 5; }), "dihedral only");
   EXPECT_HAS(refusal([](DecoySpec& s) { s.inflatable = true; }), "needs rounding_mm");
