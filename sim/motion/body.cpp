@@ -26,7 +26,6 @@ constexpr int kStrips = 40;
 constexpr double kWaterlineToOverallLength = 0.985;
 constexpr double kWaterlineToOverallBeam = 0.95;
 constexpr double kBeamToDraught = 3.1;
-constexpr double kMetacentricHeight = 1.95;  // m, of the same model
 
 bool is_wamit(const std::filesystem::path& file) { return file.extension() == ".4"; }
 
@@ -242,8 +241,7 @@ Body make_body(const MotionSpec& spec, const BodyShape& shape, const std::filesy
   Body body{spec, {}, shape, Vec3::Zero()};
   if (spec.model == MotionModel::kShip) {
     MotionSpec ship_spec = spec;
-    ship_spec.metacentric_height_m =
-        given_or(spec.metacentric_height_m, shape.metacentric_height_m.value_or(kMetacentricHeight));
+    ship_spec.metacentric_height_m = given_or(spec.metacentric_height_m, shape.metacentric_height_m.value_or(0));
     const ShipParticulars ship = particulars_of(ship_spec, ship_sections(spec, shape, folder), shape);
     body.rotation_centre = ship.rotation_centre;
     body.model = ship;

@@ -27,7 +27,7 @@ void check_ship(const ShipSpec& ship) {
   std::string others;
   for (std::size_t kind = 0; kind < std::size(kShipLengths_m); ++kind) {
     if (length >= kShipLengths_m[kind].lowest && length <= kShipLengths_m[kind].highest)
-      others += fmt::format("{} {}", others.empty() ? "; of that length is a" : ",", kShipKindNames[kind]);
+      others += fmt::format("{} {}", others.empty() ? "; kinds of that length:" : ",", kShipKindNames[kind]);
   }
   throw InputError(fmt::format("length_m: value {:g}: must be within {:g} and {:g} for a {}{}", length, lowest, highest,
                                kShipKindNames[static_cast<std::size_t>(ship.kind)], others));

@@ -239,6 +239,11 @@ struct TargetSpec : MeshPlacement {
 // A ship or a decoy that the program makes.
 inline bool is_generated(const TargetSpec& target) { return target.ship || target.decoy; }
 
+// Key of what its bodies are made of.
+inline const char* source_key_of(const TargetSpec& target) {
+  return target.ship ? "ship" : target.decoy ? "decoy" : "mesh";
+}
+
 // The target of a scenario with `targets: {}`: no bodies and no points, thus no echo; name and class are "sea".
 inline constexpr const char* kSeaAlone = "sea";
 inline bool is_sea_alone(const TargetSpec& target) {

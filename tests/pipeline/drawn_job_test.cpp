@@ -170,7 +170,7 @@ const std::vector<DrawnKey>& drawn_job_keys() {
       {"targets.NAME.ship.loading", "uniform(0, 1)", "hull", {boat}},
       {"targets.NAME.ship.detail", "choice(hull, fittings)", "hull", {boat}},
       {"targets.NAME.ship.seed", "integers(1, 1000000)", "hull", {boat}},
-      {"targets.NAME.decoy.kind", "choice(icosahedral, octahedral)", "corner", {octahedral}},
+      {"targets.NAME.decoy.kind", "choice(icosahedral, octahedral)", "corner", {decoy("kind: octahedral, leg_m: 0.4")}},
       {"targets.NAME.decoy.leg_m", "uniform(0.3, 0.6)", "corner", {octahedral}},
       {"targets.NAME.decoy.panel", "choice(triangular, square, circular)", "corner", {octahedral}},
       {"targets.NAME.decoy.pose", "choice(rain_catcher, point_up)", "corner", {octahedral}},

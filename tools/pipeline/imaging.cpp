@@ -128,7 +128,7 @@ Observed observed(const Pipeline& pipeline, std::size_t sample, double at_least_
   Observed seen;
   seen.scenario = pipeline.scenario_of(at);
   seen.start_s = plan.start_s(at);
-  seen.scene = pipeline.scene(at.sea_state, at.realisation, at_least_s > 0 ? seen.start_s + at_least_s : 0);
+  seen.scene = pipeline.scene(at, at_least_s > 0 ? seen.start_s + at_least_s : 0);
   const View view = plan.view(at);
   const RadarSpec& radar = seen.scenario.radar;
   seen.r_hat = direction_to_radar(view.azimuth_rad, view.elevation_rad);

@@ -110,25 +110,27 @@ double Pipeline::window_m_of(const Scenario& other) const {
   return range_window_m({.scenario = other, .plan = SamplePlan(other), .cache = cache_.get()}, *targets_);
 }
 
-std::shared_ptr<const Scene> Pipeline::scene(int sea_state, int realisation, double at_least_s) const {
+std::shared_ptr<const Scene> Pipeline::scene(const SampleAddress& at, double at_least_s) const {
   if (at_least_s > 0) {
-    auto usual = scene(sea_state, realisation);
+    auto usual = scene(at);
     const auto lasts = [&](const Trajectory& body) { return body.end_s() >= at_least_s; };
     if (std::ranges::all_of(usual->bodies, [&](const auto& bodies) { return std::ranges::all_of(bodies, lasts); }))
       return usual;
     constexpr double kStep_s = 30;  // so that many such calls are for few scenes
     at_least_s = kStep_s * std::ceil(at_least_s / kStep_s);
   }
-  return scenes_.get({sea_state, realisation, at_least_s}, [&] {
+  const bool is_alone = draws_targets(scenario_);
+  return scenes_.get({at.sea_state, at.realisation, is_alone ? at.target : -1, at_least_s}, [&] {
     auto targets = targets_;
     if (!scenario_.variations.empty()) {
-      const Scenario drawn = plan_.drawn(scenario_, {.sea_state = sea_state, .realisation = realisation});
-      targets = std::make_shared<const std::vector<Target>>(
-          load_targets({.scenario = drawn, .plan = plan_, .cache = cache_.get()}));
+      const Scenario drawn = plan_.drawn(scenario_, {.sea_state = at.sea_state, .realisation = at.realisation});
+      TargetRequest request{.scenario = drawn, .plan = plan_, .cache = cache_.get()};
+      if (is_alone) request.only = static_cast<std::size_t>(at.target);
+      targets = std::make_shared<const std::vector<Target>>(load_targets(request));
     }
     Scene scene = make_scene({.scenario = scenario_,
                               .targets = *targets,
-                              .sea = {static_cast<std::size_t>(sea_state), static_cast<std::size_t>(realisation)},
+                              .sea = {static_cast<std::size_t>(at.sea_state), static_cast<std::size_t>(at.realisation)},
                               .plan = &plan_,
                               .at_least_s = at_least_s});
     scene.targets = std::move(targets);
@@ -192,8 +194,8 @@ ClutterScene Pipeline::clutter_scene(const SampleAddress& at, const Scene& scene
 
 IntervalResult Pipeline::response(const SampleAddress& at, const PulseTrain& train, const StopFlag* stop) const {
   const double start_s = plan_.start_s(at);
-  ObservedInterval seen{scenario_of(at), scene(at.sea_state, at.realisation, start_s + train.time_s.back()),
-                        plan_.view(at), interval_sampling(train, start_s)};
+  ObservedInterval seen{scenario_of(at), scene(at, start_s + train.time_s.back()), plan_.view(at),
+                        interval_sampling(train, start_s)};
   seen.sampling.line_of_sight_rate = Vec3(scenario_.radar.platform.velocity_mps) / (scenario_.radar.range_km * 1e3);
   const auto target = static_cast<std::size_t>(at.target);
   IntervalResult sum = target_response(target, seen, stop);
@@ -208,7 +210,7 @@ IntervalResult Pipeline::response(const SampleAddress& at, const PulseTrain& tra
 Echo Pipeline::echo(std::size_t sample, const PulseTrain& train, const IntervalResult& response,
                     const ClutterSpec& clutter) const {
   const SampleAddress at = plan_.address(sample);
-  const std::shared_ptr<const Scene> moving = scene(at.sea_state, at.realisation);
+  const std::shared_ptr<const Scene> moving = scene(at);
   try {
     if (!is_sea_alone(scenario_)) require_power(response.response);
     return synthesise_echo(train, response.response, clutter, scenario_.seed, sample, clutter_scene(at, *moving));
@@ -257,7 +259,7 @@ GeneratedSample Pipeline::received_sample(std::size_t sample, const PulseTrain& 
   const SampleAddress at = plan_.address(sample);
   SampleRecord record = planned_record(scenario_, plan_, sample, at);
   record.aspect_traces = response.traces;
-  const std::shared_ptr<const Scene> moving = scene(at.sea_state, at.realisation);
+  const std::shared_ptr<const Scene> moving = scene(at);
   const std::vector<Trajectory>& bodies = moving->bodies[static_cast<std::size_t>(at.target)];
   const double middle_s = plan_.start_s(at) + 0.5 * (train.time_s.front() + train.time_s.back());
   if (!bodies.empty()) store_motion(bodies.front(), middle_s, record);  // points have velocities only

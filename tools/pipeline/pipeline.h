@@ -85,8 +85,9 @@ class Pipeline {
   ClutterScene nominal_clutter_scene() const;
   WaveField nominal_waves() const;  // of its sea
 
-  // The scene of a realisation, with all its intervals and at least this long; the most recent ones are cached.
-  std::shared_ptr<const Scene> scene(int sea_state, int realisation, double at_least_s = 0) const;
+  // The scene of a sample's sea, with all its intervals and at least this long; where keys of targets are drawn, with
+  // the bodies of its target alone. The most recent ones are cached.
+  std::shared_ptr<const Scene> scene(const SampleAddress& at, double at_least_s = 0) const;
 
  private:
   Pipeline(Scenario scenario, SamplePlan plan, std::shared_ptr<TargetCache> cache, std::optional<double> range_window_m,
@@ -109,8 +110,9 @@ class Pipeline {
   std::shared_ptr<const std::vector<Target>> targets_;
   double range_window_m_ = 0;
 
-  mutable SharedResults<std::tuple<int, int, double>, Scene> scenes_{8};  // by sea state, realisation, least duration
-  mutable SharedResults<std::size_t, IntervalResult> responses_{16};      // by the first sample of interval and target
+  // By sea state, realisation, target (-1: all) and least duration.
+  mutable SharedResults<std::tuple<int, int, int, double>, Scene> scenes_{8};
+  mutable SharedResults<std::size_t, IntervalResult> responses_{16};  // by the first sample of interval and target
 };
 
 // Echo of a sample over time as I/Q samples of a receiver. Target and clutter are those of the sample's map, at the

@@ -315,6 +315,17 @@ std::vector<KeyEffect> key_effects(const Pipeline& pipeline, const TrialLimit& l
   return effects;
 }
 
+namespace {
+
+// "a, b, c", of more than eight keys the first and the number of the others.
+std::string keys_text(const std::vector<std::string>& keys) {
+  constexpr std::size_t kMost = 8;
+  if (keys.size() <= kMost) return fmt::format("{}", fmt::join(keys, ", "));
+  return fmt::format("{} and {} other keys", keys.front(), keys.size() - 1);
+}
+
+}  // namespace
+
 std::vector<std::string> constant_key_warnings(const Pipeline& pipeline, const TrialLimit& limit) {
   const Scenario& scenario = pipeline.scenario();
   std::vector<std::string> lines, untested;
@@ -340,7 +351,7 @@ std::vector<std::string> constant_key_warnings(const Pipeline& pipeline, const T
   }
   if (!untested.empty()) {
     lines.push_back(fmt::format(
-        "{}: not tested whether the maps change: no two trial maps{}", fmt::join(untested, ", "),
+        "{}: not tested whether the maps change: no two trial maps{}", keys_text(untested),
         std::isfinite(limit.processor_s) ? fmt::format(" within {:g} s of processor", limit.processor_s) : ""));
   }
   return lines;
@@ -380,7 +391,7 @@ void measure(const Pipeline& pipeline, const TimedPlace& place, const StopFlag* 
     make();
     return thread_seconds() - begin_s;
   };
-  work.seas_s += seconds([&] { pipeline.scene(at.sea_state, at.realisation); });
+  work.seas_s += seconds([&] { pipeline.scene(at); });
   ++work.seas;
   for (const int target : plan.classes()) {
     if (*stop) throw Interrupted();

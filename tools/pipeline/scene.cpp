@@ -50,8 +50,6 @@ MeshPlacement axes_of(const TargetSpec& spec) {
   return axes;
 }
 
-const char* source_name(const TargetSpec& spec) { return spec.ship ? ".ship" : spec.decoy ? ".decoy" : ".mesh"; }
-
 // Mesh and materials of a body of one size, with their keys for error messages.
 TargetSource source_of(const Scenario& scenario, const TargetSpec& spec, double scale,
                        std::shared_ptr<const SourceMesh> mesh) {
@@ -65,7 +63,7 @@ TargetSource source_of(const Scenario& scenario, const TargetSpec& spec, double 
                       .highest_hz = 1e9 * highest_ghz(scenario.radar),
                       .materials_place = place_of(scenario, path),
                       .frequencies_place = place_of(scenario, path),
-                      .mesh_place = place_of(scenario, path + source_name(spec))};
+                      .mesh_place = place_of(scenario, path + "." + source_key_of(spec))};
   for (std::size_t i = 0; i < spec.part_materials.size(); ++i) {
     const PartMaterialSpec& part = spec.part_materials[i];
     source.materials.push_back(
@@ -108,16 +106,41 @@ Body load_body(const Scenario& scenario, const TargetSpec& spec, const TriangleM
 
 }  // namespace
 
+namespace {
+
+// Memory of a value in triangles of a scatterer.
+std::size_t size_of(const SourceMesh& source) { return source.mesh.triangles.size() / 4; }
+std::size_t size_of(const PreparedTarget& target) { return target.mesh.triangles.size(); }
+std::size_t size_of(const Body&) { return 3000; }
+
+}  // namespace
+
+template <class Key, class Value>
+std::shared_ptr<typename TargetCache::Kept<Key, Value>::Entry> TargetCache::Kept<Key, Value>::entry_of(const Key& key) {
+  const std::lock_guard lock(mutex_);
+  const auto known = std::ranges::find_if(entries_, [&](const auto& entry) { return entry->key == key; });
+  std::shared_ptr<Entry> entry = known == entries_.end() ? std::make_shared<Entry>(key) : *known;
+  if (known != entries_.end()) entries_.erase(known);
+  // From the one used last back: what exceeds the sum goes.
+  std::size_t unused = 0;
+  for (std::size_t i = entries_.size(); i-- > 0;) {
+    if (entries_[i].use_count() > 1) continue;  // a thread makes it, or waits for it
+    const std::lock_guard made(entries_[i]->making);
+    if (entries_[i]->value.use_count() != 1) continue;
+    unused += size_of(*entries_[i]->value);
+    if (unused > kMostTriangles) entries_[i]->value = nullptr;
+  }
+  std::erase_if(entries_, [](const auto& each) { return each.use_count() == 1 && each->value == nullptr; });
+  return entries_.emplace_back(std::move(entry));
+}
+
 template <class Key, class Value>
 template <class Make>
 std::shared_ptr<const Value> TargetCache::Kept<Key, Value>::get(const Key& key, const Make& make) {
-  const auto known = std::ranges::find(entries_, key, &Entry::key);
-  Entry entry = known == entries_.end() ? Entry{key, std::make_shared<const Value>(make())} : *known;
-  if (known != entries_.end()) entries_.erase(known);
-  const auto is_unused = [](const Entry& kept) { return kept.value.use_count() == 1; };
-  if (static_cast<std::size_t>(std::ranges::count_if(entries_, is_unused)) > kKept)
-    entries_.erase(std::ranges::find_if(entries_, is_unused));
-  return entries_.emplace_back(std::move(entry)).value;
+  const std::shared_ptr<Entry> entry = entry_of(key);
+  const std::lock_guard lock(entry->making);
+  if (!entry->value) entry->value = std::make_shared<const Value>(make());
+  return entry->value;
 }
 
 TargetCache::SourceKey TargetCache::source_key(const Scenario& scenario, const TargetSpec& spec) {
@@ -130,7 +153,6 @@ TargetCache::SourceKey TargetCache::source_key(const Scenario& scenario, const T
 
 std::shared_ptr<const SourceMesh> TargetCache::source(const Scenario& scenario, const TargetSpec& spec) {
   const SourceKey key = source_key(scenario, spec);
-  const std::lock_guard lock(mutex_);
   return sources_.get(key, [&]() -> SourceMesh {
     SourceMesh source;
     if (key.ship) {
@@ -159,10 +181,11 @@ BodyModel TargetCache::model(const Scenario& scenario, const TargetSpec& spec, d
   model.scale = scale;
   model.source = source(scenario, spec);
   model.box = box_of(*model.source, placement_of(spec, scale));
-  const std::lock_guard lock(mutex_);
   std::optional<TargetMesh> placed_mesh;
   const auto mesh = [&]() -> TargetMesh& {
-    if (!placed_mesh) placed_mesh = load_target_mesh(source_of(scenario, spec, scale, model.source));
+    if (placed_mesh) return *placed_mesh;
+    placed_mesh = load_target_mesh(source_of(scenario, spec, scale, model.source));
+    if (is_generated(spec)) placed_mesh->warnings.clear();  // its sheets are open on purpose
     return *placed_mesh;
   };
   const SourceKey key = source_key(scenario, spec);
@@ -231,7 +254,7 @@ void check_above_water(const Scenario& scenario, const TargetSpec& spec, const S
     throw InputError(
         fmt::format("{}: its highest point is at z = {:.6g} m: must be above 0, the water, else the whole target is "
                     "under water; offset_m lifts it",
-                    place_of(scenario, target + source_name(spec)), body.top_m));
+                    place_of(scenario, target + "." + source_key_of(spec)), body.top_m));
   }
 }
 
@@ -340,22 +363,32 @@ Target moved(const Target& original, const TargetSpec& host, const CompanionSpec
   return target;
 }
 
-// All targets in order, then the companions, at their places; load(target) sets what a mesh determines.
+// All targets in order, then the companions, at their places; load(target) sets what a mesh determines, of all or of
+// one target and its companions only.
 template <class Load>
-std::vector<Target> placed_targets(const Scenario& scenario, TargetUse use, const Load& load) {
+std::vector<Target> placed_targets(const Scenario& scenario, TargetUse use, std::optional<std::size_t> only,
+                                   const Load& load) {
+  const auto is_needed = [&](const TargetSpec& spec) {
+    if (!only) return true;
+    const TargetSpec& of = scenario.targets[*only];
+    return spec.name == of.name ||
+           std::ranges::find(of.companions, spec.name, &CompanionSpec::target) != of.companions.end();
+  };
   std::vector<Target> targets;
   std::size_t bodies = 0;
   for (const TargetSpec& spec : scenario.targets) {
     Target& target = targets.emplace_back();
     target.spec = spec;
     const bool is_part = spec.role == TargetRole::kPart;  // placed with each target that it accompanies
-    if (has_mesh(spec) && !(is_part && use == TargetUse::kMotion)) load(target);
+    const bool has_models = has_mesh(spec) && is_needed(spec) && !(is_part && use == TargetUse::kMotion);
+    if (has_models) load(target);
     if (is_part) continue;
     place_bodies(target, bodies);
-    if (use == TargetUse::kEcho) check_scene_range(scenario, spec, target, std::nullopt);
+    if (use == TargetUse::kEcho && is_needed(spec)) check_scene_range(scenario, spec, target, std::nullopt);
   }
   if (use == TargetUse::kMotion) return targets;
   for (std::size_t t = 0; t < scenario.targets.size(); ++t) {
+    if (only && t != *only) continue;
     for (const CompanionSpec& companion : scenario.targets[t].companions) {
       const auto named = std::ranges::find(scenario.targets, companion.target, &TargetSpec::name);
       Target target =
@@ -388,8 +421,13 @@ double largest_reach_m(const TargetRequest& request, TargetCache& cache) {
     for (int realisation = 0; realisation < request.scenario.dataset.realisations_per_case; ++realisation) {
       const Scenario drawn =
           request.plan.drawn(request.scenario, {.sea_state = static_cast<int>(state), .realisation = realisation});
-      const std::vector<Target> targets = placed_targets(drawn, request.use, [&](Target& target) {
+      const std::vector<Target> targets = placed_targets(drawn, request.use, std::nullopt, [&](Target& target) {
         const TargetSpec& spec = target.spec;
+        if (spec.ship) {
+          for (const double scale : body_scales(spec.layout, spec.scale))
+            target.radii_m.push_back(scale * ship_reach_m(*spec.ship));
+          return;
+        }
         const std::shared_ptr<const SourceMesh> source = cache.source(drawn, spec);
         check_above_water(drawn, spec, *source);
         const double offset_m = Vec3(spec.offset_m).norm();
@@ -402,17 +440,17 @@ double largest_reach_m(const TargetRequest& request, TargetCache& cache) {
   return reach;
 }
 
+}  // namespace
+
 bool draws_targets(const Scenario& scenario) {
   return std::ranges::any_of(scenario.variations,
                              [](const Variation& variation) { return variation.key_path.starts_with("targets."); });
 }
 
-}  // namespace
-
 std::vector<Target> load_targets(const TargetRequest& request) {
   TargetCache alone;
   TargetCache& cache = request.cache ? *request.cache : alone;
-  return placed_targets(request.scenario, request.use, [&](Target& target) {
+  return placed_targets(request.scenario, request.use, request.only, [&](Target& target) {
     target.models = load_models(request, target.spec, cache);
     for (const auto& model : target.models) target.radii_m.push_back(model->radius_m);
     if (request.use == TargetUse::kEcho) check_series(request, target.spec, *target.models.front()->motion);
@@ -467,7 +505,7 @@ Scene make_scene(const SceneRequest& request) {
   for (const Target& target : request.targets) {
     if (request.stop != nullptr && *request.stop) throw Interrupted();
     std::vector<Trajectory>& bodies = scene.bodies.emplace_back();
-    if (target.rest_positions.empty()) continue;
+    if (target.models.empty()) continue;
     std::vector<const Body*> models;
     for (const auto& model : target.models) models.push_back(model->motion.get());
     bodies = simulate_target({.target = target.spec,

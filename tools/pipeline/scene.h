@@ -54,7 +54,8 @@ struct Target {
 };
 
 // Meshes, scatterers and motion models by the values that determine them, each made once: those in use elsewhere, and
-// the kKept others used last. Any thread may use it.
+// of the others those used last, up to kMostTriangles. Any thread may use it; threads wait only for one that makes the
+// same.
 class TargetCache {
  public:
   std::shared_ptr<const SourceMesh> source(const Scenario& scenario, const TargetSpec& spec);
@@ -63,6 +64,8 @@ class TargetCache {
                   bool with_scatterer);
 
  private:
+  // About 60 MB of scatterers.
+  static constexpr std::size_t kMostTriangles = 60'000;
   template <class Key, class Value>
   class Kept {
    public:
@@ -70,12 +73,16 @@ class TargetCache {
     std::shared_ptr<const Value> get(const Key& key, const Make& make);
 
    private:
-    static constexpr std::size_t kKept = 16;
     struct Entry {
+      explicit Entry(const Key& of) : key(of) {}
       Key key;
+      std::mutex making;
       std::shared_ptr<const Value> value;
     };
-    std::vector<Entry> entries_;  // the one used last at the end
+    std::shared_ptr<Entry> entry_of(const Key& key);
+
+    std::mutex mutex_;
+    std::vector<std::shared_ptr<Entry>> entries_;  // the one used last at the end
   };
   struct SourceKey {
     std::filesystem::path file;  // empty for a generated mesh
@@ -104,7 +111,6 @@ class TargetCache {
     bool operator==(const ScattererKey&) const = default;
   };
 
-  std::mutex mutex_;
   Kept<SourceKey, SourceMesh> sources_;
   Kept<ScattererKey, PreparedTarget> prepared_;
   Kept<MotionKey, Body> motions_;
@@ -119,8 +125,13 @@ struct TargetRequest {
   const SamplePlan& plan;
   TargetUse use = TargetUse::kEcho;
   TargetCache* cache = nullptr;  // null: one of its own
+  // Models of this target and its companions alone; the others have none.
+  std::optional<std::size_t> only = {};
   const StopFlag* stop = nullptr;
 };
+
+// Whether keys of targets are drawn: each sea has bodies of its own.
+bool draws_targets(const Scenario& scenario);
 
 // The targets of a scenario in its order, then one more per companion, moved to its place. Bodies of one size share a
 // model, unless they are in the water at different heights. Scatterers are cut at the mean water surface of the body

@@ -48,11 +48,11 @@ void add_mesh_warnings(std::vector<std::string>& lines, const Target& target) {
       std::ranges::minmax(target.models, {}, [](const auto& model) { return model->scale; });
   const std::vector<std::string>& of_smallest = smallest->prepared->warnings;
   for (const std::string& warning : of_smallest)
-    lines.push_back(fmt::format("targets.{}.mesh: {}", target.spec.name, warning));
+    lines.push_back(fmt::format("targets.{}.{}: {}", target.spec.name, source_key_of(target.spec), warning));
   for (const std::string& warning : largest->prepared->warnings) {
     if (std::ranges::find(of_smallest, warning) == of_smallest.end())
-      lines.push_back(
-          fmt::format("targets.{}.mesh, {:.6g} times as large: {}", target.spec.name, largest->scale, warning));
+      lines.push_back(fmt::format("targets.{}.{}, {:.6g} times as large: {}", target.spec.name,
+                                  source_key_of(target.spec), largest->scale, warning));
   }
 }
 
@@ -155,7 +155,7 @@ std::vector<std::string> motion_warnings(std::span<const Target> targets) {
     if (target.models.empty()) continue;
     const Body& body = *target.models.front()->motion;
     const MotionModel model = target.spec.motion.model;
-    if (model == MotionModel::kShip || model == MotionModel::kRao) {
+    if (!is_generated(target.spec) && (model == MotionModel::kShip || model == MotionModel::kRao)) {
       const std::string finding = orientation_finding(body.shape);
       if (!finding.empty()) lines.push_back(fmt::format("targets.{}.mesh: {}", target.spec.name, finding));
     }

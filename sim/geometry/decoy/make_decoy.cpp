@@ -304,10 +304,12 @@ TriangleMesh make_decoy(const DecoySpec& spec) {
   MeshBuilder others;
   add_outer_edges(others, spec, reflector);
   add_support(others, spec, reflector, mesh);
-  if (others.triangle_count() == 0) return mesh;
-  TriangleMesh solids = others.take();
-  solids.corner_normals = crease_normals(solids, radians(kSmoothTurn_deg), 0);
-  mesh.append(solids);
+  if (others.triangle_count() > 0) {
+    TriangleMesh solids = others.take();
+    solids.corner_normals = crease_normals(solids, radians(kSmoothTurn_deg), 0);
+    mesh.append(solids);
+  }
+  fill_normals(mesh);
   return mesh;
 }
 

@@ -388,7 +388,7 @@ void add_ferry(MeshBuilder& builder, const HullSurface& hull, const ShipDesign& 
     const double w = 0.36 * hull.deck_half_breadth(stern + 1);
     add_plate(builder, {at(w, 0), at(-w, 0), at(-w, 4.8), at(w, 4.8)}, 0.35);
     for (double dy : {-0.7 * w, 0.0, 0.7 * w})
-      add_bar(builder, at(dy, 0.2) - Vec3(0.2, 0, 0), at(dy, 4.6) - Vec3(0.2, 0, 0), 0.3);
+      add_cone(builder, at(dy, 0.2) - Vec3(0.35, 0, 0), at(dy, 4.6) - Vec3(0.35, 0, 0), 0.14, 0.13, 10);
   }
   builder.begin_part("mooring_gear");
   add_mooring_gear(builder, hull, {0.40 * length, 0.44 * length}, 0);

@@ -30,17 +30,6 @@ TriangleMesh with_normals_on_grid(TriangleMesh mesh) {
   return mesh;
 }
 
-// Corners of flat facets get the normal of their triangle, as in a file.
-TriangleMesh with_all_normals(TriangleMesh mesh) {
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const Vec3 own = unit_normal(area_vector(mesh, t));
-    for (Vec3& normal : mesh.corner_normals[t]) {
-      if (normal.isZero(0)) normal = own;
-    }
-  }
-  return mesh;
-}
-
 }  // namespace
 
 Ship make_ship(const ShipSpec& spec) {
@@ -63,11 +52,17 @@ Ship make_ship(const ShipSpec& spec) {
   const Vec3 rise(0, 0, design.laden_draught - design.draught);
   const Mat3 trim = axis_rotation(-design.trim, Vec3::UnitY());
   for (Vec3& p : mesh.vertices) p = trim * (p + rise);
-  Ship ship{with_all_normals(with_normals_on_grid(std::move(mesh))), 0};
+  Ship ship{with_normals_on_grid(std::move(mesh)), 0};
+  fill_normals(ship.mesh);
   // GM = KB + BM - KG.
   const Hydrostatics afloat = hydrostatics_of(ship.mesh);
   ship.centre_of_gravity_m = afloat.buoyancy_m.z() + afloat.transverse_bm_m - design.metacentric_height;
   return ship;
+}
+
+double ship_reach_m(const ShipSpec& spec) {
+  Random random({spec.seed, Stream::kShip, static_cast<std::uint64_t>(spec.kind)});
+  return 0.55 * design_of(spec, random).length + 5;
 }
 
 TriangleMesh make_combatant(ShipDetail detail) {

@@ -20,6 +20,10 @@ struct Ship {
 // range of its kind.
 Ship make_ship(const ShipSpec& spec);
 
+// Radius about the origin within which the ship is, m, without its mesh being made: 10 % more than half its length and
+// 5 m.
+double ship_reach_m(const ShipSpec& spec);
+
 // The combatant of assets: the frigate's reference ship above the waterline, where it is cut and closed.
 TriangleMesh make_combatant(ShipDetail detail = ShipDetail::kRails);
 

@@ -163,4 +163,13 @@ std::vector<std::array<Vec3, 3>> crease_normals(const TriangleMesh& mesh, double
   return found;
 }
 
+void fill_normals(TriangleMesh& mesh) {
+  for (std::size_t t = 0; t < mesh.corner_normals.size(); ++t) {
+    const Vec3 own = unit_normal(area_vector(mesh, t));
+    for (Vec3& normal : mesh.corner_normals[t]) {
+      if (normal.isZero(0)) normal = own;
+    }
+  }
+}
+
 }  // namespace seaglint

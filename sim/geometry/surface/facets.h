@@ -63,4 +63,8 @@ double corner_weight(const Vec3& a, const Vec3& b, double width, bool alike);
 // Vertices are identified by position.
 std::vector<std::array<Vec3, 3>> crease_normals(const TriangleMesh& mesh, double crease_rad, double negligible_m = 0);
 
+// Gives the corners without a normal that of their triangle, as in a file, where all have one; a mesh without any
+// normal is left as it is.
+void fill_normals(TriangleMesh& mesh);
+
 }  // namespace seaglint

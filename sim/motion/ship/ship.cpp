@@ -15,9 +15,10 @@ namespace seaglint {
 
 namespace {
 
-constexpr double kRollRadius = 0.40;    // of gyration with added mass, per beam: 10.9 s at GM 1.95 m
-constexpr double kPitchRadius = 0.25;   // of gyration of the mass alone, per length, in pitch and yaw
-constexpr double kRollDamping = 0.075;  // bilge keels, no speed: 0.05-0.10
+constexpr double kRollRadius = 0.40;         // of gyration with added mass, per beam: 10.9 s at GM 1.95 m
+constexpr double kPitchRadius = 0.25;        // of gyration of the mass alone, per length, in pitch and yaw
+constexpr double kMetacentricHeight = 1.95;  // m, of model DTMB 5415
+constexpr double kRollDamping = 0.075;       // bilge keels, no speed: 0.05-0.10
 
 // -w^2 M + C - T of sway, roll and yaw without speed, without the roll inertia about G and additional damping.
 Eigen::Matrix3cd lateral_impedance(const ShipParticulars& ship, double omega) {
@@ -120,12 +121,8 @@ ShipParticulars ship_particulars(const MotionSpec& spec, const HullSections& hul
   ship.length = hull.length;
   ship.beam = hull.beam();
   ship.draught = hull.draught();
-  ship.metacentric_height = spec.metacentric_height_m;
+  ship.metacentric_height = given_or(spec.metacentric_height_m, kMetacentricHeight);
   ship.speed = spec.speed_mps;
-  if (!(ship.metacentric_height > 0)) {
-    throw InputError(fmt::format("motion.metacentric_height_m: value {}: must be > 0", ship.metacentric_height));
-  }
-
   // The ship floats on an even keel: G above B, below the metacentre by GM.
   const StripHydrostatics& h = ship.strips->hydrostatics();
   ship.centre_of_gravity = {h.buoyancy_x, 0, h.buoyancy_z + h.waterplane_yy / h.volume - ship.metacentric_height};

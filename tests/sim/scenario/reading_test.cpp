@@ -90,7 +90,7 @@ TEST(ScenarioReading, TheSeaAloneHasAnAbsoluteLevel) {
   EXPECT_EQ(complaint_about("seaglint: 1\ntargets:\n"),
             "folder/file.yaml:2:1: targets: no value: must be a map of 1 to 100 named maps, or {}: the sea alone");
   EXPECT_EQ(complaint_about("seaglint: 1\ntargets: {}\nclutter: {level: nrl}\n", {{"targets.sea.label", "0"}}),
-            "--set targets.sea.label: targets.sea: must have a mesh or points");
+            "--set targets.sea.label: targets.sea: must have a mesh, a ship, a decoy or points");
 }
 
 // Names are written into JSON, which contains only UTF-8.
@@ -338,9 +338,9 @@ TEST(ScenarioReading, EveryMistakeInATargetIsNamed) {
   const Mistake mistakes[] = {
       {"  t: {mesh: a.glb}", "6: targets.t.label: this key is missing"},
       {"  t: {label: ship, mesh: a.glb}", "14: targets.t.label: value 'ship': must be a whole number within 0 and 9"},
-      {"  t: {label: 1}", "6: targets.t: must have a mesh or points"},
+      {"  t: {label: 1}", "6: targets.t: must have a mesh, a ship, a decoy or points"},
       {"  t: {label: 1, mesh: a.glb, points: [{position_m: [0, 0, 0]}]}",
-       "6: targets.t: must have a mesh or points, not both"},
+       "6: targets.t: must have a mesh, a ship, a decoy or points, one of them only"},
       {"  t: {label: 1, motion: {}, points: [{position_m: [0, 0, 0]}]}",
        "25: targets.t.motion: not allowed here: valid only with a mesh"},
       {"  t: {label: 1, points: []}", "25: targets.t.points: a list: must be a list of 1 to 10000 maps"},

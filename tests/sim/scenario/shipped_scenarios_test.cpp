@@ -228,8 +228,8 @@ TEST(ShippedScenarios, AreValidAndRoundTripThroughTheirEffectiveForm) {
 }
 
 TEST(ShippedScenarios, HaveTheSizesOfTheirTable) {
-  const std::map<std::string, std::size_t> sizes{
-      {"quick", 300}, {"paper", 10200}, {"realistic", 180}, {"points", 40}, {"clutter", 16}};
+  const std::map<std::string, std::size_t> sizes{{"quick", 300}, {"paper", 10200}, {"realistic", 180},
+                                                 {"points", 40}, {"clutter", 16},  {"fleet", 2000}};
   for (const auto& [name, maps] : sizes)
     EXPECT_EQ(map_count(read_scenario(SEAGLINT_SOURCE_DIR "/scenarios/" + name + ".yaml")), maps) << name;
 }

@@ -288,7 +288,7 @@ TEST_F(BodiesInWater, OfAShipWithItsBowAlongYMovesAsAlongX) {
   const Pipeline pipeline(
       scene_of(target("a", hulls + "06_bow_along_y.obj", "orientation: {forward: +y}, motion: {model: ship}") +
                target("b", hulls + "06_bow_along_x.obj", "motion: {model: ship}")));
-  const auto scene = pipeline.scene(0, 0);
+  const auto scene = pipeline.scene({});
   for (const double t : {0.3, 1.7, 4.0}) {
     EXPECT_LT((scene->bodies[0][0].sample(t).angles - scene->bodies[1][0].sample(t).angles).norm(), 1e-12);
     EXPECT_GT(scene->bodies[0][0].sample(t).angles.norm(), 1e-4);
@@ -410,7 +410,7 @@ TEST_F(RigidRaft, MovesAsTheShipWhoseDimensionsItHasWithTheFloatsGeometry) {
                                    "  ship: {label: 1, mesh: assets/combatant_144m.glb, " + ship + "}\n" +
                                        fmt::format("  array: {{label: 0, mesh: {}, {}, motion: {{model: float}}}}",
                                                    kReflector, line_of(4, 40, "independent"))));
-  const auto scene = pipeline.scene(0, 0);
+  const auto scene = pipeline.scene({});
   const Trajectory& combatant = scene->bodies[1].front();
   for (std::size_t i = 0; i < 4; ++i) {
     const Trajectory& reflector = scene->bodies[0][i];
@@ -430,7 +430,7 @@ TEST_F(RigidRaft, IsTheSameForAnyNumberOfThreadsAndInEveryRun) {
   const Pipeline one(scenario), other(scenario);
   EXPECT_EQ(response_of(one, 0), response_of(other, 0));
   const Target& raft = one.targets()[0];
-  const auto scene = one.scene(0, 0);
+  const auto scene = one.scene({});
   const auto threaded = simulate_target({.target = raft.spec,
                                          .models = std::array{raft.models.front()->motion.get()},
                                          .state = scene->state,
@@ -447,7 +447,7 @@ TEST_F(RigidRaft, IsOneInTheSeasThatDrawRigidBodies) {
                "motion: {model: float, diameter_m: 1}"));
   int rafts = 0;
   for (int realisation = 0; realisation < 8; ++realisation) {
-    const auto scene = pipeline.scene(0, realisation);
+    const auto scene = pipeline.scene({.realisation = realisation});
     const std::vector<Trajectory>& bodies = scene->bodies[0];
     const bool rigid = is_raft((*scene->targets)[0].spec.layout);
     EXPECT_EQ(bodies[0].sample(5).angles == bodies[1].sample(5).angles, rigid);

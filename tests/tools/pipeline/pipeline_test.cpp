@@ -187,7 +187,7 @@ dataset: {maps_per_case: 2, realisations_per_case: 1}
   const SampleRecord record = pipeline.generate_sample(sample).stored.record;
   const PulseTrain train = pipeline.pulse_train(sample);
   const double middle_s = record.start_s + 0.5 * (train.time_s.front() + train.time_s.back());
-  const Trajectory& first = pipeline.scene(0, 0)->bodies[0].front();
+  const Trajectory& first = pipeline.scene(at)->bodies[0].front();
   const auto at_time = [&](double t) {
     const MotionSample motion = first.sample(t);
     return std::array{degrees(motion.angles.x()), degrees(motion.angles.y()), degrees(motion.angles.z()),

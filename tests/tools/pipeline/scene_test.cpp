@@ -167,7 +167,8 @@ TEST(MovingBodies, MoveAsTheSamplesOfTheirRealisationDo) {
   const Pipeline pipeline(floats());
   for (const SeaChoice choice : {SeaChoice{0, 0}, SeaChoice{1, 2}}) {
     const MovingBodies moving = moving_bodies(pipeline.scenario(), choice, 5);
-    const auto scene = pipeline.scene(static_cast<int>(choice.sea_state), static_cast<int>(choice.realisation));
+    const auto scene = pipeline.scene(
+        {.sea_state = static_cast<int>(choice.sea_state), .realisation = static_cast<int>(choice.realisation)});
     std::vector<Trajectory> sampled = scene->bodies[0];
     sampled.insert(sampled.end(), scene->bodies[1].begin(), scene->bodies[1].end());
     ASSERT_EQ(moving.bodies.size(), sampled.size());
@@ -302,8 +303,8 @@ TEST(PartTargets, HaveNoReachNoMotionAndNoClassOfTheirOwn) {
   // The decoy is not 4 km away, but where it accompanies the target.
   EXPECT_EQ(pipeline.window_m(), scenario.map.range_span_m);
   EXPECT_GT(Pipeline(guarded("label: 0")).window_m(), 2 * 4000);
-  EXPECT_TRUE(pipeline.scene(0, 0)->bodies[1].empty());
-  EXPECT_EQ(pipeline.scene(0, 0)->bodies[3].size(), 2u);
+  EXPECT_TRUE(pipeline.scene({})->bodies[1].empty());
+  EXPECT_EQ(pipeline.scene({})->bodies[3].size(), 2u);
   std::vector<std::string> names;
   for (const NamedTrajectory& body : moving_bodies(scenario, {}, 1).bodies) names.push_back(body.body);
   EXPECT_THAT(names, testing::ElementsAre("alone"));

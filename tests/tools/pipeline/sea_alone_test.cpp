@@ -135,7 +135,7 @@ TEST(SeaAlone, HasNeitherAnImageNorAMotion) {
   const Pipeline pipeline(scenario);
   EXPECT_HAS(refusal_of([&] { isar_plan(pipeline, 0); }),
              "sea.yaml:5:10: targets: the sea alone: an image and a range profile need a target");
-  EXPECT_HAS(refusal_of([&] { named_bodies(pipeline.targets(), *pipeline.scene(0, 0)); }),
+  EXPECT_HAS(refusal_of([&] { named_bodies(pipeline.targets(), *pipeline.scene({})); }),
              "targets: {} is the sea alone: a motion needs a target with a mesh");
 }
 

@@ -37,7 +37,7 @@ TEST(WavesBetween, ASampleHasTheWavesOfItsOwnSeaAndTime) {
   const Scenario& scenario = pipeline.scenario();
   const std::size_t last = pipeline.plan().size() - 1;
   const SampleAddress at = pipeline.plan().address(last);
-  const auto scene = pipeline.scene(at.sea_state, at.realisation);
+  const auto scene = pipeline.scene(at);
   const IntervalSampling sampling = interval_sampling(pipeline.pulse_train(last), pipeline.plan().start_s(at));
   const View view = pipeline.plan().view(at);
   const double tail_m2 = wind_sea_spectrum(scene->state)->energy_above(linear_cutoff(scene->state));

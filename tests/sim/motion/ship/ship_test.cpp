@@ -105,8 +105,6 @@ TEST(ShipParticulars, AreDerivedFromTheMeshOrTakenFromTheSpec) {
 TEST(ShipParticulars, RefuseImpossibleHulls) {
   EXPECT_THROW(ship_sections(ship_spec(), BodyShape{}), InputError);
   MotionSpec spec = combatant();
-  spec.metacentric_height_m = 0;
-  EXPECT_THROW(ship_of(spec), InputError);
   spec = combatant();
   spec.roll_period_s = 0.5;
   EXPECT_THROW(ship_of(spec), InputError);
