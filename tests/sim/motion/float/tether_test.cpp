@@ -82,6 +82,17 @@ TEST(HoldPlaces, LeavesNoRopeTooLongAndTheMeanWhereItIs) {
   }
 }
 
+// Lines that fold back on themselves: the passes converge from 20 m beyond the ropes.
+TEST(HoldPlaces, ConvergesForFoldedLines) {
+  for (std::uint64_t index = 0; index < 300; ++index) {
+    const std::vector<Vec2> free = random_line(12, 5, 10, index);
+    std::vector<Vec2> held = free;
+    hold_places(held, 6);
+    EXPECT_LE(longest(held), 6 + 1.01 * kRopeExcess_m) << index;
+    EXPECT_LT((mean(held) - mean(free)).norm(), 1e-11);
+  }
+}
+
 TEST(HoldVelocities, KeepTautRopesFromLengtheningAlone) {
   const std::vector<Vec2> places{{0, 0}, {40, 0}, {80, 0}, {119, 0}};  // the last rope is slack
   const auto held = [&](std::vector<Vec2> velocities) {
