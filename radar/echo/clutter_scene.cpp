@@ -55,7 +55,7 @@ VelocityMoments clutter_velocity_moments(const ClutterSpec& spec, const ClutterS
     variance += 0.5 * speed * speed * (horizontal * horizontal + sin_grazing * sin_grazing);
   }
   const double past_mps =
-      scene.r_hat.dot(scene.target_velocity_mps);  // still water moves astern relative to the target
+      scene.r_hat.dot(scene.target_velocity_mps - scene.current_mps);  // still water moves astern of the target
   if (!(stokes.norm() > 0)) return {past_mps, 0};
   const double wind = developed_wind_mps(scene.significant_wave_height_m);
   const double along_waves = bragg_speed_mps(wavelength_m, cos_grazing) + kWindDrift * wind + stokes.norm();
@@ -64,7 +64,7 @@ VelocityMoments clutter_velocity_moments(const ClutterSpec& spec, const ClutterS
 }
 
 double platform_doppler_spread_mps(const ClutterScene& scene) {
-  const Vec3 velocity = Vec3(scene.radar.platform.velocity_mps) + scene.target_velocity_mps;
+  const Vec3 velocity = Vec3(scene.radar.platform.velocity_mps) + scene.target_velocity_mps - scene.current_mps;
   const Vec3 sideways = Vec3::UnitZ().cross(scene.r_hat);
   const double level = sideways.norm();
   return level > 0 ? std::abs(velocity.dot(sideways)) / level * beam_deviation_rad(scene.radar) : 0;

@@ -23,6 +23,7 @@ struct ClutterScene {
   double start_s = 0;                       // start of the interval on the time axis of the waves
   Vec3 target_velocity_mps = Vec3::Zero();  // of the target through the water; its frame and the radar move with it
   std::uint64_t texture_key = 0;            // intervals of one key have one texture, evolving in time
+  Vec3 current_mps = Vec3::Zero();          // of the water with its waves in the frame, in which floats drift
 };
 
 struct VelocityMoments {
@@ -35,7 +36,8 @@ struct VelocityMoments {
 // drift and Stokes drift, all along the wave direction; other polarisations times hh_velocity_factor (empirical in that
 // paper). Spread: radial orbital velocity of the waves. The wind is that of a fully developed sea of this height
 // (Pierson and Moskowitz, J. Geophys. Res. 69 (1964) 5181), with a surface drift of 3 % of its speed (Wu, J. Fluid
-// Mech. 68 (1975) 49). Without waves only the motion of the water relative to a target under way remains.
+// Mech. 68 (1975) 49). Without waves only the current, and the motion of the water relative to a target under way,
+// remain.
 VelocityMoments clutter_velocity_moments(const ClutterSpec& spec, const ClutterScene& scene, double wavelength_m);
 
 // Doppler spread due to the relative motion of radar and target: scatterers off the axis of the antenna beam have an

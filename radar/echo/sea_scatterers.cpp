@@ -289,7 +289,8 @@ class ScattererPositions {
     Random random({request.seed, Stream::kClutterPlace, request.index});
     for (int k = 0; k < request.count; ++k)
       across_m_.push_back(beam_deviation_m(request.scene.radar) * random.normal());
-    drift_mps_ = request.mean_mps - request.scene.r_hat.dot(request.scene.target_velocity_mps);
+    drift_mps_ =
+        request.mean_mps - request.scene.r_hat.dot(request.scene.target_velocity_mps - request.scene.current_mps);
   }
 
   // Of scatterer k after time t of the interval.

@@ -43,6 +43,17 @@ std::vector<Vec3> rest_positions(const TargetSpec& target);
 // (below 65536).
 std::uint64_t body_index(std::uint64_t sea_index, std::size_t body);
 
+// Mean velocity of a target's floats by wind and current, leeway W + C; zero without motion.drift. The leeway of
+// floating objects is 1 to 6 % of the wind speed: Allen and Plourde, "Review of leeway", USCG R&D Center CG-D-08-99
+// (1999); Breivik and Allen, J. Marine Systems 69 (2008) 99.
+Vec3 mean_drift_mps(const MotionSpec& spec);
+Vec3 current_mps(const MotionSpec& spec);  // C
+
+// Velocity of each body: mean_drift_mps() and a normal deviate of spread_mps in x and in y, of stream kDrift of (seed,
+// body_index()); of a raft one for all.
+std::vector<Vec3> drift_velocities_mps(const TargetSpec& target, std::uint64_t seed, std::uint64_t sea_index,
+                                       std::size_t first_body);
+
 // What moves the bodies of a target.
 struct TargetMotionRequest {
   const TargetSpec& target;
@@ -57,8 +68,10 @@ struct TargetMotionRequest {
 
 // One trajectory per body of the layout, from t = 0 to duration_s. A rigid raft (layout.bodies: rigid) has the first
 // model: it moves in the waves at its origin, and each reflector with it. A free body with a height of its own is that
-// far above its float, fixed to it. Bodies are turned by their headings. The sea is common to all bodies unless the
-// spec has `waves: independent`: then each body has a realisation of its own (index body_index + 2^48).
+// far above its float, fixed to it. The floats of a tethered line hold each other (simulate_tethered_floats()). Bodies
+// are turned by their headings. A float that has a speed_mps is towed at that speed through the waves. Drift is no part
+// of the trajectories. The sea is common to all bodies unless the spec has `waves: independent`: then each body has a
+// realisation of its own (index body_index + 2^48).
 std::vector<Trajectory> simulate_target(const TargetMotionRequest& request);
 
 }  // namespace seaglint

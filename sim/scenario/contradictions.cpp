@@ -334,6 +334,31 @@ void check_one_range(const TargetSpec& target, const TargetSpec& companion, cons
                                            right.solver.wavefront_range_m, right.name, document.place_of(key(right))));
 }
 
+const char* model_name(const TargetSpec& target) {
+  return kMotionModelNames[static_cast<std::size_t>(target.motion.model)];
+}
+
+// A target under way tows what has no motion of its own through the water.
+void check_towed(const TargetSpec& host, const TargetSpec& towed, std::size_t companion,
+                 const ScenarioDocument& document) {
+  if (!host.companions[companion].towed) return;
+  const std::string key = fmt::format("targets.{}.companions.{}.towed", host.name, companion);
+  const auto moves_by_itself = [](const TargetSpec& target) {
+    return has_mesh(target) && target.motion.model != MotionModel::kFixed && target.motion.model != MotionModel::kFloat;
+  };
+  if (!moves_by_itself(host) || (host.motion.model != MotionModel::kShip && !(host.motion.speed_mps > 0)))
+    document.fail_at(key, fmt::format("not allowed here: targets.{} has no motion.speed_mps", host.name));
+  if (moves_by_itself(towed)) {
+    document.fail_at(key, fmt::format("not allowed here: targets.{0} is of model {1}, which has a speed of its own, "
+                                      "targets.{0}.motion.speed_mps {2:g}",
+                                      towed.name, model_name(towed), towed.motion.speed_mps));
+  }
+  if (towed.motion.drift) {
+    document.fail_at(
+        key, fmt::format("not allowed here: targets.{}.motion.drift is the velocity of a free float", towed.name));
+  }
+}
+
 // A companion is another target of the file, without companions of its own.
 void check_companions(const Scenario& scenario, const TargetSpec& target, const ScenarioDocument& document) {
   for (std::size_t i = 0; i < target.companions.size(); ++i) {
@@ -344,6 +369,7 @@ void check_companions(const Scenario& scenario, const TargetSpec& target, const 
       document.fail_at(key, "must be the name of another target");
     if (!found->companions.empty()) document.fail_at(key, "must be a target without companions of its own");
     check_one_range(target, *found, document);
+    check_towed(target, *found, i, document);
   }
 }
 
@@ -365,9 +391,27 @@ void check_speed(const TargetSpec& target, const ScenarioDocument& document) {
   const MotionModel model = target.motion.model;
   if (target.motion.speed_mps > 0 && (model == MotionModel::kFixed || model == MotionModel::kFloat)) {
     document.fail_at(fmt::format("targets.{}.motion.speed_mps", target.name),
-                     fmt::format("must be 0 with model: {}, which stays where it is in the water",
-                                 model == MotionModel::kFixed ? "fixed" : "float"));
+                     fmt::format("must be 0 with model: {}, which stays where it is in the water", model_name(target)));
   }
+}
+
+// Wind and current carry floats; ropes join the neighbours of a line of free floats that drift together.
+void check_drift_and_ropes(const TargetSpec& target, const ScenarioDocument& document) {
+  const std::string path = "targets." + target.name;
+  const MotionSpec& motion = target.motion;
+  if (motion.drift && motion.model != MotionModel::kFloat) {
+    document.fail_at(path + ".motion.drift",
+                     fmt::format("not allowed here: valid only with model: float, not {}", model_name(target)));
+  }
+  if (!target.layout || !target.layout->tether_slack) return;
+  const std::string key = path + ".layout.tether_slack", only = "not allowed here: valid only with ";
+  if (!target.layout->line) document.fail_at(key, only + "line");
+  if (is_raft(target.layout)) document.fail_at(key, only + "bodies: independent");
+  if (motion.model != MotionModel::kFloat)
+    document.fail_at(key, fmt::format("{}{}.motion.model: float, not {}", only, path, model_name(target)));
+  if (!motion.translations) document.fail_at(key, fmt::format("{}{}.motion.translations: true", only, path));
+  if (motion.drift && motion.drift->spread_mps > 0)
+    document.fail_at(path + ".motion.drift.spread_mps", "must be 0 with layout.tether_slack: a line drifts as a whole");
 }
 
 // Beams have no distance between them.
@@ -421,6 +465,7 @@ void check_target(const TargetSpec& target, const ScenarioDocument& document) {
                                                         target.forward, target.up));
   check_layout(target, document);
   check_speed(target, document);
+  check_drift_and_ropes(target, document);
   check_solver(target, document);
   const int kinds =
       (target.mesh.empty() ? 0 : 1) + (target.ship ? 1 : 0) + (target.decoy ? 1 : 0) + (target.points.empty() ? 0 : 1);

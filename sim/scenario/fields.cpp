@@ -286,13 +286,31 @@ void visit(LayoutSpec& spec, FieldVisitor& v) {
       {"scales", "Sizes of the bodies.", "lowest", "Smallest factor by which a body's mesh is enlarged, beside scale.",
        "highest", "Largest factor; each body's is uniform between both."},
       spec.scales, within(1e-3, 1e3), {1, 1});
+  if (v.optional("jitter_m", spec.jitter_m != 0))
+    v.number("jitter_m", spec.jitter_m, within(0, 1000),
+             "Standard deviation of each body's displacement from its place, in x and in y; default: 0.");
+  visit_given(v, "tether_slack", spec.tether_slack, within(0, 10),
+              "Ropes between the neighbours of a line of floats with translations, longer than the spacing by this "
+              "fraction of it; default: no ropes.");
   if (v.optional("seed", spec.seed != 0))
     v.value("seed", NaturalField{spec.seed},
-            "Seed of random places, heights, headings and scales; integers(0 1000000): one per sea.");
+            "Seed of random places, heights, headings, scales and jitter; integers(0 1000000): one per sea.");
+}
+
+void visit(DriftSpec& spec, FieldVisitor& v) {
+  v.number("wind_mps", spec.wind_mps, within(0, 60), "Wind speed 10 m above the water.");
+  v.number("wind_towards_deg", spec.wind_towards_deg, kDirections,
+           "Direction that the wind blows towards, target frame.");
+  v.number("leeway", spec.leeway, within(0, 0.2), "Drift through the water over the wind speed.");
+  v.number("current_mps", spec.current_mps, within(0, 5), "Speed of the current.");
+  v.number("current_towards_deg", spec.current_towards_deg, kDirections,
+           "Direction that the current flows towards, target frame.");
+  v.number("spread_mps", spec.spread_mps, within(0, 2),
+           "Standard deviation of each body's own velocity, in x and in y; one per sea.");
 }
 
 void visit(MotionSpec& spec, FieldVisitor& v) {
-  v.choice("model", spec.model, {"fixed", "ship", "float", "series", "rao"},
+  v.choice("model", spec.model, kMotionModelNames,
            "fixed; ship (strip theory); float; series (recorded motion) or rao (recorded response operators) of file.");
   v.flag("translations", spec.translations, "Surge, sway and heave beside the rotations.");
   if (v.optional("rotation_centre_m", spec.rotation_centre_m.has_value())) {
@@ -335,6 +353,11 @@ void visit(MotionSpec& spec, FieldVisitor& v) {
            "Radius of gyration in pitch; 0: from the length.");
   v.number("yaw_gyradius_m", spec.yaw_gyradius_m, within(0, 500), "Radius of gyration in yaw; 0: from the length.");
   v.number("speed_mps", spec.speed_mps, within(0, 40), "Forward speed, of models ship, rao and series.");
+  if (v.optional("drift", spec.drift.has_value())) {
+    if (!spec.drift) spec.drift.emplace();
+    v.section("drift", *spec.drift, visit,
+              "Drift of floats by wind and current, from their places at the start of every interval.");
+  }
   visit_given(v, "file", spec.file, "File of model series (attitude over time) or rao (response operators).");
   v.number("series_start_s", spec.series_start_s, within(-1e10, 1e10), "Time in the series that is t = 0.");
   v.choice("heading", spec.heading, {"auto", "keep", "remove"},
@@ -466,6 +489,10 @@ void visit(CompanionSpec& spec, FieldVisitor& v) {
            "Position of its reference point at the start of every interval, target frame.");
   v.number("y_m", spec.y_m, within(-1e5, 1e5),
            "Position of its reference point at the start of every interval, target frame.");
+  if (v.optional("towed", spec.towed))
+    v.flag("towed", spec.towed,
+           "It moves with the target that it accompanies, and meets the waves at that speed; default: false, it stays "
+           "in the water.");
 }
 
 // A mesh with its motion, or ideal points; fields of a mesh are not written for points.

@@ -14,6 +14,7 @@
 namespace seaglint {
 
 enum class MotionModel { kFixed, kShip, kFloat, kSeries, kRao };
+inline constexpr const char* kMotionModelNames[] = {"fixed", "ship", "float", "series", "rao"};
 enum class WaveSharing { kSameField, kIndependent };
 enum class TargetRole { kClass, kPart };
 enum class HeadingConvention { kTowards, kFrom };  // of waves
@@ -22,6 +23,19 @@ enum class MeanRule { kAuto, kKeep, kRemove };     // of a recorded quantity (si
 // Rotations of a table of responses: rad or deg per metre of amplitude, or per slope k a of the wave.
 enum class RaoRotations { kRadians, kDegrees, kSlope, kSlopeDegrees };
 enum class WamitFirstColumn { kPeriod, kOmega };
+
+// Mean velocity of a float over the water's mean position: leeway times the wind, plus the current, plus a normal
+// deviation of each body.
+struct DriftSpec {
+  double wind_mps = 0;             // 0 <= x <= 60
+  double wind_towards_deg = 0;     // -360 <= x <= 360, target frame
+  double leeway = 0.03;            // drift over wind speed, 0 <= x <= 0.2
+  double current_mps = 0;          // 0 <= x <= 5
+  double current_towards_deg = 0;  // -360 <= x <= 360, target frame
+  double spread_mps = 0;           // standard deviation in x and in y, 0 <= x <= 2
+
+  bool operator==(const DriftSpec&) const = default;
+};
 
 // Zeros of periods, dampings and sizes are derived from the mesh (sim/motion/ship/README.md,
 // sim/motion/float/README.md).
@@ -47,7 +61,8 @@ struct MotionSpec {
   double roll_gyradius_m = 0;
   double pitch_gyradius_m = 0;
   double yaw_gyradius_m = 0;
-  double speed_mps = 0;
+  double speed_mps = 0;  // of a float: that of the host that tows it
+  std::optional<DriftSpec> drift = {};
   std::string file = {};
   double series_start_s = 0;
   MeanRule heading = MeanRule::kAuto;
@@ -77,6 +92,7 @@ struct CompanionSpec {
   std::string target;
   double x_m = 0;
   double y_m = 0;
+  bool towed = false;  // moves with the target that it accompanies
 
   bool operator==(const CompanionSpec&) const = default;
 };

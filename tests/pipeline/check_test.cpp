@@ -63,6 +63,25 @@ TEST(Check, NamesAKeyThatChangesNothingAsGenerateDoes) {
   EXPECT_THAT(run_program({"check", kPoints}).err, Not(HasSubstr("changes nothing")));
 }
 
+TEST(Check, SaysWhatCarriesAndHoldsFloats) {
+  const TemporaryFolder folder;
+  const std::string file = folder.path() / "line.yaml";
+  write_file(
+      file,
+      "seaglint: 1\nradar: {pulses: 16}\nsea: {components: 64}\ntargets: {line: {label: 0, decoy: {kind: octahedral}, "
+      "layout: {line: {count: 4, spacing_m: 40}, tether_slack: 0.05, jitter_m: 1}, motion: {model: float, "
+      "translations: true, drift: {wind_mps: 10, wind_towards_deg: 90, current_mps: 0.4}}}}\n"
+      "dataset: {maps_per_case: 1, realisations_per_case: 1}\n");
+  EXPECT_THAT(
+      completed({"check", file}).err,
+      ContainsRegex("\nmoves +line: float, roll .* at Hs 1 m; without its ropes of 42 m, which hold surge and sway; "
+                    "drifts at 0.5 m/s towards 36.9 deg; yaw is 0 without"));
+  EXPECT_HAS(completed({"check", file, "--set", "targets.line.motion.drift.spread_mps=0.1", "--set",
+                        "targets.line.layout={line: {count: 4}}", "--set", "sea.significant_wave_height_m=0"})
+                 .err,
+             "; drifts at 0.5 m/s towards 36.9 deg, each by itself at 0.1 m/s rms\n");
+}
+
 TEST(Check, NamesDegreesOfFreedomAtRestAsMotionAndGenerateDo) {
   const TemporaryFolder folder;
   write_file(folder.path() / "box.obj",

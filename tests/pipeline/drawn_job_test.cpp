@@ -97,6 +97,10 @@ const std::vector<DrawnKey>& drawn_job_keys() {
   const Override common_waves{"targets.hull.motion", "{model: ship, waves: same_field}"};
   const Override of_sea{"clutter.level", "nrl"}, budget{"radar.link_budget", "{}"}, range{"radar.range_km", "10"};
   const Override companion{"targets.corner.companions", "[{target: dots, x_m: 3, y_m: 1}]"};
+  const Override under_way{"targets.hull.motion.speed_mps", "2"},
+      tow{"targets.hull.companions", "[{target: corner, x_m: -30}]"};
+  const Override breeze{"targets.corner.motion.drift.wind_mps", "10"},
+      stream{"targets.corner.motion.drift.current_mps", "0.5"};
   const Override bretschneider{"sea.spectrum", "bretschneider"};
   const Override series{"targets.hull.motion", "{model: series, file: series.csv}"};
   const Override free{"targets.corner.motion.translations", "true"}, rays{"targets.corner.solver.method", "rays"};
@@ -213,6 +217,8 @@ const std::vector<DrawnKey>& drawn_job_keys() {
       {"targets.NAME.layout.headings.highest_deg", "uniform(0, 90)", "corner"},
       {"targets.NAME.layout.scales.lowest", "uniform(0.5, 1)", "corner"},
       {"targets.NAME.layout.scales.highest", "uniform(1, 2)", "corner"},
+      {"targets.NAME.layout.jitter_m", "uniform(0, 1)", "corner"},
+      {"targets.NAME.layout.tether_slack", "uniform(0.01, 0.1)", "corner", {free}},
       {"targets.NAME.layout.seed", "integers(0, 1000000)", "corner", {area}},
       {"targets.NAME.motion.model", "choice(fixed, ship)"},
       {"targets.NAME.motion.heading", "choice(auto, keep)", "hull", {series}},
@@ -237,6 +243,12 @@ const std::vector<DrawnKey>& drawn_job_keys() {
       {"targets.NAME.motion.pitch_gyradius_m", "uniform(5, 7)"},
       {"targets.NAME.motion.yaw_gyradius_m", "uniform(5, 7)"},
       {"targets.NAME.motion.speed_mps", "uniform(0, 5)"},
+      {"targets.NAME.motion.drift.wind_mps", "uniform(2, 12)", "corner"},
+      {"targets.NAME.motion.drift.wind_towards_deg", "uniform(0, 360)", "corner", {breeze}},
+      {"targets.NAME.motion.drift.leeway", "uniform(0.01, 0.06)", "corner", {breeze}},
+      {"targets.NAME.motion.drift.current_mps", "uniform(0, 1)", "corner"},
+      {"targets.NAME.motion.drift.current_towards_deg", "uniform(0, 360)", "corner", {stream}},
+      {"targets.NAME.motion.drift.spread_mps", "uniform(0, 0.1)", "corner"},
       {"targets.NAME.motion.diameter_m", "uniform(0.5, 1)", "corner"},
       {"targets.NAME.motion.origin_above_waterline_m", "uniform(0.5, 1)", "corner"},
       {"targets.NAME.motion.waves", "choice(same_field, independent)"},
@@ -252,6 +264,7 @@ const std::vector<DrawnKey>& drawn_job_keys() {
       {"targets.NAME.solver.wavefront_range_m", "uniform(5000, 20000)"},
       {"targets.NAME.companions.N.x_m", "uniform(1, 5)", "corner", {companion}},
       {"targets.NAME.companions.N.y_m", "uniform(1, 5)", "corner", {companion}},
+      {"targets.NAME.companions.N.towed", "choice(true, false)", "hull", {under_way, tow}},
       {"clutter.level", "choice(scr, nrl)", "", {budget, range}},
       {"clutter.scr_db", "uniform(10, 25)"},
       {"clutter.scr_definition", "choice(per_pulse, peak_cell, extent)"},

@@ -451,6 +451,36 @@ TEST(MapCommand, CompanionsOfAShipUnderWayStayInTheWater) {
   EXPECT_NEAR(velocity_at_40_m("consort"), 0, 0.0146);
 }
 
+// Seen from 60 deg: a current of 1 m/s towards the radar and the leeway of a wind of 20 m/s towards 150 deg, across the
+// line of sight. A companion of a ship at 2 m/s drifts astern besides, at 2 cos 60 = 1 m/s; a towed one stays.
+TEST(MapCommand, FloatsDriftAndTowedOnesKeepTheirPlace) {
+  const auto centres = [&](const std::string& companion, const std::string& drift) {
+    const std::string corner = "mesh: assets/icosahedral_reflector.glb",
+                      targets = fmt::format(
+                          "targets={{ship: {{label: 1, {0}, motion: {{model: ship, speed_mps: 2, length_m: 140, "
+                          "beam_m: 19, draught_m: 6}}, companions: [{{target: decoy, x_m: -80, {1}}}]}}, "
+                          "decoy: {{role: part, {0}, motion: {{model: float, {2}}}}}}}",
+                          corner, companion, drift);
+    return cluster_centres({"--set", "view={azimuth_deg: 60, elevation_deg: 0}", "--set",
+                            "sea={significant_wave_height_m: 0}", "--set", targets, "--set",
+                            "dataset={maps_per_case: 1, realisations_per_case: 1}", "--set", "clutter.enabled=false"});
+  };
+  const auto velocity_at_40_m = [&](const std::string& companion, const std::string& drift) {
+    std::array<double, 3> strongest{0, 99, 0};
+    for (const auto& centre : centres(companion, drift))
+      if (std::abs(centre[0] - 40) < 1 && centre[2] > strongest[2]) strongest = centre;
+    return strongest[1];
+  };
+  constexpr double kTenthOfCell = 0.0146;
+  EXPECT_NEAR(velocity_at_40_m("y_m: 0", ""), 1, kTenthOfCell);
+  EXPECT_NEAR(velocity_at_40_m("y_m: 0", "drift: {current_mps: 1, current_towards_deg: 60}"), 0, kTenthOfCell);
+  EXPECT_NEAR(velocity_at_40_m("y_m: 0", "drift: {wind_mps: 20, wind_towards_deg: -120, leeway: 0.05}"), 2,
+              kTenthOfCell);
+  EXPECT_NEAR(velocity_at_40_m("y_m: 0", "drift: {wind_mps: 20, wind_towards_deg: 150, leeway: 0.05}"), 1,
+              kTenthOfCell);
+  EXPECT_NEAR(velocity_at_40_m("towed: true", ""), 0, kTenthOfCell);
+}
+
 TEST(MapCommand, PlatformMotionIsVisibleUnlessCompensated) {
   const Words moving = with(
       kOnePoint,

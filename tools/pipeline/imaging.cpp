@@ -143,7 +143,7 @@ Observed observed(const Pipeline& pipeline, std::size_t sample, double at_least_
       const bool alone = target.models.size() == 1;
       seen.bodies.push_back({alone ? target.spec.name : fmt::format("{} {}", target.spec.name, i + 1),
                              corners_of(target.models[i]->box), seen.scene->bodies[index][i],
-                             target.relative_velocity_mps, target.models[i]->prepared.get(), 0});
+                             seen.scene->velocities_mps[index][i], target.models[i]->prepared.get(), 0});
     }
     for (std::size_t i = 0; i < target.spec.points.size() && target.models.empty(); ++i) {
       const PointSpec& point = target.spec.points[i];

@@ -13,6 +13,7 @@
 #include "sim/canonical/point_response.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
+#include "sim/motion/target_motion.h"
 #include "sim/scattering/observation/observation.h"
 #include "sim/sea/realisation.h"
 #include "sim/sea/spectrum.h"
@@ -64,16 +65,17 @@ Scenario with_files(Scenario scenario) {
   return scenario;
 }
 
-// The waves below the bodies of a target, of surface_profile: waves. The frame of a ship under way moves with it; a
-// companion moves from its place at the start of the interval relative to that frame.
+// The waves below a body of a target, of surface_profile: waves. The frame of a ship under way moves with it; a
+// companion and a drifting float move from their places at the start of the interval relative to that frame, the float
+// with its waves. velocity_mps: the body's mean one in the frame.
 std::optional<WavesBelow> waves_below(const Scenario& scenario, const Scene& scene, const Target& target,
-                                      double start_s) {
+                                      const Vec3& velocity_mps, double start_s) {
   if (scenario.sea_reflection.surface_profile == SurfaceProfileKind::kMean) return std::nullopt;
   const auto wind_sea = wind_sea_spectrum(scene.state);
   const double above_m2 = wind_sea ? wind_sea->energy_above(linear_cutoff(scene.state)) : 0;
   return WavesBelow{.field = &scene.sea,
-                    .origin_m = start_s * target.relative_velocity_mps,
-                    .velocity_mps = Vec3(target.spec.motion.speed_mps, 0, 0) - target.relative_velocity_mps,
+                    .origin_m = start_s * velocity_mps,
+                    .velocity_mps = Vec3(target.spec.motion.speed_mps, 0, 0) - velocity_mps,
                     .rms_above_cutoff_m = std::sqrt(above_m2)};
 }
 
@@ -143,28 +145,32 @@ IntervalResult Pipeline::target_response(std::size_t index, const ObservedInterv
   const Target& target = (*scene->targets)[index];
   const Vec3 r_hat = direction_to_radar(view.azimuth_rad, view.elevation_rad);
   const TargetSpec& spec = target.spec;
-  const Vec3& relative_velocity_mps = target.relative_velocity_mps;
-  const SeaReflection mirror(scenario.sea_reflection, total_wave_height(scene->state),
-                             waves_below(scenario, *scene, target, sampling.pulse_time_s.front()));
-  const SeaReflection* sea = scenario.sea_reflection.enabled ? &mirror : nullptr;
+  const double start_s = sampling.pulse_time_s.front();
+  const bool has_mirror = scenario.sea_reflection.enabled;
+  const auto mirror_of = [&](const Vec3& velocity_mps) {
+    return SeaReflection(scenario.sea_reflection, total_wave_height(scene->state),
+                         waves_below(scenario, *scene, target, velocity_mps, start_s));
+  };
   if (target.models.empty()) {
-    if (sea != nullptr)
-      return {point_response_over_sea(spec.points, r_hat, sampling, scenario.radar.polarisation, *sea), 0};
-    return {point_response(spec.points, r_hat, sampling), 0};
+    if (!has_mirror) return {point_response(spec.points, r_hat, sampling), 0};
+    return {point_response_over_sea(spec.points, r_hat, sampling, scenario.radar.polarisation,
+                                    mirror_of(target.relative_velocity_mps)),
+            0};
   }
   IntervalResult sum;
   for (std::size_t i = 0; i < target.models.size(); ++i) {
     const Trajectory& body = scene->bodies[index][i];
-    // A companion is at its given place at the start of the interval.
-    const Trajectory carried =
-        relative_velocity_mps.isZero(0) ? body : body.with_drift(relative_velocity_mps, sampling.pulse_time_s.front());
+    // A companion or a drifting float is at its given place at the start of the interval.
+    const Vec3& velocity_mps = scene->velocities_mps[index][i];
+    const Trajectory carried = velocity_mps.isZero(0) ? body : body.with_drift(velocity_mps, start_s);
+    const SeaReflection mirror = mirror_of(velocity_mps);
     const IntervalResult term = solve({.scatterer = *target.models[i]->prepared->scatterer,
                                        .trajectory = carried,
                                        .r_hat = r_hat,
                                        .polarisation = scenario.radar.polarisation,
                                        .sampling = sampling,
                                        .solver = spec.solver,
-                                       .sea = sea,
+                                       .sea = has_mirror ? &mirror : nullptr,
                                        .stop = stop});
     sum.traces += term.traces;
     if (sum.response.values.empty()) {
@@ -182,14 +188,16 @@ ClutterScene Pipeline::clutter_scene(const SampleAddress& at, const Scene& scene
   const std::uint64_t sea_and_view =
       static_cast<std::uint64_t>(plan_.group(at)) * plan_.views().size() + static_cast<std::uint64_t>(at.view);
   const View view = plan_.view(at);
+  const MotionSpec& motion = (*scene.targets)[static_cast<std::size_t>(at.target)].spec.motion;
   return {scenario_.radar,
           direction_to_radar(view.azimuth_rad, view.elevation_rad),
           total_wave_height(scene.state),
           main_direction_rad(scene.state),
           &scene.sea,
           plan_.start_s(at),
-          Vec3((*scene.targets)[static_cast<std::size_t>(at.target)].spec.motion.speed_mps, 0, 0),
-          sea_and_view * scenario_.targets.size() + static_cast<std::uint64_t>(at.target)};
+          Vec3(motion.speed_mps, 0, 0),
+          sea_and_view * scenario_.targets.size() + static_cast<std::uint64_t>(at.target),
+          current_mps(motion)};
 }
 
 IntervalResult Pipeline::response(const SampleAddress& at, const PulseTrain& train, const StopFlag* stop) const {

@@ -448,8 +448,6 @@ std::string key_lines(const Scenario& scenario, bool drawn) {
   return text.empty() ? line(drawn ? "drawn" : "swept", "nothing") : text;
 }
 
-constexpr const char* kMotionModels[] = {"fixed", "ship", "float", "series", "rao"};
-
 std::string motion_lines(const Pipeline& pipeline) {
   const std::vector<TrialSea> seas = trial_seas(pipeline);
   std::vector<double> heights_m;
@@ -465,11 +463,12 @@ std::string motion_lines(const Pipeline& pipeline) {
     const std::string moves = motion_text(motion), rests = rest_text(motion);
     const TargetSpec& target = *motion.target;
     if (moves.empty()) {
-      add(fmt::format("{}: {}", target.name, rests));
+      add(fmt::format("{}: {}{}", target.name, rests, line_text(target)));
       continue;
     }
-    add(fmt::format("{}: {}, {} at {}{}{}", target.name, kMotionModels[static_cast<std::size_t>(target.motion.model)],
-                    moves, where, rests.empty() ? "" : "; ", rests));
+    add(fmt::format("{}: {}, {} at {}{}{}{}", target.name,
+                    kMotionModelNames[static_cast<std::size_t>(target.motion.model)], moves, where, line_text(target),
+                    rests.empty() ? "" : "; ", rests));
   }
   for (const TargetSpec& target : pipeline.scenario().targets) {
     if (!has_mesh(target) && !is_sea_alone(target))
@@ -510,8 +509,9 @@ std::string clutter_line(const Pipeline& pipeline) {
           kPolarisationNames[static_cast<std::size_t>(scenario.radar.polarisation)], view.elevation_deg,
           sea_state_of(spec, scene), extent_m, area_m2 / extent_m, power_m2);
     }
-    const bool is_under_way =
-        std::ranges::any_of(scenario.targets, [](const TargetSpec& target) { return target.motion.speed_mps != 0; });
+    const bool is_under_way = std::ranges::any_of(scenario.targets, [](const TargetSpec& target) {
+      return target.motion.speed_mps != 0 || (target.motion.drift && target.motion.drift->current_mps != 0);
+    });
     std::optional<WaveField> waves;
     VelocityMoments moments;
     if (spec.doppler != ClutterDoppler::kPrescribed) {
@@ -539,7 +539,7 @@ std::string clutter_line(const Pipeline& pipeline) {
                         spec.doppler == ClutterDoppler::kPrescribed
                             ? " in any sea"
                             : fmt::format(" at Hs {:.3g} m, azimuth {:g} deg{}", height_m, view.azimuth_deg,
-                                          is_under_way ? ", of a target without its speed" : ""));
+                                          is_under_way ? ", of a target without its speed and current" : ""));
   }
   if (spec.noise_level == NoiseLevel::kCnr && !spec.enabled) return line("clutter", "none, and no noise");
   if (text.empty()) text = "none";

@@ -322,7 +322,11 @@ double reach_m(const Target& target, double interval_s) {
     // A reflector of a raft turns about the raft's origin with an arm, any other body about its place on the water.
     const Vec3 pivot = is_raft(target.spec.layout) ? raft_origin(target.spec) : Vec3(rest - Vec3(0, 0, heights_m[i]));
     const double arm = (rest - pivot).norm() + target.radii_m[i];
-    reach = std::max({reach, pivot.norm() + arm, (pivot + target.relative_velocity_mps * interval_s).norm() + arm});
+    const DriftSpec drift = target.spec.motion.drift.value_or(DriftSpec{});
+    const Vec3 passed_m = (target.relative_velocity_mps + mean_drift_mps(target.spec.motion)) * interval_s;
+    constexpr double kDeviations = 5;  // of a body's own drift
+    reach = std::max(
+        {reach, pivot.norm() + arm, (pivot + passed_m).norm() + arm + kDeviations * drift.spread_mps * interval_s});
   }
   return reach;
 }
@@ -349,11 +353,12 @@ void place_bodies(Target& target, std::size_t& bodies) {
 }
 
 // Copy of a target at the place of a companion. Each has its own velocity through the water: a decoy drifts astern of a
-// ship under way, whose frame moves with the ship.
+// ship under way, whose frame moves with the ship; a towed one has the ship's.
 Target moved(const Target& original, const TargetSpec& host, const CompanionSpec& companion) {
   Target target = original;
   target.spec.name += " (companion)";
-  target.relative_velocity_mps = Vec3(original.spec.motion.speed_mps - host.motion.speed_mps, 0, 0);
+  if (companion.towed) target.spec.motion.speed_mps = host.motion.speed_mps;
+  target.relative_velocity_mps = Vec3(target.spec.motion.speed_mps - host.motion.speed_mps, 0, 0);
   for (PointSpec& point : target.spec.points) {
     point.position_m[0] += companion.x_m;
     point.position_m[1] += companion.y_m;
@@ -505,7 +510,10 @@ Scene make_scene(const SceneRequest& request) {
   for (const Target& target : request.targets) {
     if (request.stop != nullptr && *request.stop) throw Interrupted();
     std::vector<Trajectory>& bodies = scene.bodies.emplace_back();
+    std::vector<Vec3>& velocities_mps = scene.velocities_mps.emplace_back();
     if (target.models.empty()) continue;
+    velocities_mps = drift_velocities_mps(target.spec, request.scenario.seed, key, target.first_body);
+    for (Vec3& velocity : velocities_mps) velocity = target.relative_velocity_mps + velocity;
     std::vector<const Body*> models;
     for (const auto& model : target.models) models.push_back(model->motion.get());
     bodies = simulate_target({.target = target.spec,

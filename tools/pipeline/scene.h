@@ -49,7 +49,7 @@ struct Target {
   std::vector<Vec3> rest_positions;     // of the bodies' origins, target frame; empty for points and parts
   std::size_t first_body = 0;           // bodies are numbered over all targets but parts, in order
   std::vector<std::size_t> companions;  // indices of its companions, which follow the targets of the scenario
-  // of a companion, in the frame of the target that it accompanies, which may be under way
+  // of a companion, in the frame of the target that it accompanies, which may be under way; without drift
   Vec3 relative_velocity_mps = Vec3::Zero();
 };
 
@@ -179,6 +179,7 @@ struct Scene {
   SeaState state;
   WaveField sea;
   std::vector<std::vector<Trajectory>> bodies;                   // [target][body]; none for points and parts
+  std::vector<std::vector<Vec3>> velocities_mps;                 // their mean ones: relative and by drift
   std::shared_ptr<const std::vector<Target>> targets = nullptr;  // those that move, as a Pipeline loads them
 };
 

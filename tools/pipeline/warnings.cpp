@@ -311,15 +311,20 @@ void extend(Reach& reach, const Target& target, const Vec3& r_hat, const Duratio
                drift = drift_of(*model->motion, r_hat, durations.realisation_s);
     sizes[model.get()] = {mesh.low + drift.low, mesh.high + drift.high};
   }
-  const double relative_velocity_mps = -r_hat.dot(target.relative_velocity_mps);
+  constexpr double kDeviations = 3;  // of a body's own drift
+  const MotionSpec& motion = target.spec.motion;
+  const double mean_mps = -r_hat.dot(target.relative_velocity_mps + mean_drift_mps(motion)),
+               own_mps = motion.drift ? kDeviations * motion.drift->spread_mps * r_hat.xy().norm() : 0;
   for (std::size_t i = 0; i < target.rest_positions.size(); ++i) {
     const Vec3& rest = target.rest_positions[i];
     const Span& body = sizes[target.models[i].get()];
-    for (const double passed_m : {0.0, relative_velocity_mps * durations.interval_s}) {
-      reach.range_m.include(-r_hat.dot(rest) + passed_m + body.low);
-      reach.range_m.include(-r_hat.dot(rest) + passed_m + body.high);
+    for (const double velocity_mps : {mean_mps - own_mps, mean_mps + own_mps}) {
+      for (const double passed_m : {0.0, velocity_mps * durations.interval_s}) {
+        reach.range_m.include(-r_hat.dot(rest) + passed_m + body.low);
+        reach.range_m.include(-r_hat.dot(rest) + passed_m + body.high);
+      }
+      if (velocity_mps != 0) reach.velocity_mps.include(velocity_mps);
     }
-    if (relative_velocity_mps != 0) reach.velocity_mps.include(relative_velocity_mps);
   }
 }
 
@@ -477,6 +482,19 @@ std::string motion_text(const TargetMotion& motion) {
     if (parts.empty()) continue;
     if (!text.empty()) text += "; ";
     text += fmt::format("{} {} rms", fmt::join(parts, ", "), angles ? "deg" : "m");
+  }
+  return text;
+}
+
+std::string line_text(const TargetSpec& target) {
+  std::string text;
+  if (const auto rope_m = rope_length_m(target.layout))
+    text += fmt::format("; without its ropes of {:.4g} m, which hold surge and sway", *rope_m);
+  if (const auto& drift = target.motion.drift) {
+    const Vec3 mean = mean_drift_mps(target.motion);
+    text += fmt::format("; drifts at {:.3g} m/s towards {:.3g} deg", mean.norm(),
+                        mean.isZero(0) ? 0 : degrees(std::atan2(mean.y(), mean.x())));
+    if (drift->spread_mps > 0) text += fmt::format(", each by itself at {:g} m/s rms", drift->spread_mps);
   }
   return text;
 }

@@ -93,6 +93,10 @@ std::vector<TargetMotion> target_motions(const Pipeline& pipeline, std::span<con
 // "roll 1.91, pitch 0.42, yaw 0.11 deg rms"; empty for a target at rest.
 std::string motion_text(const TargetMotion& motion);
 
+// What holds and carries the floats of a target besides the waves: "; without its ropes of 42 m, which hold surge and
+// sway; drifts at 0.42 m/s towards 30 deg, each by itself at 0.05 m/s rms"; empty for others.
+std::string line_text(const TargetSpec& target);
+
 // The degrees of freedom that are 0, with the keys that would move them: "surge, sway, heave are 0 without
 // targets.ship.motion.translations: true"; empty where none is.
 std::string rest_text(const TargetMotion& motion);

@@ -38,6 +38,7 @@ enum class Stream : std::uint32_t {
   kLayout = 20,
   kDecoy = 21,
   kShip = 22,
+  kDrift = 23,
   kTest = 1000,
 };
 

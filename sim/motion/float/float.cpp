@@ -6,12 +6,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
+#include <limits>
 #include <optional>
+#include <utility>
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/random.h"
 #include "sim/core/numbers/reproducible_functions.h"
 #include "sim/core/process/error.h"
+#include "sim/motion/float/tether.h"
 
 namespace seaglint {
 
@@ -120,30 +124,38 @@ double float_wave_filter(const FloatParticulars& body, double wavenumber) {
   return disc_slope_filter(wavenumber, 0.5 * body.diameter) * std::exp(-wavenumber * body.draught);
 }
 
-// State of the water at the float at uniform half steps, at its rest position or at its displaced position.
+// State of the water at the float at uniform half steps, at its place or at its displaced position.
 class Water {
  public:
-  Water(const WaveField& sea, const FloatParticulars& body, double x, double y, bool moving, double start, double step)
-      : field_(sea.filtered([&](double k) { return float_wave_filter(body, k); })),
-        x_(x),
-        y_(y),
+  Water(const FloatRequest& request, double start, double step)
+      : field_(request.sea.filtered([&](double k) { return float_wave_filter(request.body, k); })),
+        place_(request.place),
+        velocity_(request.speed_mps, 0),
         start_(start),
-        step_(step) {
-    if (!moving) series_.emplace(field_, x, y, start, step, SurfaceQuantities::kElevationAndSlope);
+        step_(step),
+        detail_(request.spec.translations ? SurfaceQuantities::kKinematics : SurfaceQuantities::kElevationAndSlope) {
+    if (!request.spec.translations && request.speed_mps == 0)
+      series_.emplace(field_, place_.x(), place_.y(), start, step, detail_);
   }
   Water(const Water&) = delete;
   Water& operator=(const Water&) = delete;
 
   // State at the next half step; `shift`: displacement of a moving float.
   SurfaceState next(const Vec2& shift) {
-    if (!series_) return field_.surface(x_ + shift.x(), y_ + shift.y(), start_ + step_ * static_cast<double>(count_++));
+    if (!series_) {
+      const double t = start_ + step_ * static_cast<double>(count_++);
+      const Vec2 at = place_ + t * velocity_ + shift;
+      return field_.surface(at.x(), at.y(), t, detail_);
+    }
     if (count_++ > 0) series_->advance();
     return series_->state();
   }
 
  private:
   WaveField field_;
-  double x_, y_, start_, step_;
+  Vec2 place_, velocity_;
+  double start_, step_;
+  SurfaceQuantities detail_;
   long long count_ = 0;
   std::optional<SurfaceSeries> series_;
 };
@@ -218,52 +230,126 @@ MotionSample sample_of(const FloatState& s, const Vec2& horizontal_rate, const O
   return sample;
 }
 
-}  // namespace
+// A float from the start of its motion, step by step.
+class FloatMotion {
+ public:
+  FloatMotion(const FloatRequest& request, double start, double step)
+      : place_(request.place),
+        moving_(request.spec.translations),
+        start_(start),
+        step_(step),
+        yaw_(radians(request.spec.yaw_rate_std_deg_s), request.spec.yaw_period_s, request.spec.yaw_damping,
+             request.seed, request.index),
+        equations_(request.body, moving_),
+        water_(request, start, 0.5 * step),
+        water0_(water_.next(Vec2::Zero())),
+        yaw0_(yaw_.at(start)) {
+    state_.shift.z() = moving_ ? water0_.elevation : 0;
+  }
 
-std::vector<MotionSample> simulate_float(const FloatParticulars& body, const MotionSpec& spec, const WaveField& sea,
-                                         double x, double y, double duration_s, std::uint64_t seed,
-                                         std::uint64_t index) {
+  // Horizontal velocity of a free float relative to its place, and position.
+  Vec2 velocity() const { return moving_ ? equations_.horizontal_rate(state_, water0_) : Vec2::Zero(); }
+  Vec2 position() const { return place_ + state_.shift.xy(); }
+  void move_by(const Vec2& displacement) { state_.shift += Vec3(displacement.x(), displacement.y(), 0); }
+
+  MotionSample sample(const Vec2& velocity) const { return sample_of(state_, velocity, yaw0_, moving_); }
+
+  // One step. The water is evaluated at the position that `velocity` predicts to first order in the step: error below
+  // 1 mm.
+  void advance(const Vec2& velocity) {
+    const double h = step_, t = start_ + h * static_cast<double>(steps_++);
+    const SurfaceState water_middle = water_.next(state_.shift.xy() + 0.5 * h * velocity);
+    const SurfaceState water1 = water_.next(state_.shift.xy() + h * velocity);
+    const double yaw_middle = yaw_.at(t + 0.5 * h).x;
+    const OscillatorState yaw1 = yaw_.at(t + h);
+
+    const FloatState k1 = equations_.derivative(state_, water0_, yaw0_.x);
+    const FloatState k2 = equations_.derivative(state_ + 0.5 * h * k1, water_middle, yaw_middle);
+    const FloatState k3 = equations_.derivative(state_ + 0.5 * h * k2, water_middle, yaw_middle);
+    const FloatState k4 = equations_.derivative(state_ + h * k3, water1, yaw1.x);
+    state_ = state_ + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+    water0_ = water1;
+    yaw0_ = yaw1;
+  }
+
+ private:
+  Vec2 place_;
+  bool moving_;
+  double start_, step_;
+  long long steps_ = 0;
+  RandomYaw yaw_;
+  Equations equations_;
+  Water water_;
+  SurfaceState water0_;
+  OscillatorState yaw0_;
+  FloatState state_;
+};
+
+// Steps of integration per sample.
+long parts_of(const FloatParticulars& body, double step) {
+  const double fastest = std::max({body.roll.omega0, body.pitch.omega0, body.heave.omega0});
+  return std::max(1L, static_cast<long>(std::ceil(fastest * step / kLongestTurn)));
+}
+
+// rope_m: of the ropes between neighbours; infinite: free floats.
+std::vector<std::vector<MotionSample>> simulate_line(std::span<const FloatRequest> line, double rope_m,
+                                                     double duration_s) {
+  const MotionSpec& spec = line.front().spec;
   const double step = spec.step_s;
   const auto before = static_cast<long>(std::ceil(spec.spin_up_s / step));
   const auto after = std::max(1L, static_cast<long>(std::ceil(duration_s / step)));
-  const double fastest = std::max({body.roll.omega0, body.pitch.omega0, body.heave.omega0});
-  const auto parts = std::max(1L, static_cast<long>(std::ceil(fastest * step / kLongestTurn)));
+  long parts = 1;
+  for (const FloatRequest& one : line) parts = std::max(parts, parts_of(one.body, step));
   const double part = step / static_cast<double>(parts);
-  const double start = -step * static_cast<double>(before);
 
-  const bool moving = spec.translations;
-  const RandomYaw random_yaw(radians(spec.yaw_rate_std_deg_s), spec.yaw_period_s, spec.yaw_damping, seed, index);
-  const Equations equations(body, moving);
-  Water water(sea, body, x, y, moving, start, 0.5 * part);
+  std::deque<FloatMotion> floats;
+  for (const FloatRequest& one : line) floats.emplace_back(one, -step * static_cast<double>(before), part);
+  const bool has_ropes = std::isfinite(rope_m);
+  const auto positions = [&] {
+    std::vector<Vec2> all;
+    for (const FloatMotion& one : floats) all.push_back(one.position());
+    return all;
+  };
+  const auto hold = [&] {
+    if (!has_ropes) return;
+    const std::vector<Vec2> free = positions();
+    std::vector<Vec2> held = free;
+    hold_places(held, rope_m);
+    for (std::size_t i = 0; i < floats.size(); ++i)
+      if (held[i] != free[i]) floats[i].move_by(held[i] - free[i]);
+  };
+  const auto velocities = [&] {
+    std::vector<Vec2> all;
+    for (const FloatMotion& one : floats) all.push_back(one.velocity());
+    if (has_ropes) hold_velocities(positions(), rope_m, all);
+    return all;
+  };
 
-  FloatState state;
-  SurfaceState water0 = water.next(Vec2::Zero());
-  state.shift.z() = moving ? water0.elevation : 0;
-  OscillatorState yaw0 = random_yaw.at(start);
-  std::vector<MotionSample> samples;
-  samples.reserve(static_cast<std::size_t>(after) + 1);
+  std::vector<std::vector<MotionSample>> samples(floats.size());
+  for (auto& of_one : samples) of_one.reserve(static_cast<std::size_t>(after) + 1);
+  hold();
   for (long n = -before;; ++n) {
-    if (n >= 0) samples.push_back(sample_of(state, equations.horizontal_rate(state, water0), yaw0, moving));
-    if (n == after) break;
+    std::vector<Vec2> velocity = velocities();
+    for (std::size_t i = 0; i < floats.size() && n >= 0; ++i) samples[i].push_back(floats[i].sample(velocity[i]));
+    if (n == after) return samples;
     for (long p = 0; p < parts; ++p) {
-      const double t = start + part * (static_cast<double>((n + before) * parts + p));
-      // The water is evaluated at the position predicted to first order in the step: error below 1 mm.
-      const Vec2 velocity = equations.horizontal_rate(state, water0);
-      const SurfaceState water_middle = water.next(state.shift.xy() + 0.5 * part * velocity);
-      const SurfaceState water1 = water.next(state.shift.xy() + part * velocity);
-      const double yaw_middle = random_yaw.at(t + 0.5 * part).x;
-      const OscillatorState yaw1 = random_yaw.at(t + part);
-
-      const FloatState k1 = equations.derivative(state, water0, yaw0.x);
-      const FloatState k2 = equations.derivative(state + 0.5 * part * k1, water_middle, yaw_middle);
-      const FloatState k3 = equations.derivative(state + 0.5 * part * k2, water_middle, yaw_middle);
-      const FloatState k4 = equations.derivative(state + part * k3, water1, yaw1.x);
-      state = state + part / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
-      water0 = water1;
-      yaw0 = yaw1;
+      if (p > 0) velocity = velocities();
+      for (std::size_t i = 0; i < floats.size(); ++i) floats[i].advance(velocity[i]);
+      hold();
     }
   }
-  return samples;
+}
+
+}  // namespace
+
+std::vector<MotionSample> simulate_float(const FloatRequest& request, double duration_s) {
+  return std::move(simulate_line({&request, 1}, std::numeric_limits<double>::infinity(), duration_s).front());
+}
+
+std::vector<std::vector<MotionSample>> simulate_tethered_floats(std::span<const FloatRequest> line, double rope_m,
+                                                                double duration_s) {
+  SEAGLINT_CHECK(!line.empty() && line.front().spec.translations && rope_m > 0, fmt::format("rope of {} m", rope_m));
+  return simulate_line(line, rope_m, duration_s);
 }
 
 }  // namespace seaglint

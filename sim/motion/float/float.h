@@ -5,6 +5,7 @@
 // vertical.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "sim/core/numbers/linear.h"
@@ -54,9 +55,23 @@ double disc_slope_filter(double wavenumber, double radius);
 inline constexpr double kBreakingSlope = 0.4;
 Vec2 soft_limited_slope(const Vec2& slope);
 
-// Samples at t = 0, step, ..., at least up to duration_s, of a float whose centre of flotation rests at (x, y).
-std::vector<MotionSample> simulate_float(const FloatParticulars& body, const MotionSpec& spec, const WaveField& sea,
-                                         double x, double y, double duration_s, std::uint64_t seed,
-                                         std::uint64_t index);
+// A float in the waves.
+struct FloatRequest {
+  const FloatParticulars& body;
+  const MotionSpec& spec;
+  const WaveField& sea;
+  Vec2 place;            // of the centre of flotation at rest, m
+  double speed_mps = 0;  // at which the place moves through the waves, along x: place + t speed of the wave field
+  std::uint64_t seed = 1, index = 0;  // of the random yaw
+};
+
+// Samples at t = 0, step, ..., at least up to duration_s, relative to the place.
+std::vector<MotionSample> simulate_float(const FloatRequest& request, double duration_s);
+
+// The same of a line of floats of one MotionSpec with translations, whose neighbours are joined by ropes. After every
+// step the floats are drawn together to the ropes' length (hold_places()), and rates of samples are those with which no
+// taut rope lengthens (hold_velocities()).
+std::vector<std::vector<MotionSample>> simulate_tethered_floats(std::span<const FloatRequest> line, double rope_m,
+                                                                double duration_s);
 
 }  // namespace seaglint

@@ -123,6 +123,7 @@ ShipParticulars ship_particulars(const MotionSpec& spec, const HullSections& hul
   ship.draught = hull.draught();
   ship.metacentric_height = given_or(spec.metacentric_height_m, kMetacentricHeight);
   ship.speed = spec.speed_mps;
+
   // The ship floats on an even keel: G above B, below the metacentre by GM.
   const StripHydrostatics& h = ship.strips->hydrostatics();
   ship.centre_of_gravity = {h.buoyancy_x, 0, h.buoyancy_z + h.waterplane_yy / h.volume - ship.metacentric_height};

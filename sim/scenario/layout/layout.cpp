@@ -17,7 +17,7 @@ namespace {
 constexpr int kMostTrials = 100;  // of random places, on average of the bodies of a layout
 
 // Indices of the layout's random numbers.
-enum Drawn : std::uint64_t { kPlaces, kHeights, kHeadings, kScales };
+enum Drawn : std::uint64_t { kPlaces, kHeights, kHeadings, kScales, kJitter };
 
 Random random_of(const LayoutSpec& layout, Drawn what) { return Random({layout.seed, Stream::kLayout, what}); }
 
@@ -92,6 +92,15 @@ std::vector<Vec2> places_in(const LayoutSpec& layout) {
   return {};
 }
 
+void displace(std::vector<Vec2>& places, const LayoutSpec& layout) {
+  if (layout.jitter_m == 0) return;
+  Random random = random_of(layout, kJitter);
+  for (Vec2& place : places) {
+    const double x = random.normal(), y = random.normal();
+    place += layout.jitter_m * Vec2(x, y);
+  }
+}
+
 void require_distances(const std::vector<Vec2>& places, double min_distance_m) {
   constexpr double kRounding = 1e-12;  // relative
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -124,6 +133,11 @@ std::size_t body_count(const OptionalLayout& layout) {
 
 bool is_raft(const OptionalLayout& layout) { return layout && layout->bodies == LayoutBodies::kRigid; }
 
+std::optional<double> rope_length_m(const OptionalLayout& layout) {
+  if (!layout || !layout->tether_slack || !layout->line) return std::nullopt;
+  return layout->line->spacing_m * (1 + *layout->tether_slack);
+}
+
 Vec2 layout_centre(const OptionalLayout& layout) {
   if (!layout) return Vec2::Zero();
   if (layout->area) return {layout->area->centre_x_m, layout->area->centre_y_m};
@@ -145,6 +159,7 @@ std::vector<Vec2> layout_positions(const OptionalLayout& layout) {
   std::vector<Vec2> places;
   if (layout->area) {
     places = places_in(*layout);
+    displace(places, *layout);
     require_distances(places, layout->area->min_distance_m);
     for (Vec2& place : places) place += centre;
     return places;
@@ -152,6 +167,7 @@ std::vector<Vec2> layout_positions(const OptionalLayout& layout) {
   const LineLayout& line = *layout->line;
   for (int i = 0; i < line.count; ++i)
     places.emplace_back(line.centre_x_m + (i - 0.5 * (line.count - 1)) * line.spacing_m, line.centre_y_m);
+  displace(places, *layout);
   return places;
 }
 
@@ -181,6 +197,8 @@ std::string layout_text(const OptionalLayout& layout) {
   std::string more = is_raft(layout) ? ", on one rigid raft" : "";
   if (layout->scales)
     more += fmt::format(", of {:g} to {:g} times the mesh's size", layout->scales->lowest, layout->scales->highest);
+  if (layout->jitter_m > 0) more += fmt::format(", displaced by {:g} m rms", layout->jitter_m);
+  if (const auto rope_m = rope_length_m(layout)) more += fmt::format(", joined by ropes of {:g} m", *rope_m);
   if (layout->line) {
     const LineLayout& line = *layout->line;
     return fmt::format(", {} in line, {:g} m apart{}", line.count, line.spacing_m, more);

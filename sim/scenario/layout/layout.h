@@ -58,6 +58,8 @@ struct LayoutSpec {
   std::optional<BodyRange> heights_m = {};
   std::optional<BodyRange> headings_deg = {};
   std::optional<BodyRange> scales = {};
+  double jitter_m = 0;
+  std::optional<double> tether_slack = {};
   std::uint64_t seed = 0;
 
   bool operator==(const LayoutSpec&) const = default;
@@ -71,6 +73,9 @@ std::size_t body_count(const OptionalLayout& layout);
 // Bodies that move as one rigid raft.
 bool is_raft(const OptionalLayout& layout);
 
+// Length of the ropes between the neighbours of a tethered line, m; nothing for other layouts.
+std::optional<double> rope_length_m(const OptionalLayout& layout);
+
 // Centre of the layout on the water, in T.
 Vec2 layout_centre(const OptionalLayout& layout);
 
@@ -83,7 +88,9 @@ void move_layout(OptionalLayout& layout, const Vec2& by);
 //   grid    rows along x, filled one after the other, of round(sqrt(count length / width)) bodies each, from border to
 //           border; the last row, with the rest, is centred
 //   random  uniform over the area, one after the other, again where a body comes nearer than min_distance_m to another
-// Depends on the layout alone. Throws InputError, without a place, when two bodies are nearer than min_distance_m.
+// With jitter_m each body is displaced by normal deviates of that standard deviation in x and in y, of a raft within
+// the raft. Depends on the layout alone. Throws InputError, without a place, when two bodies are nearer than
+// min_distance_m.
 std::vector<Vec2> layout_positions(const OptionalLayout& layout);
 
 // Heights above the waterline's rest_height_m() and headings (rad, about z) of the bodies; zero where none are given.

@@ -196,6 +196,16 @@ TEST(ClutterOfMovingShip, HasTheVelocityOfTheWaterRelativeToTheShip) {
               clutter_velocity_moments({}, scene, kWavelength).mean_mps + past, 1e-12);
   sailing.waves = &calm;
   EXPECT_NEAR(clutter_velocity_moments({}, sailing, kWavelength).mean_mps, past, 1e-12);
+  // A current astern moves the water likewise, with its waves: those of a scatterer stay.
+  ClutterScene flowing = scene;
+  flowing.current_mps = {-10, 0, 0};
+  EXPECT_NEAR(clutter_velocity_moments({}, flowing, kWavelength).mean_mps,
+              clutter_velocity_moments({}, scene, kWavelength).mean_mps + past, 1e-12);
+  EXPECT_NEAR(platform_doppler_spread_mps(flowing), platform_doppler_spread_mps(sailing), 1e-12);
+  const std::vector<double> at_rest = water_velocities(scene, 140, 2, 1),
+                            in_current = water_velocities(flowing, 140, 2, 1);
+  for (const int i : {0, 1})
+    EXPECT_NEAR(in_current[static_cast<std::size_t>(i)], at_rest[static_cast<std::size_t>(i)], 1e-12);
   sailing.waves = &waves;
 
   // The waves are those at the ship's present position: 200 m further along x, x = -range cos(azimuth) without beam.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 
 #include "sim/sea/realisation.h"
 
@@ -130,6 +131,38 @@ TEST(SimulateTarget, CarriesAFreeBodyAtItsHeightAndHeading) {
     EXPECT_EQ(high[i].sample(2.5).angles, low[i].sample(2.5).angles);
     EXPECT_NEAR(rests[i].z(), 0.75 + heights_m[i], 1e-12);
   }
+}
+
+// Leeway of 3 % of 10 m/s towards 90 deg, and a current of 0.5 m/s towards 180 deg.
+TEST(DriftVelocities, AreLeewayCurrentAndADeviationOfEachBody) {
+  TargetSpec target = array_of(1000);
+  EXPECT_EQ(drift_velocities_mps(target, 1, 0, 0), std::vector<Vec3>(1000, Vec3::Zero()));
+  target.motion.drift =
+      DriftSpec{.wind_mps = 10, .wind_towards_deg = 90, .current_mps = 0.5, .current_towards_deg = 180};
+  EXPECT_LT((mean_drift_mps(target.motion) - Vec3(-0.5, 0.3, 0)).norm(), 1e-12);
+  EXPECT_LT((current_mps(target.motion) - Vec3(-0.5, 0, 0)).norm(), 1e-12);
+  EXPECT_EQ(drift_velocities_mps(target, 1, 0, 0), std::vector<Vec3>(1000, mean_drift_mps(target.motion)));
+  target.motion.drift->spread_mps = 0.1;
+  const std::vector<Vec3> each = drift_velocities_mps(target, 1, 0, 0);
+  Vec3 sum = Vec3::Zero();
+  double squares = 0, product = 0;
+  for (const Vec3& velocity : each) {
+    const Vec3 own = (velocity - mean_drift_mps(target.motion)) / 0.1;
+    sum += own;
+    squares += own.squaredNorm();
+    product += own.x() * own.y();
+    EXPECT_EQ(velocity.z(), 0);
+  }
+  // Five standard errors.
+  EXPECT_LT(sum.norm() / 1000, 5 * std::sqrt(2 / 1000.0));
+  EXPECT_NEAR(squares / 2000, 1, 5 * std::sqrt(2 / 2000.0));
+  EXPECT_NEAR(product / 1000, 0, 5 * std::sqrt(1 / 1000.0));
+  EXPECT_EQ(drift_velocities_mps(target, 1, 0, 0), each);
+  EXPECT_NE(drift_velocities_mps(target, 1, 1, 0), each);
+  EXPECT_NE(drift_velocities_mps(target, 2, 0, 0), each);
+  EXPECT_EQ(drift_velocities_mps(target, 1, 0, 3)[0], each[3]);
+  target.layout->bodies = LayoutBodies::kRigid;
+  EXPECT_EQ(drift_velocities_mps(target, 1, 0, 0), std::vector<Vec3>(1000, each[0]));
 }
 
 TEST(BodyIndex, IsUniqueAmongRealisations) {

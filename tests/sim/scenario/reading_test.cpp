@@ -199,6 +199,43 @@ TEST(ScenarioReading, OnlyModelsUnderWayHaveASpeed) {
               "accepted");
 }
 
+TEST(ScenarioReading, OnlyFloatsDrift) {
+  const auto complaint = [](const std::string& motion) {
+    return complaint_about("seaglint: 1\ntargets:\n  a: {label: 1, mesh: a.glb, motion: {" + motion + "}}\n");
+  };
+  EXPECT_EQ(complaint("model: float, drift: {wind_mps: 10, leeway: 0.05, current_mps: 1, spread_mps: 0.1}"),
+            "accepted");
+  EXPECT_HAS(complaint("model: ship, drift: {wind_mps: 10}"),
+             "targets.a.motion.drift: not allowed here: valid only with model: float, not ship");
+  EXPECT_HAS(complaint("drift: {}"), "valid only with model: float, not fixed");
+  EXPECT_HAS(complaint("model: float, drift: {leeway: .nan}"), "targets.a.motion.drift.leeway: value '.nan': must be");
+}
+
+// A float or a body at rest is towed by a target under way.
+TEST(ScenarioReading, TowsAreByATargetUnderWayOfBodiesWithoutASpeed) {
+  const auto complaint = [](const std::string& host, const std::string& towed) {
+    return complaint_about("seaglint: 1\ntargets:\n  a: {label: 1, " + host +
+                           ", companions: [{target: b, towed: true}]}\n  b: {label: 0, " + towed + "}\n");
+  };
+  const std::string ship = "mesh: a.glb, motion: {model: ship, speed_mps: 5}",
+                    points = "points: [{position_m: [0, 0, 1]}]", decoy = "mesh: b.glb, motion: {model: float}",
+                    key = "targets.a.companions.0.towed: ";
+  for (const std::string& towed : {decoy, points, std::string("mesh: b.glb")}) {
+    EXPECT_EQ(complaint(ship, towed), "accepted");
+    EXPECT_EQ(complaint("mesh: a.glb, motion: {model: series, file: a.csv, speed_mps: 2}", towed), "accepted");
+  }
+  EXPECT_EQ(complaint("mesh: a.glb, motion: {model: ship}", decoy), "accepted");  // at a speed of 0
+  for (const std::string& host :
+       {points, decoy, std::string("mesh: a.glb"), std::string("mesh: a.glb, motion: {model: series, file: a.csv}")})
+    EXPECT_HAS(complaint(host, decoy), key + "not allowed here: targets.a has no motion.speed_mps");
+  EXPECT_HAS(complaint(ship, "mesh: b.glb, motion: {model: ship, speed_mps: 4}"),
+             key +
+                 "not allowed here: targets.b is of model ship, which has a speed of its own, "
+                 "targets.b.motion.speed_mps 4");
+  EXPECT_HAS(complaint(ship, "mesh: b.glb, motion: {model: float, drift: {}}"),
+             key + "not allowed here: targets.b.motion.drift is the velocity of a free float");
+}
+
 TEST(ScenarioReading, IntraPulseMotionIsForPoints) {
   EXPECT_TRUE(parse("seaglint: 1\nradar: {intra_pulse_motion: true}\n"
                     "targets: {p: {label: 0, points: [{position_m: [0, 0, 0]}]}}\n")
@@ -351,7 +388,8 @@ TEST(ScenarioReading, EveryMistakeInATargetIsNamed) {
        "46: targets.t.points.0.position_m.2: value 'x': must be a number within -100000 and 100000"},
       {"  t: {label: 1, mesh: a.glb, layout: {}}", "38: targets.t.layout.line: this key is missing"},
       {"  t: {label: 1, mesh: a.glb, layout: {ring: {}}}",
-       "39: targets.t.layout.ring: unknown key: must be one of area, line, bodies, heights, headings, scales, seed"},
+       "39: targets.t.layout.ring: unknown key: must be one of area, line, bodies, heights, headings, scales, "
+       "jitter_m, tether_slack, seed"},
       {"  t: {label: 1, mesh: a.glb, orientation: {forward: +y, up: -y}}",
        "43: targets.t.orientation: forward +y and up -y must be perpendicular to each other"},
       {"  t: {label: 1, mesh: a.glb, orientation: {forward: y}}",

@@ -195,6 +195,43 @@ TEST(MovingBodies, AreNamedByTargetAndNumber) {
   EXPECT_THAT(names, testing::ElementsAre("array_1", "array_2", "single"));
 }
 
+// In the frame of a ship at 4 m/s a free float moves astern, one adrift moves with its wind and current besides, and a
+// towed one stays.
+TEST(MovingBodies, DriftAndAreTowedInTheFrameOfTheirHost) {
+  const std::string corner = "mesh: assets/icosahedral_reflector.glb";
+  const Scenario scenario = parse_scenario(
+      fmt::format(
+          "seaglint: 1\nsea: {{components: 64}}\ntargets:\n"
+          "  ship: {{label: 1, {0}, motion: {{model: ship, speed_mps: 4, length_m: 140, beam_m: 19, draught_m: 6}}, "
+          "companions: [{{target: free, x_m: -60}}, {{target: adrift, x_m: -80}}, {{target: free, x_m: -60, "
+          "towed: true}}]}}\n"
+          "  free: {{label: 0, {0}, motion: {{model: float, spin_up_s: 20}}}}\n"
+          "  adrift: {{label: 0, {0}, motion: {{model: float, drift: {{wind_mps: 10, current_mps: 0.5, "
+          "current_towards_deg: 90, spread_mps: 0.1}}}}, layout: {{line: {{count: 2}}}}}}\n"
+          "dataset: {{maps_per_case: 2, realisations_per_case: 2}}\n",
+          corner),
+      "file.yaml");
+  const Pipeline pipeline(scenario);
+  const auto scene = pipeline.scene(0, 0), other = pipeline.scene(0, 1);
+  const auto& velocities = scene->velocities_mps;
+  ASSERT_EQ(velocities.size(), 6u);
+  EXPECT_EQ(velocities[0], std::vector<Vec3>{Vec3::Zero()});
+  EXPECT_EQ(velocities[3], std::vector<Vec3>{Vec3(-4, 0, 0)});
+  EXPECT_EQ(velocities[5], std::vector<Vec3>{Vec3::Zero()});
+  ASSERT_EQ(velocities[4].size(), 2u);
+  for (const auto& [of, from] : {std::pair{2, Vec3(0, 0, 0)}, {4, Vec3(-4, 0, 0)}}) {
+    const auto target = static_cast<std::size_t>(of);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Vec3 own = velocities[target][i] - from - Vec3(0.3, 0.5, 0);
+      EXPECT_GT(own.norm(), 1e-4);
+      EXPECT_LT(own.norm(), 0.6);
+      EXPECT_NE(own, other->velocities_mps[target][i] - from - Vec3(0.3, 0.5, 0));
+    }
+  }
+  // It meets other waves than a free one at its place.
+  EXPECT_NE(scene->bodies[5][0].sample(0.05).angles, scene->bodies[3][0].sample(0.05).angles);
+}
+
 TEST(MovingBodies, NeedASeaOfTheScenario) {
   EXPECT_THAT(
       [] {

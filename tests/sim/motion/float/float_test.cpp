@@ -79,9 +79,10 @@ TEST(SimulateFloat, FollowsTheSlopeOfLongWaves) {
   const double omega = 0.4, amplitude = 0.5;
   const Vec2 direction(std::cos(radians(120)), std::sin(radians(120)));
   const WaveField sea = regular_wave(amplitude, omega, direction);
-  const FloatParticulars body = float_particulars(float_spec(), kReflector);
+  const MotionSpec spec = float_spec();
+  const FloatParticulars body = float_particulars(spec, kReflector);
   const double k = omega * omega / kGravity;
-  const std::vector<MotionSample> samples = simulate_float(body, float_spec(), sea, 20, 5, 30, 1, 0);
+  const std::vector<MotionSample> samples = simulate_float({body, spec, sea, {20, 5}}, 30);
   for (std::size_t n = 0; n < samples.size(); n += 37) {
     const SurfaceState water = sea.surface(20, 5, 0.02 * static_cast<double>(n));
     // Lag 2 z w/w0 = 4 % and resonance (w/w0)^2 = 0.7 % of the slope's amplitude.
@@ -99,7 +100,7 @@ TEST(SimulateFloat, HasTheOscillatorsResponseToARegularWave) {
   spec.effective_slope = 0.8;
   const FloatParticulars body = float_particulars(spec, kReflector);
   const double k = omega * omega / kGravity;
-  const std::vector<MotionSample> samples = simulate_float(body, spec, sea, 0, 0, 20, 1, 0);
+  const std::vector<MotionSample> samples = simulate_float({body, spec, sea, {0, 0}}, 20);
   const Complex rao = 0.8 * body.roll.omega0 * body.roll.omega0 * linear_response(body.roll, omega) * Complex(0, -k) *
                       disc_slope_filter(k, 0.5);
   for (std::size_t n = 0; n < samples.size(); n += 11) {
@@ -108,6 +109,35 @@ TEST(SimulateFloat, HasTheOscillatorsResponseToARegularWave) {
     EXPECT_NEAR(samples[n].angles.x(), expected.real(), 5e-6 * std::abs(rao) * amplitude + 1e-9);
     EXPECT_NEAR(samples[n].angle_rates.x(), -omega * expected.imag(), 5e-6 * omega * std::abs(rao) * amplitude + 1e-9);
     EXPECT_NEAR(samples[n].angles.y(), 0, 1e-15);
+  }
+}
+
+// A towed float has the oscillator's response at the frequency of encounter, w - k U cos(mu): waves from ahead, and
+// waves from astern that it meets or overtakes. With translations it surges with the water that it meets.
+TEST(SimulateFloat, MeetsTheWavesAtItsSpeed) {
+  const double omega = 2, amplitude = 1e-4, k = omega * omega / kGravity, mooring_s = 10;
+  for (const auto& [cosine, speed] : {std::pair{-1.0, 3.0}, {1.0, 3.0}, {1.0, 9.0}}) {
+    const WaveField sea = regular_wave(amplitude, omega, {cosine, 0});
+    MotionSpec spec = float_spec();
+    const FloatParticulars body = float_particulars(spec, kReflector);
+    const double encounter = omega - k * speed * cosine, x0 = 7;
+    const std::vector<MotionSample> samples = simulate_float({body, spec, sea, {x0, 0}, speed}, 20);
+    const Complex rao = body.pitch.omega0 * body.pitch.omega0 * linear_response(body.pitch, encounter) *
+                        Complex(0, k * cosine) * disc_slope_filter(k, 0.5);
+    spec.translations = true;
+    const std::vector<MotionSample> free = simulate_float({body, spec, sea, {x0, 0}, speed}, 20);
+    const double flow_mps = omega * amplitude * disc_slope_filter(k, 0.5);
+    for (std::size_t n = 0; n < samples.size(); n += 11) {
+      const Complex wave = std::polar(1.0, encounter * spec.step_s * static_cast<double>(n) - k * cosine * x0 + 0.4);
+      // As in waves met at rest: Runge-Kutta at w h = 0.1, and the limiter.
+      EXPECT_NEAR(samples[n].angles.y(), (amplitude * rao * wave).real(), 5e-6 * std::abs(rao) * amplitude);
+      EXPECT_EQ(samples[n].translation.norm(), 0);
+      // x' = u - x / tau. The water at the displaced float differs by k x u, in the mean by half of it, which the
+      // mooring holds after tau; e^{-12} of the surge is left of the start.
+      const Complex surge_m = cosine * flow_mps / Complex(1 / mooring_s, encounter);
+      EXPECT_NEAR(free[n].translation.x(), (surge_m * wave).real(),
+                  (mooring_s / 2 + 1) * k * std::abs(surge_m) * flow_mps + 1e-5 * std::abs(surge_m));
+    }
   }
 }
 
@@ -137,7 +167,7 @@ TEST(SimulateFloat, FollowsTheSurfaceWithTranslations) {
   spec.translations = true;
   const WaveField sea = regular_wave(0.5, 0.6, {1, 0});
   const FloatParticulars body = float_particulars(spec, kReflector);
-  const std::vector<MotionSample> samples = simulate_float(body, spec, sea, 0, 0, 60, 1, 0);
+  const std::vector<MotionSample> samples = simulate_float({body, spec, sea, {0, 0}}, 60);
   for (std::size_t n = 0; n < samples.size(); n += 41) {
     const Vec3& shift = samples[n].translation;
     const SurfaceState water = sea.surface(shift.x(), shift.y(), 0.02 * static_cast<double>(n));
@@ -151,8 +181,8 @@ TEST(SimulateFloat, RatesAreTheDerivativesOfItsMotion) {
   spec.translations = true;
   spec.yaw_rate_std_deg_s = 10;
   const WaveField sea = realise_sea(state_of(1, 5), 42, 0);
-  const std::vector<MotionSample> samples =
-      simulate_float(float_particulars(spec, kReflector), spec, sea, 0, 0, 20, 42, 3);
+  const FloatParticulars body = float_particulars(spec, kReflector);
+  const std::vector<MotionSample> samples = simulate_float({body, spec, sea, {0, 0}, 0, 42, 3}, 20);
   for (std::size_t n = 1; n + 1 < samples.size(); n += 7) {
     // Simpson's rule over two steps: h^4/90 times the fifth derivative of the motion, and the kinks of breaking.
     const Vec3 rotation =
@@ -172,9 +202,9 @@ TEST(SimulateFloat, IsInSteadyStateAtTimeZero) {
     spec.yaw_rate_std_deg_s = 5;
     const WaveField sea = realise_sea(state_of(1, 5), 42, 0);
     const FloatParticulars body = float_particulars(spec, kReflector);
-    const std::vector<MotionSample> once = simulate_float(body, spec, sea, 40, 0, 10, 42, 1);
+    const std::vector<MotionSample> once = simulate_float({body, spec, sea, {40, 0}, 0, 42, 1}, 10);
     spec.spin_up_s *= 2;
-    const std::vector<MotionSample> twice = simulate_float(body, spec, sea, 40, 0, 10, 42, 1);
+    const std::vector<MotionSample> twice = simulate_float({body, spec, sea, {40, 0}, 0, 42, 1}, 10);
     // Transients of the tilt decay within seconds; the mooring leaves e^{-12} of an excursion of a metre.
     for (std::size_t n = 0; n < once.size(); n += 50) {
       EXPECT_NEAR((once[n].angles - twice[n].angles).norm(), 0, translations ? 1e-4 : 1e-9);
@@ -321,7 +351,7 @@ TEST(FloatReference, AFloatsOscillatorMatchesTheMeasuredRoll) {
     const double k = m.omega * m.omega / kGravity, amplitude = 1e-4;
     const WaveField sea({WaveComponent{.omega = m.omega, .amplitude = amplitude, .wavenumber = k, .direction = {0, 1}}},
                         1, 10);
-    const std::vector<MotionSample> samples = simulate_float(body, spec, sea, 0, 0, 40, 1, 0);
+    const std::vector<MotionSample> samples = simulate_float({body, spec, sea, {0, 0}}, 40);
     Complex roll = 0, heave = 0;
     const auto count =
         static_cast<std::size_t>(std::floor(std::floor(40 * m.omega / (2 * kPi)) * 2 * kPi / m.omega / spec.step_s));

@@ -329,7 +329,7 @@ FloatRecord float_record(std::uint64_t seed, double duration_s, double height_m,
   motion.translations = true;
   const Vec3 centre(0, 0, 0.35);
   const FloatParticulars body = float_particulars(motion, {{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}});
-  const Trajectory trajectory(0, motion.step_s, simulate_float(body, motion, sea, 0, 0, duration_s + 1, seed, 0),
+  const Trajectory trajectory(0, motion.step_s, simulate_float({body, motion, sea, {0, 0}, 0, seed}, duration_s + 1),
                               centre, -centre);
   const SeaReflection reflection({}, height_m, WavesBelow{&sea, {}, {}, 0.005});
   const IntervalSampling sampling = pulses_every(0.001, duration_s);

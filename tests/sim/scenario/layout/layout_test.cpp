@@ -140,6 +140,63 @@ TEST(Layout, ScalesMultiplyThatOfTheTarget) {
   EXPECT_EQ(layout_text(target.layout), ", 500 in a ring of 1000 by 1000 m, of 0.5 to 2 times the mesh's size");
 }
 
+// Of 1,000 bodies: mean, variance and independence to five standard errors; the layout is otherwise the same.
+TEST(Layout, JitterDisplacesEveryBodyByNormalDeviates) {
+  for (TargetSpec target : {target_of({LayoutShape::kGrid, 1000, 9000, 9000}, 5), TargetSpec{}}) {
+    if (!target.layout) target.layout = LayoutSpec{.line = LineLayout{1000, 40}, .seed = 5};
+    const std::vector<Vec2> places = layout_positions(target.layout);
+    target.layout->jitter_m = 2;
+    const std::vector<Vec2> displaced = layout_positions(target.layout);
+    Vec2 sum = Vec2::Zero(), squares = Vec2::Zero();
+    double product = 0;
+    for (std::size_t i = 0; i < 1000; ++i) {
+      const Vec2 own = (displaced[i] - places[i]) / 2;
+      sum += own;
+      squares += Vec2(own.x() * own.x(), own.y() * own.y());
+      product += own.x() * own.y();
+    }
+    EXPECT_LT(sum.cwiseAbs().maxCoeff(), 5 * std::sqrt(1000.0));
+    EXPECT_LT((squares / 1000 - Vec2(1, 1)).cwiseAbs().maxCoeff(), 5 * std::sqrt(2 / 1000.0));
+    EXPECT_LT(std::abs(product), 5 * std::sqrt(1000.0));
+    EXPECT_EQ(layout_positions(target.layout), displaced);
+    target.layout->jitter_m = 4;
+    EXPECT_LT((layout_positions(target.layout)[7] - places[7] - 2 * (displaced[7] - places[7])).norm(), 1e-9);
+    target.layout->seed = 6;
+    EXPECT_NE(layout_positions(target.layout)[7], displaced[7]);
+  }
+}
+
+TEST(Layout, JitterMayNotBringBodiesTooNear) {
+  const std::string keys =
+      "  t: {label: 1, mesh: a.glb, layout: {area: {shape: line, count: 9, length_m: 80, min_distance_m: 9}, "
+      "jitter_m: 5}}\n";
+  EXPECT_HAS(complaint_about(kShort + keys), "m apart: must be at least 9");
+  EXPECT_EQ(complaint_about(kShort + keys, {{"targets.t.layout.jitter_m", "0"}}), "accepted");
+  EXPECT_HAS(complaint_about(kShort + keys, {{"targets.t.layout.jitter_m", "1001"}}),
+             "targets.t.layout.jitter_m: value '1001': must be a number within 0 and 1000");
+}
+
+TEST(Layout, RopesJoinTheFloatsOfALineThatMoveFreely) {
+  const std::string keys =
+      "  t: {label: 1, mesh: a.glb, layout: {line: {count: 4, spacing_m: 40}, tether_slack: 0.05}, motion: {model: "
+      "float, translations: true}}\n";
+  const Scenario scenario = parse(kShort + keys);
+  EXPECT_DOUBLE_EQ(*rope_length_m(scenario.targets[1].layout), 42);
+  EXPECT_EQ(layout_text(scenario.targets[1].layout), ", 4 in line, 40 m apart, joined by ropes of 42 m");
+  EXPECT_EQ(effective_yaml(parse(effective_yaml(scenario))), effective_yaml(scenario));
+  const std::string slack = "targets.t.layout.tether_slack: value '0.05': not allowed here: valid only with ";
+  const auto complaint = [&](const char* key, const char* value) {
+    return complaint_about(kShort + keys, {{key, value}});
+  };
+  EXPECT_HAS(complaint("targets.t.motion.translations", "false"), slack + "targets.t.motion.translations: true");
+  EXPECT_HAS(complaint("targets.t.motion.model", "fixed"), slack + "targets.t.motion.model: float, not fixed");
+  EXPECT_HAS(complaint("targets.t.layout.bodies", "rigid"), slack + "bodies: independent");
+  EXPECT_HAS(complaint("targets.t.layout", "{area: {}, tether_slack: 0.05}"), slack + "line");
+  EXPECT_HAS(complaint("targets.t.motion.drift", "{spread_mps: 0.1}"), "must be 0 with layout.tether_slack");
+  EXPECT_EQ(complaint("targets.t.motion.drift", "{wind_mps: 10}"), "accepted");
+  EXPECT_HAS(complaint("targets.t.layout.tether_slack", "-0.1"), "must be a number within 0 and 10");
+}
+
 TEST(Layout, MovesAsAWhole) {
   TargetSpec target = target_of({LayoutShape::kRandom, 8, 100, 30, 2}, 3);
   const std::vector<Vec2> before = layout_positions(target.layout);
