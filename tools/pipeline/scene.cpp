@@ -511,7 +511,7 @@ Scene make_scene(const SceneRequest& request) {
     if (request.stop != nullptr && *request.stop) throw Interrupted();
     std::vector<Trajectory>& bodies = scene.bodies.emplace_back();
     std::vector<Vec3>& velocities_mps = scene.velocities_mps.emplace_back();
-    if (target.models.empty()) continue;
+    if (target.models.empty() || target.rest_positions.empty()) continue;  // not loaded, or a part
     velocities_mps = drift_velocities_mps(target.spec, request.scenario.seed, key, target.first_body);
     for (Vec3& velocity : velocities_mps) velocity = target.relative_velocity_mps + velocity;
     std::vector<const Body*> models;

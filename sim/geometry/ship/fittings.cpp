@@ -50,7 +50,8 @@ Pose Deckhouse::on_side(double side, double design_x, double z) const {
 }
 
 std::vector<Vec3> Deckhouse::ring(double z) const {
-  return octagon(aft_at(z), fore_at(z), half_width_at(z), aft_chamfer, fore_chamfer, z);
+  const double half = half_width_at(z), most = 0.9 * half;
+  return octagon(aft_at(z), fore_at(z), half, std::min(aft_chamfer, most), std::min(fore_chamfer, most), z);
 }
 
 void add_house(MeshBuilder& builder, const Deckhouse& house) {

@@ -212,7 +212,7 @@ TEST(MovingBodies, DriftAndAreTowedInTheFrameOfTheirHost) {
           corner),
       "file.yaml");
   const Pipeline pipeline(scenario);
-  const auto scene = pipeline.scene(0, 0), other = pipeline.scene(0, 1);
+  const auto scene = pipeline.scene({}), other = pipeline.scene({.realisation = 1});
   const auto& velocities = scene->velocities_mps;
   ASSERT_EQ(velocities.size(), 6u);
   EXPECT_EQ(velocities[0], std::vector<Vec3>{Vec3::Zero()});

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Generated ships: closed solids, hydrostatics against sections integrated by Simpson's rule, form coefficients and
 // stability in the ranges of sim/geometry/ship/README.md.
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <algorithm>
 #include <array>
@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "sim/core/process/error.h"
+#include "sim/geometry/mesh/mesh_diagnostics.h"
 #include "sim/geometry/mesh/topology.h"
 #include "sim/geometry/placement/hydrostatics.h"
 #include "sim/geometry/ship/make_ship.h"
@@ -88,6 +89,9 @@ TEST_P(Fleet, ConsistsOfClosedSolidsOfGenusZeroThatFaceOutwards) {
       EXPECT_GT(volume, 0) << part;
       // Euler: V - E + F = 2, with E = 3 F / 2 of a closed surface.
       EXPECT_EQ(static_cast<long>(vertices.size()) - static_cast<long>(solid.size()) / 2, 2) << part;
+    }
+    if (spec.seed % 10 == 0) {
+      EXPECT_THAT(diagnostic_messages(diagnose(mesh)), testing::IsEmpty());
     }
     for (const Vec3& p : mesh.vertices) ASSERT_LT(p.norm(), ship_reach_m(spec));
     EXPECT_GE(mesh.triangles.size(), 3000u);
@@ -272,6 +276,14 @@ TEST(ShipOfASeed, HasTheLengthThatIsAskedForAndRisesWhenUnloaded) {
     const Hydrostatics light = hydrostatics_of(make_ship({.kind = kind, .loading = 0.0, .seed = 3}).mesh),
                        laden = hydrostatics_of(make_ship({.kind = kind, .loading = 1.0, .seed = 3}).mesh);
     EXPECT_LT(light.volume_m3, laden.volume_m3);
+  }
+}
+
+TEST(ShipOfASeed, OfTheShortestLengthHasNoDefects) {
+  for (const ShipKind kind : kinds()) {
+    const double length = kShipLengths_m[static_cast<std::size_t>(kind)].lowest;
+    EXPECT_THAT(diagnostic_messages(diagnose(make_ship({.kind = kind, .length_m = length}).mesh)), testing::IsEmpty())
+        << name_of(kind);
   }
 }
 
