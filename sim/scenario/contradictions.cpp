@@ -455,6 +455,18 @@ void check_generated(const TargetSpec& target, const ScenarioDocument& document)
     if (node->find(key) != nullptr)
       document.fail_at(fmt::format("{}.{}", path, key), "not allowed here: valid only with a mesh file");
   }
+  const MotionSpec& motion = target.motion;
+  if (target.ship && motion.model == MotionModel::kFloat && motion.origin_above_waterline_m != 0)
+    document.fail_at(path + ".motion.origin_above_waterline_m",
+                     "must be 0 for a generated ship, whose origin is on the waterline");
+  if (!target.decoy || target.decoy->support == DecoySupport::kNone) return;
+  const std::string support = path + ".decoy.support";
+  if (motion.model != MotionModel::kFloat && (!is_raft(target.layout) || motion.model == MotionModel::kFixed))
+    document.fail_at(support, fmt::format("must be none with motion.model: {}: a support floats", model_name(target)));
+  if (motion.origin_above_waterline_m <= 0)
+    document.fail_at(path + ".motion.origin_above_waterline_m", "must be above 0 with decoy.support");
+  if (target.layout && (target.layout->heights_m || target.layout->scales))
+    document.fail_at(support, "must be none with layout.heights or layout.scales: all supports have one height");
 }
 
 void check_target(const TargetSpec& target, const ScenarioDocument& document) {

@@ -5,6 +5,8 @@
 #include <iterator>
 #include <memory>
 #include <optional>
+#include <span>
+#include <string_view>
 #include <utility>
 
 #include "sim/core/numbers/constants.h"
@@ -33,6 +35,11 @@ namespace seaglint {
 namespace {
 
 using Maker = std::function<TriangleMesh()>;
+
+// Position of a word in a list that has it.
+std::ptrdiff_t index_of(std::span<const char* const> names, std::string_view word) {
+  return std::ranges::find(names, word, [](const char* name) { return std::string_view(name); }) - names.begin();
+}
 
 std::string size_line(const TriangleMesh& mesh) {
   const Bounds box = bounds(mesh);
@@ -141,9 +148,6 @@ void add_ship_kinds(CommandOptions& make, CommandContext& context) {
   auto kind = std::make_shared<std::string>(kShipKindNames[0]), detail = std::make_shared<std::string>("rails");
   auto above = std::make_shared<bool>(false);
   auto output = std::make_shared<std::string>();
-  const auto index_of = [](std::span<const char* const> names, const std::string& name) {
-    return std::ranges::find(names, std::string_view(name)) - names.begin();
-  };
   CommandOptions ship = make.add_command("ship", "Ship of a kind, an individual for every seed, with its hydrostatics");
   ship.add_option("-o,--output", *output, "Mesh file to write: .glb .gltf .obj .stl or .ply").required();
   ship.add_option("--kind", *kind, "Kind of ship")
@@ -298,6 +302,17 @@ struct InfoArguments {
   PictureView view;
 };
 
+// Whether a part that reaches below z = 0 is not closed, so that it has no volume.
+bool floats_unclosed(const TriangleMesh& mesh, const Topology& topology) {
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (topology.part_closed[mesh.triangle_part[t]]) continue;
+    for (const std::uint32_t v : mesh.triangles[t]) {
+      if (mesh.vertices[v].z() < 0) return true;
+    }
+  }
+  return false;
+}
+
 void print_info(const InfoArguments& arguments) {
   require_outputs({arguments.picture}, {arguments.file});
   if (!arguments.picture.empty() && std::filesystem::path(arguments.picture).extension() != ".png")
@@ -306,8 +321,10 @@ void print_info(const InfoArguments& arguments) {
   const Topology topology = topology_of(mesh);
   if (!arguments.picture.empty()) write_file(arguments.picture, png_bytes(picture_of(mesh, arguments.view)));
   print_out("{}\n{}{}{}{}{}{}", arguments.file, size_line(mesh), counts_line(mesh),
-            hydrostatics_lines(mesh, arguments.centre_of_gravity_m), part_lines(mesh, topology), material_lines(mesh),
-            topology_lines(mesh, topology, arguments.wedge_deg));
+            floats_unclosed(mesh, topology)
+                ? "afloat     not stated: a part that reaches below z = 0 is open, or faces inwards in places\n"
+                : hydrostatics_lines(mesh, arguments.centre_of_gravity_m),
+            part_lines(mesh, topology), material_lines(mesh), topology_lines(mesh, topology, arguments.wedge_deg));
   for (const std::string& finding : diagnostic_messages(diagnose(mesh))) print_out("finding    {}\n", finding);
 }
 

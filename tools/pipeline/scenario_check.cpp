@@ -391,12 +391,12 @@ void measure(const Pipeline& pipeline, const TimedPlace& place, const StopFlag* 
     make();
     return thread_seconds() - begin_s;
   };
-  work.seas_s += seconds([&] { pipeline.scene(at); });
   ++work.seas;
   for (const int target : plan.classes()) {
     if (*stop) throw Interrupted();
     at.target = target;
     at.clutter = 0;
+    work.seas_s += seconds([&] { pipeline.scene(at); });  // common to all targets unless their keys are drawn
     const double first_s = seconds([&] { pipeline.generate_sample(plan.sample(at), stop); });
     double other_s = 0;
     if (plan.maps_per_interval() > 1) {

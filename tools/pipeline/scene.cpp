@@ -28,7 +28,7 @@ double largest_radius_m(const TriangleMesh& mesh) {
   return radius;
 }
 
-// How the file's mesh becomes that of a body of one size: enlarged, then moved.
+// How the source mesh becomes that of a body of one size: enlarged, then moved.
 MeshPlacement placement_of(const TargetSpec& spec, double scale) {
   const MeshPlacement whole = with_scale(spec, scale);
   MeshPlacement placement;
@@ -37,9 +37,9 @@ MeshPlacement placement_of(const TargetSpec& spec, double scale) {
   return placement;
 }
 
-Bounds box_of(const SourceMesh& file, const MeshPlacement& placement) {
+Bounds box_of(const SourceMesh& source, const MeshPlacement& placement) {
   const Vec3 offset(placement.offset_m);
-  return {placement.scale * file.box.lower + offset, placement.scale * file.box.upper + offset};
+  return {placement.scale * source.box.lower + offset, placement.scale * source.box.upper + offset};
 }
 
 MeshPlacement axes_of(const TargetSpec& spec) {
@@ -92,11 +92,15 @@ bool moves_by_size(const TargetSpec& spec) {
 
 // Motion model of a body from its enlarged mesh, of a rigid raft from the keys alone.
 // centre_of_gravity_m: height above the waterline, where the mesh's generator gives it.
-Body load_body(const Scenario& scenario, const TargetSpec& spec, const TriangleMesh& mesh,
+Body load_body(const Scenario& scenario, const TargetSpec& spec, const TriangleMesh& mesh, double scale,
                std::optional<double> centre_of_gravity_m) {
+  MotionSpec motion = spec.motion;
+  // The line of a decoy does not float.
+  if (spec.decoy && !is_raft(spec.layout) && motion.diameter_m == 0)
+    motion.diameter_m = scale * decoy_float_m(*spec.decoy);
   try {
     return make_body(
-        spec.motion,
+        motion,
         is_raft(spec.layout) ? BodyShape{.box = {}, .hull = {}, .is_raft = true} : shape_of(mesh, centre_of_gravity_m),
         scenario.folder);
   } catch (const InputError& error) {
@@ -104,13 +108,9 @@ Body load_body(const Scenario& scenario, const TargetSpec& spec, const TriangleM
   }
 }
 
-}  // namespace
-
-namespace {
-
 // Memory of a value in triangles of a scatterer.
-std::size_t size_of(const SourceMesh& source) { return source.mesh.triangles.size() / 4; }
-std::size_t size_of(const PreparedTarget& target) { return target.mesh.triangles.size(); }
+std::size_t size_of(const SourceMesh& source) { return 100 + source.mesh.triangles.size() / 4; }
+std::size_t size_of(const PreparedTarget& target) { return 500 + target.mesh.triangles.size(); }
 std::size_t size_of(const Body&) { return 3000; }
 
 }  // namespace
@@ -121,16 +121,19 @@ std::shared_ptr<typename TargetCache::Kept<Key, Value>::Entry> TargetCache::Kept
   const auto known = std::ranges::find_if(entries_, [&](const auto& entry) { return entry->key == key; });
   std::shared_ptr<Entry> entry = known == entries_.end() ? std::make_shared<Entry>(key) : *known;
   if (known != entries_.end()) entries_.erase(known);
-  // From the one used last back: what exceeds the sum goes.
+  // From the one used last back: what exceeds the sum goes, and what could not be made.
   std::size_t unused = 0;
   for (std::size_t i = entries_.size(); i-- > 0;) {
     if (entries_[i].use_count() > 1) continue;  // a thread makes it, or waits for it
-    const std::lock_guard made(entries_[i]->making);
-    if (entries_[i]->value.use_count() != 1) continue;
-    unused += size_of(*entries_[i]->value);
-    if (unused > kMostTriangles) entries_[i]->value = nullptr;
+    bool is_empty = false;
+    {
+      const std::lock_guard made(entries_[i]->making);
+      std::shared_ptr<const Value>& value = entries_[i]->value;
+      if (value.use_count() == 1 && (unused += size_of(*value)) > kMostTriangles) value = nullptr;
+      is_empty = value == nullptr;
+    }
+    if (is_empty) entries_.erase(entries_.begin() + static_cast<std::ptrdiff_t>(i));
   }
-  std::erase_if(entries_, [](const auto& each) { return each.use_count() == 1 && each->value == nullptr; });
   return entries_.emplace_back(std::move(entry));
 }
 
@@ -146,8 +149,9 @@ std::shared_ptr<const Value> TargetCache::Kept<Key, Value>::get(const Key& key, 
 TargetCache::SourceKey TargetCache::source_key(const Scenario& scenario, const TargetSpec& spec) {
   SourceKey key{is_generated(spec) ? std::filesystem::path() : find_mesh(scenario, spec), spec.ship, spec.decoy,
                 axes_of(spec)};
-  // What carries the reflector reaches down to the water.
-  if (key.decoy && rest_height_m(spec) > 0) key.decoy->mast_m = rest_height_m(spec) / spec.scale;
+  // The mast reaches down to the water.
+  if (key.decoy && key.decoy->support != DecoySupport::kNone && rest_height_m(spec) > 0)
+    key.decoy->mast_m = rest_height_m(spec) / spec.scale;
   return key;
 }
 
@@ -185,7 +189,8 @@ BodyModel TargetCache::model(const Scenario& scenario, const TargetSpec& spec, d
   const auto mesh = [&]() -> TargetMesh& {
     if (placed_mesh) return *placed_mesh;
     placed_mesh = load_target_mesh(source_of(scenario, spec, scale, model.source));
-    if (is_generated(spec)) placed_mesh->warnings.clear();  // its sheets are open on purpose
+    // Its sheets are open on purpose.
+    if (is_generated(spec)) placed_mesh->warnings = check_target(placed_mesh->mesh, 1e9 * lowest_ghz(scenario.radar));
     return *placed_mesh;
   };
   const SourceKey key = source_key(scenario, spec);
@@ -193,7 +198,7 @@ BodyModel TargetCache::model(const Scenario& scenario, const TargetSpec& spec, d
   if (gravity_m) *gravity_m *= scale;
   model.motion = motions_.get(
       {key, placement_of(spec, moves_by_size(spec) ? scale : 1), scenario.folder, spec.motion, is_raft(spec.layout)},
-      [&] { return load_body(scenario, spec, mesh().mesh, gravity_m); });
+      [&] { return load_body(scenario, spec, mesh().mesh, scale, gravity_m); });
   if (!with_scatterer) return model;
   const ScattererSettings settings = scatterer_settings(scenario, spec, height_m);
   model.prepared =
@@ -217,19 +222,19 @@ struct HeightsOfBody {
   double bottom_m = 0, top_m = 0, margin_m = 0;
 };
 
-HeightsOfBody heights_of(const TargetSpec& spec, const SourceMesh& file, double scale) {
-  const Bounds body = box_of(file, placement_of(spec, scale));
+HeightsOfBody heights_of(const TargetSpec& spec, const SourceMesh& source, double scale) {
+  const Bounds body = box_of(source, placement_of(spec, scale));
   return {body.lower.z(), body.upper.z(), waterline_margin(body)};
 }
 
 // Throws InputError for a body that is entirely under water and, if the sea reflects, for bodies at several heights of
 // which one reaches into the water.
-void check_above_water(const Scenario& scenario, const TargetSpec& spec, const SourceMesh& file) {
+void check_above_water(const Scenario& scenario, const TargetSpec& spec, const SourceMesh& source) {
   const std::string target = fmt::format("targets.{}", spec.name);
   const std::vector<double> scales = body_scales(spec.layout, spec.scale), heights_m = body_heights_m(spec.layout);
   for (std::size_t i = 0; i < scales.size(); ++i) {
     const double height_m = rest_height_m(spec) + heights_m[i];
-    const HeightsOfBody body = heights_of(spec, file, scales[i]);
+    const HeightsOfBody body = heights_of(spec, source, scales[i]);
     const double top_m = body.top_m + height_m, bottom_m = body.bottom_m + height_m;
     const bool has_heights = spec.layout && spec.layout->heights_m;
     if (scenario.sea_reflection.enabled && has_heights && bottom_m < 0) {

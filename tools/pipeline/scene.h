@@ -53,9 +53,9 @@ struct Target {
   Vec3 relative_velocity_mps = Vec3::Zero();
 };
 
-// Meshes, scatterers and motion models by the values that determine them, each made once: those in use elsewhere, and
-// of the others those used last, up to kMostTriangles. Any thread may use it; threads wait only for one that makes the
-// same.
+// Meshes, scatterers and motion models by the values that determine them. It keeps those in use elsewhere, and those
+// used last up to kMostTriangles of each kind; others are made again. Any thread may use it; a thread waits only for
+// another one that makes the same value.
 class TargetCache {
  public:
   std::shared_ptr<const SourceMesh> source(const Scenario& scenario, const TargetSpec& spec);

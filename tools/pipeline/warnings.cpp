@@ -58,7 +58,9 @@ void add_mesh_warnings(std::vector<std::string>& lines, const Target& target) {
 
 // What of the target's bodies is below the water: that of the deepest one.
 void add_waterline_warning(std::vector<std::string>& lines, const Target& target) {
-  if (is_generated(target.spec)) return;  // made with what is below the water
+  const auto& decoy = target.spec.decoy;
+  if (target.spec.ship || (decoy && decoy->support != DecoySupport::kNone))
+    return;  // made with what is below the water
   std::size_t cut = 0;
   SubmergedPart deepest;
   for (const auto& model : target.models) {
@@ -69,8 +71,8 @@ void add_waterline_warning(std::vector<std::string>& lines, const Target& target
   if (cut == 0) return;
   const std::string which =
       target.models.size() == 1 ? "" : fmt::format("of {} of {} bodies, ", cut, target.models.size());
-  lines.push_back(fmt::format("targets.{}.mesh: {}{}{}; offset_m moves it", target.spec.name, which,
-                              cut > 1 ? "at most " : "", cut_sentence(deepest)));
+  lines.push_back(fmt::format("targets.{}.{}: {}{}{}; {} moves it", target.spec.name, source_key_of(target.spec), which,
+                              cut > 1 ? "at most " : "", cut_sentence(deepest), decoy ? "layout.heights" : "offset_m"));
 }
 
 // Those of the scenario, without companions.
@@ -91,10 +93,12 @@ std::string hovering_warning(const TargetSpec& target, const Bounds& box) {
   const bool is_drawn_to_waterline = is_ship || box.lower.z() > -rounding;
   if (gap <= (is_drawn_to_waterline ? rounding : box.upper.z() - box.lower.z())) return "";
   return fmt::format(
-      "targets.{}.mesh: its lowest point is {:.3g} m above the water, where nothing carries it: is its waterline at z "
+      "targets.{}.{}: its lowest point is {:.3g} m above the water, where nothing carries it: is its waterline at z "
       "= {:.6g} m? {}",
-      target.name, gap, 0.0 - rest_height_m(target),
-      is_ship ? "offset_m lowers it" : "motion.origin_above_waterline_m or offset_m lowers it");
+      target.name, source_key_of(target), gap, 0.0 - rest_height_m(target),
+      is_generated(target) ? "motion.origin_above_waterline_m lowers it"
+      : is_ship            ? "offset_m lowers it"
+                           : "motion.origin_above_waterline_m or offset_m lowers it");
 }
 
 }  // namespace

@@ -14,7 +14,6 @@
 #include "seaglint_version.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/real_functions.h"
-#include "sim/geometry/mesh/triangle_mesh.h"
 #include "tools/rcs/rcs_views.h"
 
 namespace seaglint {

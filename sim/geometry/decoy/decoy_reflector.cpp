@@ -10,6 +10,7 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/random.h"
+#include "sim/core/numbers/rotation.h"
 #include "sim/geometry/decoy/make_decoy.h"
 #include "sim/geometry/shapes/generators.h"
 

@@ -182,8 +182,8 @@ struct Flotation {
 Flotation add_flotation(MeshBuilder& builder, const DecoySpec& spec, double half_width) {
   const double water = -spec.mast_m;
   if (spec.support == DecoySupport::kRaft) {
-    const double half = 0.5 * (spec.float_m > 0 ? spec.float_m : 3 * spec.leg_m), tube = 0.2 * half, ring = half - tube,
-                 middle = water + 0.4 * tube, floor = water + 0.3 * tube;
+    const double half = 0.5 * decoy_float_m(spec), tube = 0.2 * half, ring = half - tube, middle = water + 0.4 * tube,
+                 floor = water + 0.3 * tube;
     std::vector<Vec3> path;
     for (int i = 0; i < 2 * kSides; ++i) {
       const double angle = kPi * i / kSides;
@@ -198,12 +198,12 @@ Flotation add_flotation(MeshBuilder& builder, const DecoySpec& spec, double half
   }
   builder.begin_part("float");
   if (spec.float_shape == DecoyFloat::kSphere) {
-    const double radius = 0.5 * (spec.float_m > 0 ? spec.float_m : 1.2 * spec.leg_m);
+    const double radius = 0.5 * decoy_float_m(spec);
     add_sphere(builder, {0, 0, water}, radius, 3);
     return {water + 0.95 * radius, water + radius, {0.9 * radius, 0, water + 0.3 * radius}};
   }
   // Its edges are chamfered.
-  const double radius = 0.5 * (spec.float_m > 0 ? spec.float_m : 2 * spec.leg_m), half = 0.3 * radius;
+  const double radius = 0.5 * decoy_float_m(spec), half = 0.3 * radius;
   add_turned_solid(builder,
                    {{0, water - half},
                     {0.85 * radius, water - half},
@@ -292,6 +292,13 @@ int decoy_panel_count(const DecoySpec& spec) {
     case DecoyKind::kDihedral: break;
   }
   return 2;
+}
+
+double decoy_float_m(const DecoySpec& spec) {
+  if (spec.support == DecoySupport::kNone) return 0;
+  if (spec.float_m > 0) return spec.float_m;
+  if (spec.support == DecoySupport::kRaft) return 3 * spec.leg_m;
+  return (spec.float_shape == DecoyFloat::kSphere ? 1.2 : 2) * spec.leg_m;
 }
 
 TriangleMesh make_decoy(const DecoySpec& spec) {

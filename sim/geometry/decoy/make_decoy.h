@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "sim/core/numbers/rotation.h"
 #include "sim/geometry/mesh/triangle_mesh.h"
 #include "sim/scenario/target_spec.h"
 
@@ -52,6 +51,9 @@ TriangleMesh make_decoy(const DecoySpec& spec);
 
 // Panels of the whole reflector, without those missing subtracted.
 int decoy_panel_count(const DecoySpec& spec);
+
+// Diameter of the float or raft, m; 0 without.
+double decoy_float_m(const DecoySpec& spec);
 
 // Its reflector: trihedra and panels by the points that they have in common.
 

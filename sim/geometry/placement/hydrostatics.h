@@ -7,7 +7,7 @@
 
 namespace seaglint {
 
-// Body frame, SI. All are zero for a mesh with nothing below the water.
+// Body frame, SI. All are zero for a mesh without a waterline, or with no volume below it.
 struct Hydrostatics {
   double volume_m3 = 0;               // below the water
   double wetted_m2 = 0;               // surface below the water

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/geometry/ship/make_ship.h"
 
-#include <fmt/format.h>
-
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/rotation.h"
-#include "sim/core/process/error.h"
 #include "sim/geometry/placement/hydrostatics.h"
 #include "sim/geometry/ship/combatant.h"
 #include "sim/geometry/ship/ship_design.h"

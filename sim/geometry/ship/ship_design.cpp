@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
-#include "sim/core/numbers/constants.h"
 #include "sim/geometry/ship/combatant.h"
 
 namespace seaglint {

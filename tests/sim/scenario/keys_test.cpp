@@ -442,6 +442,13 @@ void make_consistent(Scenario& scenario) {
     if (target.name == "array" && scenario.seed % 2 == 0) target.role = TargetRole::kPart;
     if (target.role == TargetRole::kPart) target.label = 0;
     if (has_mesh(target)) scenario.radar.intra_pulse_motion = false;
+    // A support floats; without one the decoy has any model.
+    if (target.decoy && scenario.seed % 2 == 0) target.decoy->support = DecoySupport::kNone;
+    if (target.decoy && target.decoy->support != DecoySupport::kNone) {
+      target.motion.model = MotionModel::kFloat;
+      target.motion.origin_above_waterline_m = 0.1 + std::abs(target.motion.origin_above_waterline_m);
+    }
+    if (target.ship && target.motion.model == MotionModel::kFloat) target.motion.origin_above_waterline_m = 0;
     if (target.ship) {
       const auto [lowest, highest, reference] = kShipLengths_m[static_cast<std::size_t>(target.ship->kind)];
       target.ship->length_m = lowest + (highest - lowest) * target.ship->length_m / 500;
@@ -548,6 +555,10 @@ TEST(RoundTrip, EveryAllowedWordIsRead) {
     }
     if (scenario.sea.spectrum == SpectrumKind::kTable) scenario.sea.spectrum = SpectrumKind::kJonswap;
     if (scenario.radar.hop_code == HopCode::kFile) scenario.radar.hop_code = HopCode::kRandom;  // needs its file too
+    for (TargetSpec& target : scenario.targets) {
+      if (target.decoy && target.decoy->support != DecoySupport::kNone) target.motion.model = MotionModel::kFloat;
+      if (target.ship) target.motion.model = MotionModel::kShip;
+    }
     correct_motions(scenario);
     EXPECT_EQ(values_of(parse_scenario(effective_yaml(scenario), "effective.yaml")), values_of(scenario));
   }

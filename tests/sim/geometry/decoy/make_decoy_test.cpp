@@ -434,7 +434,8 @@ TEST(DecoySpecs, WithContradictionsAreRefusedWithTheirBound) {
   EXPECT_EQ(refusal([](DecoySpec& s) { s.leg_m = 6; }), "leg_m: value 6: must be within 0.05 and 5");
   EXPECT_HAS(refusal([&](DecoySpec& s) { s.leg_m = nan; }), "leg_m");
   EXPECT_EQ(refusal([](DecoySpec& s) { s.missing_panels = 60; }), "missing_panels: value 60: must be within 0 and 59");
-  EXPECT_HAS(refusal([](DecoySpec& s) { s.missing_panels = 59, s.dented_panels = 2; }), "value 2: must be within 0 and 1");
+  EXPECT_HAS(refusal([](DecoySpec& s) { s.missing_panels = 59, s.dented_panels = 2; }),
+             "value 2: must be within 0 and 1");
   EXPECT_HAS(refusal([](DecoySpec& s) { s.rounding_mm = 75; }), "within 0.1 and 74.4");
   EXPECT_HAS(refusal([](DecoySpec& s) { s.frame_mm = 38; }), "within 0.1 and 37.2");
   EXPECT_HAS(refusal([](DecoySpec& s) { s.surface_error_mm = 8; }), "within 0 and 7.44");

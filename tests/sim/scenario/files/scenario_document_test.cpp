@@ -206,7 +206,8 @@ TEST(Overrides, AreCheckedLikeTheFile) {
             "--set radar.pulse_width_us: value '300': must be shorter than radar.pri_us, 250");
   EXPECT_EQ(complaint("", "5"), "--set : must be key.path=value");
   EXPECT_EQ(complaint("radar..pulses", "5"), "--set radar..pulses: must be key.path=value");
-  EXPECT_EQ(complaint("targets.boat.label", "1"), "--set targets.boat.label: targets.boat: must have a mesh, a ship, a decoy or points");
+  EXPECT_EQ(complaint("targets.boat.label", "1"),
+            "--set targets.boat.label: targets.boat: must have a mesh, a ship, a decoy or points");
 }
 
 std::vector<std::string> errors_of(const std::string& yaml, const std::vector<Override>& overrides = {}) {
