@@ -312,8 +312,7 @@ void add_ferry(MeshBuilder& builder, const HullSurface& hull, const ShipDesign& 
                         .aft_slope = 2,
                         .fore_chamfer = 0.12 * breadth + 1,
                         .aft_chamfer = 0.6};
-  builder.begin_part(upper.name);
-  add_plated_frustum(builder, upper.ring(upper.foot), upper.ring(upper.roof), plating, random);
+  add_plated_house(builder, upper, plating, random);
   // Rows of windows: panes 3 cm proud of the side.
   builder.begin_part("windows");
   builder.begin_material("glass");

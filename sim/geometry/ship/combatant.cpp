@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/geometry/ship/combatant.h"
-
+// The combatant, a frigate or destroyer of 144 m by 17.5 m: hull, houses, masts, weapons, deck fittings, rails.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +9,8 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/rotation.h"
 #include "sim/geometry/shapes/generators.h"
+#include "sim/geometry/ship/fittings.h"
+#include "sim/geometry/ship/ship_design.h"
 
 namespace seaglint {
 

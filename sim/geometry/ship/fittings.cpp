@@ -85,6 +85,13 @@ void add_windows(MeshBuilder& builder, const Deckhouse& bridge) {
   }
 }
 
+void add_glass_windows(MeshBuilder& builder, const Deckhouse& bridge) {
+  builder.begin_part("windows");
+  builder.begin_material("glass");
+  add_windows(builder, bridge);
+  builder.begin_material("pec");
+}
+
 // Open-fronted cabinets (fire hoses, breathing sets, telephones) of slightly different sizes at irregular spacing.
 void add_cabinets(MeshBuilder& builder, const Deckhouse& house, double from, double to, double spacing, double height) {
   int n = 0;
@@ -280,6 +287,11 @@ void add_plated_frustum(MeshBuilder& builder, const std::vector<Vec3>& lower, co
     builder.triangle(bottom, rings[0][next], rings[0][n]);
     builder.triangle(top, rings[levels][n], rings[levels][next]);
   }
+}
+
+void add_plated_house(MeshBuilder& builder, const Deckhouse& house, const Plating& plating, Random& random) {
+  builder.begin_part(house.name);
+  add_plated_frustum(builder, house.ring(house.foot), house.ring(house.roof), plating, random);
 }
 
 void add_radar_scanner(MeshBuilder& builder, const Vec3& foot, double length, double yaw) {
@@ -524,8 +536,7 @@ Deckhouse add_accommodation(MeshBuilder& builder, const Accommodation& block, Ra
   };
   for (int k = 0; k < block.tiers; ++k) {
     const Deckhouse house = house_of("accommodation", block.tier + (k == 0 ? 0.3 : 0));
-    builder.begin_part(house.name);
-    add_plated_frustum(builder, house.ring(house.foot), house.ring(house.roof), block.plating, random);
+    add_plated_house(builder, house, block.plating, random);
     const double sill = house.roof - 1.55;
     builder.begin_part("windows");
     builder.begin_material("glass");
@@ -566,13 +577,8 @@ Deckhouse add_accommodation(MeshBuilder& builder, const Accommodation& block, Ra
                              .aft_slope = 1,
                              .fore_chamfer = std::min(1.2, 0.3 * half),
                              .aft_chamfer = 0.3};
-  builder.begin_part(wheelhouse.name);
-  add_plated_frustum(builder, wheelhouse.ring(wheelhouse.foot), wheelhouse.ring(wheelhouse.roof), block.plating,
-                     random);
-  builder.begin_part("windows");
-  builder.begin_material("glass");
-  add_windows(builder, wheelhouse);
-  builder.begin_material("pec");
+  add_plated_house(builder, wheelhouse, block.plating, random);
+  add_glass_windows(builder, wheelhouse);
   builder.begin_part("doors");
   add_doors(builder, wheelhouse, wheelhouse.foot + 0.05, {aft + 1.0});
   if (block.wing > half) {

@@ -52,8 +52,10 @@ Pose moved(const Pose& pose, double x, double y, double z);
 // The house as a part of its own.
 void add_house(MeshBuilder& builder, const Deckhouse& house);
 
-// A row of panes 3 cm in front of the bridge's front and front corners.
+// A row of panes 3 cm in front of the bridge's front and front corners, in the current part and material; the same as
+// part "windows" of glass.
 void add_windows(MeshBuilder& builder, const Deckhouse& bridge);
+void add_glass_windows(MeshBuilder& builder, const Deckhouse& bridge);
 
 // On a house's side walls, at x and height z.
 void add_cabinets(MeshBuilder& builder, const Deckhouse& house, double from, double to, double spacing, double height);
@@ -86,6 +88,8 @@ struct Plating {
 };
 void add_plated_frustum(MeshBuilder& builder, const std::vector<Vec3>& lower, const std::vector<Vec3>& upper,
                         const Plating& plating, Random& random);
+// The house as a part of its own, its walls plated.
+void add_plated_house(MeshBuilder& builder, const Deckhouse& house, const Plating& plating, Random& random);
 
 // Navigation radar: a drive with a slotted array of this length across, turned by yaw (rad).
 void add_radar_scanner(MeshBuilder& builder, const Vec3& foot, double length, double yaw);

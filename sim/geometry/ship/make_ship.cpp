@@ -4,7 +4,6 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/rotation.h"
 #include "sim/geometry/placement/hydrostatics.h"
-#include "sim/geometry/ship/combatant.h"
 #include "sim/geometry/ship/ship_design.h"
 #include "sim/geometry/surface/facets.h"
 

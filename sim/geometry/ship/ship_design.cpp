@@ -4,11 +4,28 @@
 #include <algorithm>
 #include <array>
 
-#include "sim/geometry/ship/combatant.h"
-
 namespace seaglint {
 
 namespace {
+
+struct ShipRange {
+  double lowest = 0, highest = 0;
+
+  double at(double u) const { return lowest + u * (highest - lowest); }
+};
+
+// Proportions of a kind of ship, laden, and the shape of its hull per length and beam (sim/geometry/ship/README.md has
+// the sources).
+struct ShipKindForm {
+  ShipRange length_to_beam;  // length overall over beam at the waterline
+  ShipRange beam_to_draught;
+  ShipRange depth_to_draught;  // depth: keel to deck amidships
+  ShipRange block;             // coefficient, on length and beam at the waterline
+  ShipRange gm_to_beam;        // metacentric height over beam, laden
+  double light_gm_to_beam;     // of the lightest loading
+  double light_draught;        // of the lightest loading, per laden draught
+  HullLines shape;             // lengths along x per length overall, breadths per beam, heights per freeboard
+};
 
 // Lines of a shape, per length overall and beam.
 HullLines lines_of(double stern_at_water, double stem_at_water, const PlanShape& waterline, const PlanShape& deck) {
@@ -19,6 +36,14 @@ HullLines lines_of(double stern_at_water, double stem_at_water, const PlanShape&
   lines.beam = 1, lines.flare = 1.001;
   lines.freeboard = lines.bow_height = lines.stern_height = 1;
   lines.hollow = 0.3, lines.knuckle_gain = 0;
+  return lines;
+}
+
+HullLines frigate() {
+  HullLines lines = combatant_lines(1, 1);
+  for (double* height : {&lines.bow_height, &lines.stern_height, &lines.freeboard}) *height /= lines.freeboard;
+  lines.midship = 0.821, lines.transom_draught = 0.08;
+  lines.forefoot = 0.9, lines.forefoot_draught = 0.6;
   return lines;
 }
 
@@ -78,7 +103,7 @@ HullLines planing(double midship) {
 // clang-format off
 // in the order of ShipKind: length/beam, beam/draught, depth/draught, block, GM/beam, the same and draught when light
 const std::array<ShipKindForm, 10> kForms{{
-    {{8.1, 8.5}, {3.0, 3.2}, {1.95, 2.1}, {0.48, 0.53}, {0.065, 0.11}, 0.075, 0.95, {}},
+    {{8.1, 8.5}, {3.0, 3.2}, {1.95, 2.1}, {0.48, 0.53}, {0.065, 0.11}, 0.075, 0.95, frigate()},
     {{6.8, 7.6}, {3.2, 3.5}, {2.05, 2.25}, {0.45, 0.51}, {0.07, 0.12}, 0.08, 0.95, naval(1.09, 0.80)},
     {{4.8, 5.6}, {3.1, 3.7}, {2.0, 2.3}, {0.40, 0.45}, {0.13, 0.20}, 0.15, 0.95, planing(0.68)},
     {{6.6, 7.4}, {2.8, 3.2}, {1.70, 1.85}, {0.60, 0.68}, {0.02, 0.06}, 0.09, 0.75, container()},
@@ -93,10 +118,8 @@ const std::array<ShipKindForm, 10> kForms{{
 
 }  // namespace
 
-const ShipKindForm& form_of(ShipKind kind) { return kForms[static_cast<std::size_t>(kind)]; }
-
 ShipDesign design_of(const ShipSpec& spec, Random& random) {
-  const ShipKindForm& form = form_of(spec.kind);
+  const ShipKindForm& form = kForms[static_cast<std::size_t>(spec.kind)];
   // The reference ship of a kind has the middle of every range.
   const auto drawn = [&](const ShipRange& range) { return range.at(spec.seed == 0 ? 0.5 : random.uniform()); };
   ShipDesign ship;
@@ -112,23 +135,16 @@ ShipDesign design_of(const ShipSpec& spec, Random& random) {
   const double own_loading = spec.seed == 0 ? 1 : random.uniform();
   ship.loading = spec.loading ? *spec.loading : own_loading;
   ship.draught = ship.laden_draught * (form.light_draught + (1 - form.light_draught) * ship.loading);
-  // By the stern, up to 1 % of the length in the lightest loading.
+  // By the stern, up to 0.5 % of the length in the lightest loading.
   ship.trim = spec.seed == 0 ? 0 : (0.001 + 0.004 * (1 - ship.loading)) * random.uniform();
   ship.metacentric_height = ship.beam * (form.light_gm_to_beam + (laden_gm - form.light_gm_to_beam) * ship.loading);
 
-  HullLines lines = spec.kind == ShipKind::kFrigate ? combatant_lines(ship.length, ship.beam) : form.shape;
-  const double freeboard = ship.depth - ship.laden_draught;
-  if (spec.kind == ShipKind::kFrigate) {
-    const double scale = freeboard / lines.freeboard;
-    lines.midship = 0.821, lines.transom_draught = 0.08;
-    lines.forefoot = 0.9, lines.forefoot_draught = 0.6;
-    for (double* height : {&lines.freeboard, &lines.bow_height, &lines.stern_height}) *height *= scale;
-  } else {
-    for (double* x : {&lines.stern_at_water, &lines.stern_at_deck, &lines.stem_at_water, &lines.stem_at_deck})
-      *x *= ship.length;
-    lines.beam *= ship.beam;
-    for (double* height : {&lines.freeboard, &lines.bow_height, &lines.stern_height}) *height *= freeboard;
-  }
+  HullLines lines = form.shape;
+  for (double* x : {&lines.stern_at_water, &lines.stern_at_deck, &lines.stem_at_water, &lines.stem_at_deck})
+    *x *= ship.length;
+  lines.beam *= ship.beam;
+  for (double* height : {&lines.freeboard, &lines.bow_height, &lines.stern_height})
+    *height *= ship.depth - ship.laden_draught;
   lines.draught = ship.laden_draught, lines.block = block;
   lines.panel = std::clamp(ship.length / 90, 0.3, 3.0);
   lines.dent = std::clamp(ship.length * 4e-5, 0.001, 0.005);

@@ -1,33 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The kinds of ships: proportions with their sources, and the individual ship of a seed.
+// The individual ship of a kind and a seed, and what stands on its hull.
 
 #include "sim/core/numbers/random.h"
 #include "sim/geometry/ship/hull.h"
 #include "sim/scenario/target_spec.h"
 
 namespace seaglint {
-
-struct ShipRange {
-  double lowest = 0, highest = 0;
-
-  double at(double u) const { return lowest + u * (highest - lowest); }
-};
-
-// Proportions of a kind of ship, laden, and the shape of its hull per length and beam (sim/geometry/ship/README.md has
-// the sources).
-struct ShipKindForm {
-  ShipRange length_to_beam;  // length overall over beam at the waterline
-  ShipRange beam_to_draught;
-  ShipRange depth_to_draught;  // depth: keel to deck amidships
-  ShipRange block;             // coefficient, on length and beam at the waterline
-  ShipRange gm_to_beam;        // metacentric height over beam, laden
-  double light_gm_to_beam;     // of the lightest loading
-  double light_draught;        // of the lightest loading, per laden draught
-  HullLines shape;             // lengths along x per length overall, breadths per beam, heights per freeboard
-};
-const ShipKindForm& form_of(ShipKind kind);
 
 // One ship: dimensions in m.
 struct ShipDesign {
@@ -44,7 +24,14 @@ struct ShipDesign {
 // Throws InputError for a length or loading out of range, with the range of the kind.
 ShipDesign design_of(const ShipSpec& spec, Random& random);
 
-// What stands on the hull of each kind, added to the hull.
+// Lines of the combatant, a frigate or destroyer of this length overall and beam at the waterline, m, without an
+// underwater body.
+HullLines combatant_lines(double length, double beam);
+// Adds its hull and all that stands on it. Positions along and across the ship scale with length and beam of the lines,
+// laid out for 144 m by 17.5 m; fittings keep their size. rail_width: m.
+void add_combatant(MeshBuilder& builder, const HullLines& lines, ShipDetail detail, double rail_width);
+
+// What stands on the hull of each other kind, added to the hull.
 void add_corvette(MeshBuilder& builder, const HullSurface& hull, const ShipDesign& ship, Random& random);
 void add_patrol_boat(MeshBuilder& builder, const HullSurface& hull, const ShipDesign& ship, Random& random);
 void add_container_ship(MeshBuilder& builder, const HullSurface& hull, const ShipDesign& ship, Random& random);

@@ -103,14 +103,8 @@ void add_corvette(MeshBuilder& builder, const HullSurface& hull, const ShipDesig
   const Deckhouse main = house("deckhouse", -0.17, 0.17, 0.93, foot, foot + tier + 0.3);
   const Deckhouse bridge = house("bridge", 0.02, 0.145, 0.74, main.roof - 0.2, main.roof + tier);
   const Deckhouse aft = house("aft_house", -0.15, -0.03, 0.55, main.roof - 0.2, main.roof + 0.8 * tier);
-  for (const Deckhouse* each : {&main, &bridge, &aft}) {
-    builder.begin_part(each->name);
-    add_plated_frustum(builder, each->ring(each->foot), each->ring(each->roof), plating, random);
-  }
-  builder.begin_part("windows");
-  builder.begin_material("glass");
-  add_windows(builder, bridge);
-  builder.begin_material("pec");
+  for (const Deckhouse* each : {&main, &bridge, &aft}) add_plated_house(builder, *each, plating, random);
+  add_glass_windows(builder, bridge);
   add_pyramid_mast(builder, {0.035 * length, 0, bridge.roof}, between(random, 9, 12), 1.5, random);
   builder.begin_part("funnel");
   add_frustum(builder, octagon(-0.12 * length, -0.065 * length, 0.3 * breadth, 0.5, 0.8, aft.roof - 0.2),
@@ -191,14 +185,8 @@ void add_patrol_boat(MeshBuilder& builder, const HullSurface& hull, const ShipDe
                              .aft_slope = 4,
                              .fore_chamfer = 0.2 * breadth,
                              .aft_chamfer = 0.2};
-  for (const Deckhouse* each : {&main, &wheelhouse}) {
-    builder.begin_part(each->name);
-    add_plated_frustum(builder, each->ring(each->foot), each->ring(each->roof), plating, random);
-  }
-  builder.begin_part("windows");
-  builder.begin_material("glass");
-  add_windows(builder, wheelhouse);
-  builder.begin_material("pec");
+  for (const Deckhouse* each : {&main, &wheelhouse}) add_plated_house(builder, *each, plating, random);
+  add_glass_windows(builder, wheelhouse);
   builder.begin_part("mast");
   const Vec3 mast(-0.05 * length, 0, wheelhouse.roof);
   // Tripod with a platform.
