@@ -444,7 +444,8 @@ void visit(DecoySpec& spec, FieldVisitor& v) {
   v.choice("float_shape", spec.float_shape, kDecoyFloatNames, "Shape of the float, of supports float and tow.");
   v.number("float_m", spec.float_m, zero_or_within(0.05, 20), "Diameter of float or raft; 0: by the leg.");
   v.number("tether_m", spec.tether_m, within(0, 100), "Length of the line above the water.");
-  v.value("seed", NaturalField{spec.seed}, "Seed of all imperfections; integers(1 1000000): one decoy per sea.");
+  v.value("seed", NaturalField{spec.seed},
+          "Seed of all imperfections; integers(1 1000000): others in every sea. Each body of a layout has its own.");
 }
 
 void visit(SolverSpec& spec, FieldVisitor& v) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 #include <utility>
 #include <variant>
 
@@ -227,73 +228,82 @@ HeightsOfBody heights_of(const TargetSpec& spec, const SourceMesh& source, doubl
   return {body.lower.z(), body.upper.z(), waterline_margin(body)};
 }
 
-// Throws InputError for a body that is entirely under water and, if the sea reflects, for bodies at several heights of
-// which one reaches into the water.
-void check_above_water(const Scenario& scenario, const TargetSpec& spec, const SourceMesh& source) {
-  const std::string target = fmt::format("targets.{}", spec.name);
-  const std::vector<double> scales = body_scales(spec.layout, spec.scale), heights_m = body_heights_m(spec.layout);
-  for (std::size_t i = 0; i < scales.size(); ++i) {
-    const double height_m = rest_height_m(spec) + heights_m[i];
-    const HeightsOfBody body = heights_of(spec, source, scales[i]);
-    const double top_m = body.top_m + height_m, bottom_m = body.bottom_m + height_m;
-    const bool has_heights = spec.layout && spec.layout->heights_m;
-    if (scenario.sea_reflection.enabled && has_heights && bottom_m < 0) {
-      throw InputError(
-          fmt::format("{}: its lowest body reaches {:.6g} m below the water: with sea_reflection bodies at several "
-                      "heights must be above it",
-                      place_of(scenario, target + ".layout.heights"), -bottom_m));
-    }
-    // A plate in the water surface is not below it.
-    if (top_m > body.margin_m || (!scenario.sea_reflection.enabled && bottom_m >= -body.margin_m)) continue;
-    if (has_heights) {
-      throw InputError(
-          fmt::format("{}: body {} reaches up to {:.6g} m above the water: must be above 0, else the whole "
-                      "body is under water",
-                      place_of(scenario, target + ".layout.heights"), i + 1, top_m));
-    }
-    if (spec.motion.model == MotionModel::kFloat || is_moving_raft(spec)) {
-      throw InputError(fmt::format("{}: value {}: must be greater than {:.6g}, else the whole target is under water",
-                                   place_of(scenario, target + ".motion.origin_above_waterline_m"), height_m,
-                                   -body.top_m));
-    }
-    throw InputError(
-        fmt::format("{}: its highest point is at z = {:.6g} m: must be above 0, the water, else the whole target is "
-                    "under water; offset_m lifts it",
-                    place_of(scenario, target + "." + source_key_of(spec)), body.top_m));
-  }
+// The target of one body of its layout: decoys with random imperfections are individuals.
+TargetSpec spec_of_body(TargetSpec spec, std::size_t body) {
+  if (spec.decoy) spec.decoy = decoy_of_body(*spec.decoy, body);
+  return spec;
 }
 
-// Throws InputError for more sizes of one mesh than memory is expected to hold: up to 2 GB per million triangles.
-void check_sizes(const Scenario& scenario, const TargetSpec& spec, std::size_t sizes, std::size_t triangles) {
+// Throws InputError for a body of a layout that is entirely under water and, if the sea reflects, for one of bodies at
+// several heights that reaches into the water.
+void check_above_water(const Scenario& scenario, const TargetSpec& spec, std::size_t body, double height_m,
+                       const HeightsOfBody& heights) {
+  const std::string target = fmt::format("targets.{}", spec.name);
+  const double top_m = heights.top_m + height_m, bottom_m = heights.bottom_m + height_m;
+  const bool has_heights = spec.layout && spec.layout->heights_m;
+  if (scenario.sea_reflection.enabled && has_heights && bottom_m < 0) {
+    throw InputError(
+        fmt::format("{}: its lowest body reaches {:.6g} m below the water: with sea_reflection bodies at several "
+                    "heights must be above it",
+                    place_of(scenario, target + ".layout.heights"), -bottom_m));
+  }
+  // A plate in the water surface is not below it.
+  if (top_m > heights.margin_m || (!scenario.sea_reflection.enabled && bottom_m >= -heights.margin_m)) return;
+  if (has_heights) {
+    throw InputError(
+        fmt::format("{}: body {} reaches up to {:.6g} m above the water: must be above 0, else the whole "
+                    "body is under water",
+                    place_of(scenario, target + ".layout.heights"), body + 1, top_m));
+  }
+  if (spec.motion.model == MotionModel::kFloat || is_moving_raft(spec)) {
+    throw InputError(fmt::format("{}: value {}: must be greater than {:.6g}, else the whole target is under water",
+                                 place_of(scenario, target + ".motion.origin_above_waterline_m"), height_m,
+                                 -heights.top_m));
+  }
+  throw InputError(
+      fmt::format("{}: its highest point is at z = {:.6g} m: must be above 0, the water, else the whole target is "
+                  "under water; offset_m lifts it",
+                  place_of(scenario, target + "." + source_key_of(spec)), heights.top_m));
+}
+
+// Throws InputError for more different bodies of one target than memory is expected to hold: up to 2 GB per million
+// triangles.
+void check_memory(const Scenario& scenario, const TargetSpec& spec, std::size_t bodies, std::size_t triangles) {
   constexpr std::size_t kMostTriangles = 2'000'000;
-  if (sizes == 1 || sizes * triangles <= kMostTriangles) return;
-  throw InputError(fmt::format(
-      "{}: {} bodies of different sizes with {} triangles each: must have at most {} triangles in all",
-      place_of(scenario, fmt::format("targets.{}.layout.scales", spec.name)), sizes, triangles, kMostTriangles));
+  if (bodies == 1 || bodies * triangles <= kMostTriangles) return;
+  throw InputError(
+      fmt::format("{}: {} different bodies with {} triangles each: must have at most {} triangles in all",
+                  place_of(scenario, fmt::format("targets.{}.layout{}", spec.name, spec.decoy ? "" : ".scales")),
+                  bodies, triangles, kMostTriangles));
 }
 
 // The models of a target's bodies, in their order.
 std::vector<std::shared_ptr<const BodyModel>> load_models(const TargetRequest& request, const TargetSpec& spec,
                                                           TargetCache& cache) {
   const Scenario& scenario = request.scenario;
-  const std::shared_ptr<const SourceMesh> source = cache.source(scenario, spec);
-  check_above_water(scenario, spec, *source);
   const std::vector<double> scales = body_scales(spec.layout, spec.scale), heights_m = body_heights_m(spec.layout);
-  std::vector<std::pair<double, std::optional<double>>> bodies;  // scale, and height of those in the water
+  // By the seed of a decoy, the scale, and the height of those in the water.
+  using Individual = std::tuple<std::uint64_t, double, std::optional<double>>;
+  std::vector<Individual> bodies;
+  std::map<Individual, TargetSpec> specs;
   for (std::size_t i = 0; i < scales.size(); ++i) {
+    const TargetSpec of_body = spec_of_body(spec, i);
     const double height_m = rest_height_m(spec) + heights_m[i];
-    const HeightsOfBody body = heights_of(spec, *source, scales[i]);
-    const bool touches = scenario.sea_reflection.enabled ? body.bottom_m + height_m <= body.margin_m
-                                                         : body.bottom_m + height_m < -body.margin_m;
-    bodies.emplace_back(scales[i], touches ? std::optional(height_m) : std::nullopt);
+    const HeightsOfBody heights = heights_of(of_body, *cache.source(scenario, of_body), scales[i]);
+    check_above_water(scenario, spec, i, height_m, heights);
+    const bool touches = scenario.sea_reflection.enabled ? heights.bottom_m + height_m <= heights.margin_m
+                                                         : heights.bottom_m + height_m < -heights.margin_m;
+    bodies.emplace_back(of_body.decoy ? of_body.decoy->seed : 0, scales[i],
+                        touches ? std::optional(height_m) : std::nullopt);
+    specs.try_emplace(bodies.back(), of_body);
   }
   const bool for_echoes = request.use == TargetUse::kEcho;
-  std::map<std::pair<double, std::optional<double>>, std::shared_ptr<const BodyModel>> made;
-  for (const auto& body : bodies) made[body] = nullptr;
-  for (auto& [body, model] : made) {
+  std::map<Individual, std::shared_ptr<const BodyModel>> made;
+  for (const auto& [individual, of_body] : specs) {
     if (request.stop != nullptr && *request.stop) throw Interrupted();
-    model = std::make_shared<const BodyModel>(cache.model(scenario, spec, body.first, body.second, for_echoes));
-    if (for_echoes) check_sizes(scenario, spec, made.size(), model->prepared->mesh.triangles.size());
+    const auto& [seed, scale, height_m] = individual;
+    made[individual] = std::make_shared<const BodyModel>(cache.model(scenario, of_body, scale, height_m, for_echoes));
+    if (for_echoes) check_memory(scenario, spec, specs.size(), made[individual]->prepared->mesh.triangles.size());
   }
   std::vector<std::shared_ptr<const BodyModel>> models;
   for (const auto& body : bodies) models.push_back(made.at(body));
@@ -438,11 +448,17 @@ double largest_reach_m(const TargetRequest& request, TargetCache& cache) {
             target.radii_m.push_back(scale * ship_reach_m(*spec.ship));
           return;
         }
-        const std::shared_ptr<const SourceMesh> source = cache.source(drawn, spec);
-        check_above_water(drawn, spec, *source);
-        const double offset_m = Vec3(spec.offset_m).norm();
-        for (const double scale : body_scales(spec.layout, spec.scale))
-          target.radii_m.push_back(scale * (source->radius_m + offset_m / spec.scale));
+        TargetSpec perfect = spec;
+        if (spec.decoy) perfect.decoy = without_imperfections(*spec.decoy);
+        const std::shared_ptr<const SourceMesh> source = cache.source(drawn, perfect);
+        const double more_m = spec.decoy ? largest_displacement_m(*spec.decoy) : 0,
+                     offset_m = Vec3(spec.offset_m).norm();
+        const std::vector<double> scales = body_scales(spec.layout, spec.scale);
+        const std::vector<double> heights_m = body_heights_m(spec.layout);
+        for (std::size_t i = 0; i < scales.size(); ++i) {
+          check_above_water(drawn, spec, i, rest_height_m(spec) + heights_m[i], heights_of(spec, *source, scales[i]));
+          target.radii_m.push_back(scales[i] * (source->radius_m + more_m + offset_m / spec.scale));
+        }
       });
       reach = std::max(reach, reach_of_all_m(drawn, targets));
     }

@@ -31,7 +31,7 @@ struct SourceMesh {
   double radius_m = 0;  // largest distance of a vertex from the origin
 };
 
-// What the bodies of one size of a target have in common.
+// What equal bodies of a target have in common: those of one size and, of decoys with random imperfections, one each.
 struct BodyModel {
   double scale = 1;                                // factor by which the mesh of the file is enlarged, after its unit
   Bounds box;                                      // of the whole mesh at this scale and offset
@@ -134,12 +134,12 @@ struct TargetRequest {
 bool draws_targets(const Scenario& scenario);
 
 // The targets of a scenario in its order, then one more per companion, moved to its place. Bodies of one size share a
-// model, unless they are in the water at different heights. Scatterers are cut at the mean water surface of the body
-// at rest; motion models have the whole mesh. Throws InputError for a mesh that is missing or invalid, a body entirely
-// under water, if the sea reflects also for bodies at several heights of which one reaches into the water, for a
-// material that is missing, invalid or not defined at the radar's frequencies, for a motion file that is missing or
-// invalid, and for bodies of several sizes with more than 2 million triangles in all; Interrupted when *stop becomes
-// true.
+// model, unless they are in the water at different heights or are decoys with random imperfections. Scatterers are cut
+// at the mean water surface of the body at rest; motion models have the whole mesh. Throws InputError for a mesh that
+// is missing or invalid, a body entirely under water, if the sea reflects also for bodies at several heights of which
+// one reaches into the water, for a material that is missing, invalid or not defined at the radar's frequencies, for a
+// motion file that is missing or invalid, and for different bodies of one target with more than 2 million triangles in
+// all; Interrupted when *stop becomes true.
 std::vector<Target> load_targets(const TargetRequest& request);
 
 // Full width, m, of the range window that contains the response of every target of the scenario at every aspect, with

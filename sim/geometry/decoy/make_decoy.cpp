@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/random.h"
 #include "sim/core/process/error.h"
 #include "sim/geometry/shapes/generators.h"
 #include "sim/geometry/surface/facets.h"
@@ -19,6 +21,7 @@ namespace {
 constexpr int kSides = 24;              // of masts, tubes and floats
 constexpr double kSmoothTurn_deg = 20;  // their sides turn by 15 deg
 constexpr double kLineRadius_m = 0.006;
+constexpr std::uint64_t kBodyIndex = std::uint64_t{1} << 32;  // of Stream::kDecoy, beyond those of panels
 
 // Written so that a NaN fails.
 void require_within(double value, double least, double most, const char* name) {
@@ -282,6 +285,26 @@ bool is_perfect(const DecoySpec& spec) {
 }
 
 }  // namespace
+
+DecoySpec without_imperfections(DecoySpec spec) {
+  spec.seed = 0;
+  spec.angle_error_deg = spec.surface_error_mm = 0;
+  spec.missing_panels = spec.dented_panels = 0;
+  return spec;
+}
+
+DecoySpec decoy_of_body(DecoySpec spec, std::size_t body) {
+  DecoySpec perfect = without_imperfections(spec);
+  perfect.seed = spec.seed;
+  if (body > 0 && spec != perfect) spec.seed = Random({spec.seed, Stream::kDecoy, kBodyIndex + body}).bits();
+  return spec;
+}
+
+double largest_displacement_m(const DecoySpec& spec) {
+  constexpr double kLargestDeviate = 8.3, kLargestMode = 5;  // three modes of unit mean square, over sqrt3
+  return kLargestDeviate * (radians(spec.angle_error_deg) * spec.leg_m + kLargestMode * 1e-3 * spec.surface_error_mm) +
+         (spec.dented_panels > 0 ? spec.dent_depth * spec.leg_m : 0);
+}
 
 int decoy_panel_count(const DecoySpec& spec) {
   switch (spec.kind) {

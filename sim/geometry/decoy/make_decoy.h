@@ -5,6 +5,7 @@
 // mast.
 
 #include <array>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,15 @@ namespace seaglint {
 // their apexes, and stands behind the seam of a dihedral. The tether leads from the float to the water, ahead of a tow
 // and astern of others.
 TriangleMesh make_decoy(const DecoySpec& spec);
+
+// The decoy of a body of a layout, counted from 0: an individual of its own where imperfections are random, keyed by
+// (seed, Stream::kDecoy, body); body 0 has the seed itself.
+DecoySpec decoy_of_body(DecoySpec spec, std::size_t body);
+
+// The spec without its random imperfections, and the largest displacement of a point by them, m: a normal deviate of
+// 52 bits is below 8.3.
+DecoySpec without_imperfections(DecoySpec spec);
+double largest_displacement_m(const DecoySpec& spec);
 
 // Panels of the whole reflector, without those missing subtracted.
 int decoy_panel_count(const DecoySpec& spec);

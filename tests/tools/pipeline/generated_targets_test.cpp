@@ -94,6 +94,23 @@ TEST_F(GeneratedTargets, OfAShipRollByTheMetacentreOfTheirMesh) {
   EXPECT_NEAR(ship.beam / h.beam_m, 1, 0.01);
 }
 
+TEST_F(GeneratedTargets, OfALayoutAreIndividualsWhereTheirImperfectionsAreRandom) {
+  const auto models_of = [&](const std::string& imperfections) {
+    return Pipeline(parse("  a: {label: 0, decoy: {kind: octahedral, leg_m: 0.4, seed: 5" + imperfections +
+                          "}, layout: {line: {count: 3, spacing_m: 10}}, motion: {model: float}}"))
+        .targets()[0]
+        .models;
+  };
+  const auto same = models_of(", frame_mm: 10"), others = models_of(", angle_error_deg: 1");
+  EXPECT_EQ(same[0], same[1]);
+  EXPECT_EQ(same[0], same[2]);
+  const DecoySpec first{.kind = DecoyKind::kOctahedral, .leg_m = 0.4, .seed = 5, .angle_error_deg = 1};
+  for (std::size_t body = 0; body < 3; ++body)
+    EXPECT_EQ(others[body]->source->mesh.vertices, make_decoy(decoy_of_body(first, body)).vertices);
+  EXPECT_NE(others[1]->source->mesh.vertices, others[0]->source->mesh.vertices);
+  EXPECT_NE(others[1]->source->mesh.vertices, others[2]->source->mesh.vertices);
+}
+
 TEST_F(GeneratedTargets, DrawnInEverySeaAreTheSameInAnyOrder) {
   const Scenario scenario = parse(
       "  a: {label: 0, ship: {kind: inflatable_boat, detail: hull, seed: integers(1 1000)}, motion: {model: ship}}\n"

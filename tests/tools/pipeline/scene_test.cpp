@@ -131,7 +131,7 @@ TEST_F(BodyModels, OfManySizesHaveFewTriangles) {
   EXPECT_HAS(complaint(parse_scenario("seaglint: 1\ntargets:\n  t: {label: 1, mesh: fine.stl, layout: {line: {count: "
                                       "1000}, scales: {highest: 2}, heights: {lowest_m: 10, highest_m: 10}}}\n",
                                       (folder_.path() / "file.yaml").string())),
-             "file.yaml:3:71: targets.t.layout.scales: 1000 bodies of different sizes with 5120 triangles "
+             "file.yaml:3:71: targets.t.layout.scales: 1000 different bodies with 5120 triangles "
              "each: must have at most 2000000 triangles in all");
 }
 

@@ -365,6 +365,29 @@ TEST(BatteredDecoys, DifferByTheirSeed) {
     EXPECT_NE(make_decoy(battered(kind, 1)).vertices, make_decoy(battered(kind, 5)).vertices) << name_of(kind);
 }
 
+double largest_radius(const TriangleMesh& mesh) {
+  double radius = 0;
+  for (const Vec3& vertex : mesh.vertices) radius = std::max(radius, vertex.norm());
+  return radius;
+}
+
+// The range window of a data set contains every individual.
+TEST(BatteredDecoys, OfALayoutAreIndividualsWithinTheBoundOfTheirDisplacement) {
+  for (const DecoyKind kind : kKinds) {
+    SCOPED_TRACE(name_of(kind));
+    DecoySpec spec = battered(kind, 3);
+    const double bound = largest_radius(make_decoy(without_imperfections(spec))) + largest_displacement_m(spec);
+    EXPECT_EQ(decoy_of_body(spec, 0), spec);
+    EXPECT_EQ(decoy_of_body(without_imperfections(spec), 7), without_imperfections(spec));
+    std::set<std::uint64_t> seeds;
+    for (std::size_t body = 0; body < 20; ++body) {
+      const DecoySpec one = decoy_of_body(spec, body);
+      EXPECT_TRUE(seeds.insert(one.seed).second);
+      EXPECT_LE(largest_radius(make_decoy(one)), bound);
+    }
+  }
+}
+
 // A rod through the middle of every outer edge, tubes in place of bars.
 TEST(DecoyFrame, HasOneBarOrTubeForEachOuterEdge) {
   for (const auto& [kind, count] : {std::pair{DecoyKind::kIcosahedral, 30},
