@@ -46,10 +46,9 @@ void add_pyramid_mast(MeshBuilder& builder, const Vec3& foot, double height, dou
 struct DeckGear {
   double from = 0, to = 0;
   int count = 8;
-  double size = 1;  // of that of ships
+  double size = 1;  // of each, per its size on ships
 };
 
-// At random places.
 void add_deck_gear(MeshBuilder& builder, const HullSurface& hull, const DeckGear& gear, Random& random) {
   builder.begin_part("deck_gear");
   for (int k = 0; k < gear.count; ++k) {
