@@ -542,9 +542,12 @@ void visit(TargetSpec& spec, FieldVisitor& v) {
              "Translation of the turned and enlarged mesh: the waterline belongs at z = 0, the reference point at the "
              "origin.");
   if (v.optional("material", is_mesh))
-    v.text("material", spec.material, "Material: pec, a name of assets/materials, or a material file.");
+    v.text("material", spec.material,
+           "Material: pec, a name of assets/materials, or a material file. With pec, faces that no part_materials "
+           "match have the material that the mesh names, if assets/materials has it.");
   v.list("part_materials", spec.part_materials, 1000, visit,
-         "Materials of parts of the mesh; later entries take precedence.");
+         "Materials of parts of the mesh, or of its own materials; later entries take precedence; part '*' is every "
+         "face.");
   if (v.optional("sheet_thickness_mm", is_mesh))
     v.number("sheet_thickness_mm", spec.sheet_thickness_mm, within(0, 1000),
              "Thickness of open surfaces, in the diffraction of their free edges.");

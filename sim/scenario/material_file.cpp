@@ -17,6 +17,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
+// Whether a material is named by its file, not by a name of assets/materials.
+bool is_path(const std::string& name) { return name.ends_with(".yaml") || name.find('/') != std::string::npos; }
+
+fs::path file_of_name(const std::string& name) { return fs::path("assets/materials") / (name + ".yaml"); }
+
 constexpr std::size_t kMaxTerms = 64, kMaxRows = 10000, kMaxLayers = 100;
 
 void visit(DebyeSpec& spec, FieldVisitor& v) {
@@ -127,8 +132,8 @@ MaterialSpec parse_material(const std::string& yaml, const std::string& file_nam
 
 std::optional<fs::path> find_material_file(const std::string& name, const fs::path& folder, const std::string& where) {
   if (name == "pec") return std::nullopt;
-  const bool is_file = name.ends_with(".yaml") || name.find('/') != std::string::npos;
-  const fs::path path = is_file ? fs::path(name) : fs::path("assets/materials") / (name + ".yaml");
+  const bool is_file = is_path(name);
+  const fs::path path = is_file ? fs::path(name) : file_of_name(name);
   if (std::optional<fs::path> file = search_file(path.string(), folder)) return file;
   if (is_file) {
     throw InputError(fmt::format("{}: value '{}': no such material file, {}{}", where, name, places_text(folder),
@@ -145,6 +150,11 @@ std::optional<fs::path> find_material_file(const std::string& name, const fs::pa
   names.erase(std::unique(names.begin(), names.end()), names.end());
   throw InputError(fmt::format("{}: value '{}': no such material in {}, {}: {}", where, name,
                                path.parent_path().string(), places_text(folder), suggestion(name, names)));
+}
+
+std::optional<fs::path> known_material_file(const std::string& name, const fs::path& folder) {
+  if (name == "pec" || is_path(name)) return std::nullopt;
+  return search_file(file_of_name(name).string(), folder);
 }
 
 MaterialSpec find_material(const std::string& name, const fs::path& folder, const std::string& where) {

@@ -85,7 +85,11 @@ MaterialSpec parse_material(const std::string& yaml, const std::string& file_nam
 std::optional<std::filesystem::path> find_material_file(const std::string& name, const std::filesystem::path& folder,
                                                         const std::string& where);
 
-// Contents of that file; a perfect conductor for `pec`. Throws likewise.
+// The file assets/materials/NAME.yaml of the name of a material in a mesh, in the same places; nullopt for `pec`, for a
+// path and for a name without a file.
+std::optional<std::filesystem::path> known_material_file(const std::string& name, const std::filesystem::path& folder);
+
+// Contents of the file of find_material_file(); a perfect conductor for `pec`. Throws likewise.
 MaterialSpec find_material(const std::string& name, const std::filesystem::path& folder, const std::string& where);
 
 }  // namespace seaglint

@@ -53,6 +53,7 @@ py::tuple rcs(RcsRequest request, const MeshOrFile& target, int threads) {
   std::vector<std::string> warnings = request_warnings(request);
   const RcsSweep sweep = interruptible<RcsSweep>([&](const StopFlag& stop) {
     PreparedTarget prepared = prepare_mesh(request);
+    if (!prepared.materials_note.empty()) warnings.push_back(prepared.materials_note);
     warnings.insert(warnings.end(), prepared.warnings.begin(), prepared.warnings.end());
     const RcsTarget ready = select_echoes(request, std::move(prepared));
     RcsSweep solved = compute_rcs(request, ready, threads, &stop).sweep;
@@ -98,6 +99,7 @@ py::tuple compare_target(const ReferenceArguments& exports, RcsRequest request, 
     const RcsRequest solved = at_frequencies_of(tables, std::move(request));
     const RcsTarget prepared = prepare_rcs_target(solved);
     warnings = prepared.prepared.warnings;
+    if (!prepared.prepared.materials_note.empty()) warnings.push_back(prepared.prepared.materials_note);
     TargetSolutions solutions{threads, stop, [](const std::string&) {}};
     std::vector<ExportComparison> compared;
     for (const FieldTable& table : tables)

@@ -79,6 +79,7 @@ Counterpart counterpart_of(const CompareArguments& arguments, const std::vector<
     set_target_files(counterpart.request, geometry);
   }
   counterpart.target = prepare_rcs_target(counterpart.request);
+  print_note(counterpart.target->prepared.materials_note);
   warn(counterpart.target->prepared.warnings);
   return counterpart;
 }

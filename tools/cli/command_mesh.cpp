@@ -75,7 +75,11 @@ std::string material_lines(const TriangleMesh& mesh) {
   for (std::uint16_t m : mesh.triangle_material) ++count[m];
   std::string text = fmt::format("materials  {}\n", mesh.materials.size());
   for (std::size_t m = 0; m < count.size(); ++m) {
-    text += fmt::format("  {:<24} {:>7} triangles\n", on_one_line(mesh.materials[m].name), count[m]);
+    const std::string& name = mesh.materials[m].name;
+    const char* use = name == Material{}.name         ? ""
+                      : known_material_file(name, {}) ? ", of assets/materials"
+                                                      : ", no name of assets/materials: perfect conductor";
+    text += fmt::format("  {:<24} {:>7} triangles{}\n", on_one_line(name), count[m], use);
   }
   return text;
 }
@@ -420,6 +424,7 @@ void add_sensitivity(CommandOptions& mesh, CommandContext& context) {
     context.work = [arguments, noise_um, &context] {
       const MeshSensitivity sensitivity =
           mesh_sensitivity(arguments->make_request(), 1e-6 * *noise_um, context.threads, &context.stop);
+      print_note(sensitivity.materials_note);
       warn(sensitivity.warnings);
       print_out("{}", sensitivity_table(sensitivity));
     };

@@ -55,6 +55,7 @@ void run_rcs_cross_check(const RcsArguments& arguments, const CommandContext& co
   request.method = SolverMethod::kRays;  // has the settings of both methods
   std::vector<std::string> warnings = request_warnings(request);
   PreparedTarget prepared = prepare_mesh(request);
+  print_note(prepared.materials_note);
   warnings.insert(warnings.end(), prepared.warnings.begin(), prepared.warnings.end());
   warn(warnings);
   const RcsTarget target = select_echoes(request, std::move(prepared));
@@ -243,6 +244,7 @@ void run_rcs(const RcsArguments& arguments, const CommandContext& context) {
   const RcsSweep asked = requested_sweep(request);
   std::vector<PairedCut> cuts = pair_with_all(asked, read_and_report(arguments.reference));
   PreparedTarget prepared = prepare_mesh(request);
+  print_note(prepared.materials_note);
   warnings.insert(warnings.end(), prepared.warnings.begin(), prepared.warnings.end());
   warn(prepared.warnings);
   require_images(arguments, request, prepared.mesh);

@@ -454,8 +454,10 @@ std::optional<std::string> suggest_other_transmitted(const TargetSolution& solut
                           : " v");
 }
 
-bool is_perfect_conductor(const RcsRequest& request) {
-  return std::ranges::all_of(request.materials, [](const MaterialChoice& choice) { return choice.material == "pec"; });
+bool is_perfect_conductor(const PreparedTarget& target) {
+  return std::ranges::all_of(target.materials, [](const MaterialSpec& material) {
+    return material.kind == SurfaceKind::kPec || material.kind == SurfaceKind::kSubmerged;
+  });
 }
 
 // Exact and closed-form values of a target that is recognised, and trials where the agreement is poor.
@@ -477,7 +479,7 @@ void judge(const TargetSolution& solution, const ComparisonSettings& settings, E
   if (other_unit) comparison.warnings.clear();
   for (std::string& sentence : trial_sentences(comparison.trials)) comparison.warnings.push_back(std::move(sentence));
   if (other_unit) return;
-  if (!is_perfect_conductor(solution.request)) return;
+  if (!is_perfect_conductor(solution.target.prepared)) return;
   comparison.known = known_values(comparison.cuts, canonical_bodies(solution.target.prepared.mesh), settings.floor_db);
 }
 

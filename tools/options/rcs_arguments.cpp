@@ -431,7 +431,9 @@ void RcsArguments::add_detail_to(CommandOptions& command) {
       .add_option(
           "--material", materials,
           "Material: pec, a name in assets/materials, or a file; PART=NAME for one part, PART* for every part with "
-          "that prefix (repeatable)")
+          "that prefix, * for every face (repeatable); faces that none matches have the material that the mesh names, "
+          "if "
+          "assets/materials has it")
       .repeatable("[PART=]NAME");
 }
 

@@ -64,13 +64,16 @@ TargetSource source_of(const Scenario& scenario, const TargetSpec& spec, double 
                       .highest_hz = 1e9 * highest_ghz(scenario.radar),
                       .materials_place = place_of(scenario, path),
                       .frequencies_place = place_of(scenario, path),
-                      .mesh_place = place_of(scenario, path + "." + source_key_of(spec))};
+                      .mesh_place = place_of(scenario, path + "." + source_key_of(spec)),
+                      .all_conductor = "part_materials: [{part: '*', material: pec}]"};
   for (std::size_t i = 0; i < spec.part_materials.size(); ++i) {
     const PartMaterialSpec& part = spec.part_materials[i];
     source.materials.push_back(
         {part.part, part.material, place_of(scenario, fmt::format("{}.part_materials.{}.material", path, i))});
   }
-  source.materials.push_back({std::nullopt, spec.material, place_of(scenario, path + ".material")});
+  // The default leaves its faces the materials of the mesh.
+  if (spec.material != Material{}.name)
+    source.materials.push_back({std::nullopt, spec.material, place_of(scenario, path + ".material")});
   return source;
 }
 

@@ -80,8 +80,6 @@ std::span<const Target> own_targets(const Pipeline& pipeline) {
   return std::span(pipeline.targets()).first(pipeline.scenario().targets.size());
 }
 
-void print_note(const std::string& note) { print_error(on_one_line(note) + "\n"); }
-
 // Why a body of the target with this box hovers; empty where it does not.
 std::string hovering_warning(const TargetSpec& target, const Bounds& box) {
   const bool is_ship = target.motion.model == MotionModel::kShip || target.motion.model == MotionModel::kRao;
@@ -103,6 +101,10 @@ std::string hovering_warning(const TargetSpec& target, const Bounds& box) {
 
 }  // namespace
 
+void print_note(const std::string& note) {
+  if (!note.empty()) print_error(on_one_line(note) + "\n");
+}
+
 void warn(std::span<const std::string> sentences) {
   for (const std::string& sentence : sentences)
     print_error(fmt::format("seaglint: warning: {}\n", on_one_line(sentence)));
@@ -112,6 +114,7 @@ void report_scenario(const Pipeline& pipeline, const ReportScope& scope) {
   const Scenario& scenario = pipeline.scenario();
   for (const std::string& note : motion_file_notes(own_targets(pipeline))) print_note(note);
   if (scope.rest) report_rest(scenario, target_motions(pipeline, trial_seas(pipeline)));
+  for (const std::string& note : material_notes(own_targets(pipeline))) print_note(note);
   warn(mesh_warnings(pipeline));
   warn(motion_warnings(own_targets(pipeline)));
   report_sea(scenario, pipeline.plan().sea_states());
@@ -135,6 +138,16 @@ std::vector<std::string> motion_file_notes(std::span<const Target> targets) {
   for (const Target& target : targets) {
     const std::string reading = target.models.empty() ? "" : motion_file_reading(*target.models.front()->motion);
     if (!reading.empty()) notes.push_back(fmt::format("targets.{}.motion.file: {}", target.spec.name, reading));
+  }
+  return notes;
+}
+
+std::vector<std::string> material_notes(std::span<const Target> targets) {
+  std::vector<std::string> notes;
+  for (const Target& target : targets) {
+    const std::string note = target.models.empty() ? "" : target.models.front()->prepared->materials_note;
+    if (!note.empty())
+      notes.push_back(fmt::format("targets.{}.{}: {}", target.spec.name, source_key_of(target.spec), note));
   }
   return notes;
 }

@@ -15,6 +15,9 @@ namespace seaglint {
 
 class DatasetReader;
 
+// Prints a sentence that is no warning; nothing for an empty one.
+void print_note(const std::string& note);
+
 // Prints each sentence as a warning.
 void warn(std::span<const std::string> sentences);
 
@@ -34,6 +37,9 @@ void report_sea(const Scenario& scenario, std::span<const SeaState> states);
 
 // Columns, units and conventions by which the motion file of each target was read, a sentence for each.
 std::vector<std::string> motion_file_notes(std::span<const Target> targets);
+
+// A sentence for each target with materials that its mesh names.
+std::vector<std::string> material_notes(std::span<const Target> targets);
 
 // Prints motion_file_notes(), a line each, and motion_warnings().
 void report_motion(std::span<const Target> targets);

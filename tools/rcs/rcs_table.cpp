@@ -27,12 +27,22 @@ namespace seaglint {
 
 namespace {
 
-std::string materials_text(const std::vector<MaterialChoice>& materials) {
-  if (materials.empty()) return "pec";
+// The choices of materials, and the names of those of the mesh, which follow the chosen ones (assign_own_materials()).
+std::string materials_text(const std::vector<MaterialChoice>& chosen, std::span<const MaterialSpec> materials) {
   std::vector<std::string> choices;
-  for (const MaterialChoice& choice : materials)
+  std::size_t parts = 0;
+  for (const MaterialChoice& choice : chosen) {
     choices.push_back(choice.part ? *choice.part + "=" + choice.material : choice.material);
-  return on_one_line(fmt::format("{}", fmt::join(choices, " ")));
+    if (choice.part) ++parts;
+  }
+  if (choices.empty()) choices.emplace_back("pec");
+  std::string text = fmt::format("{}", fmt::join(choices, " "));
+  std::vector<std::string> own;
+  for (std::size_t m = 1 + parts; m < materials.size(); ++m) {
+    if (materials[m].kind != SurfaceKind::kSubmerged) own.push_back(materials[m].name);
+  }
+  if (!own.empty()) text += fmt::format(", of the mesh: {}", fmt::join(own, " "));
+  return on_one_line(text);
 }
 
 // Head line on the sea under the target; empty without it.
@@ -81,8 +91,8 @@ std::string rcs_heading(const RcsRequest& request, const Scatterer& scatterer, c
       "of "
       "CONVENTIONS.md\n{}",
       kVersion, made_by, on_one_line(request.target.string()), on_one_line(mesh_text(request)),
-      scatterer.facets().size(), scatterer.radius(), materials_text(request.materials), text_of(request.selection),
-      sea_line(request.sea), request.max_bounces, request.edges ? "on" : "off",
+      scatterer.facets().size(), scatterer.radius(), materials_text(request.materials, scatterer.materials()),
+      text_of(request.selection), sea_line(request.sea), request.max_bounces, request.edges ? "on" : "off",
       request.crease_deg ? fmt::format("{:.6g}", *request.crease_deg) : "auto", request.sheet_thickness_mm,
       request.range_m, request.min_patch_m > 0 ? request.min_patch_m : min_patch(scatterer),
       method_text(request, scatterer), request.like.empty() ? "" : ", like " + request.like,

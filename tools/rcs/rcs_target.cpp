@@ -136,7 +136,8 @@ PreparedTarget prepare_mesh(const RcsRequest& request) {
                                       .highest_hz = *highest,
                                       .materials_place = "--material",
                                       .frequencies_place = "",
-                                      .mesh_place = request.target.string()});
+                                      .mesh_place = request.target.string(),
+                                      .all_conductor = "--material '*=pec'"});
   ScattererSettings settings{
       .waterline_m = request.waterline_m,
       .crease_rad = request.crease_deg ? std::optional(radians(*request.crease_deg)) : std::nullopt,

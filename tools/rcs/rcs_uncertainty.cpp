@@ -472,6 +472,7 @@ MeshSensitivity mesh_sensitivity(const RcsRequest& request, double noise_m, int 
   const double highest_hz = *std::ranges::max_element(request.frequency_hz);
   MeshSensitivity result;
   result.warnings = target.warnings;
+  result.materials_note = target.materials_note;
   result.noise_m = noise_m > 0 ? noise_m : kNoiseOfAWavelength * kSpeedOfLight / highest_hz;
   result.shift_m = kShiftOfTheRadius * target.scatterer->radius();
   Views views(request, target, thread_count(threads), stop);

@@ -119,6 +119,7 @@ struct MeshSensitivity {
   double noise_m = 0, shift_m = 0;  // of the change: standard deviation in every coordinate; distance
   std::vector<ViewSensitivity> views;
   std::vector<std::string> warnings;  // about the mesh, its edges and bars
+  std::string materials_note;         // of TargetMesh
 };
 
 // The request's mesh, materials, views and frequencies (one antenna, no sea, no cavities). noise_m = 0: a 1900th of the

@@ -2,6 +2,7 @@
 #include "sim/geometry/placement/target_mesh.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -95,7 +96,9 @@ std::vector<MaterialSpec> assign_materials(TriangleMesh& mesh, const MaterialSpe
       if (matches) last = number;
       return matches;
     };
-    bool found = false, found_material = false;
+    // A mesh without parts has faces, too.
+    bool found = prefix && name.empty(), found_material = false;
+    if (found) of_file_material.assign(std::max<std::size_t>(1, of_file_material.size()), number);
     for (std::size_t part = 0; part < of_part.size(); ++part)
       found = applies(mesh.part_names[part], of_part[part]) || found;
     // Faces without a material of their own have the default's name.
@@ -118,6 +121,28 @@ std::vector<MaterialSpec> assign_materials(TriangleMesh& mesh, const MaterialSpe
     if (t < mesh.triangle_part.size()) material = std::max(material, of_part[mesh.triangle_part[t]]);
   }
   return materials;
+}
+
+std::vector<std::string> assign_own_materials(TriangleMesh& mesh, std::vector<MaterialSpec>& materials,
+                                              const TriangleMesh& before, const std::filesystem::path& folder) {
+  std::vector<std::string> names;
+  // Number of the material in `materials`, by its number in the mesh; 0: none.
+  std::vector<std::optional<std::uint16_t>> number(before.materials.size());
+  for (std::size_t t = 0; t < before.triangle_material.size(); ++t) {
+    if (mesh.triangle_material[t] != 0) continue;
+    const std::size_t own = before.triangle_material[t];
+    if (!number[own]) {
+      number[own] = 0;
+      if (const auto file = known_material_file(before.materials[own].name, folder)) {
+        number[own] = static_cast<std::uint16_t>(materials.size());
+        names.push_back(before.materials[own].name);
+        materials.push_back(read_material(*file));
+        mesh.materials.push_back({materials.back().name});
+      }
+    }
+    mesh.triangle_material[t] = *number[own];
+  }
+  return names;
 }
 
 void cut_at_sea_level(TriangleMesh& mesh, std::vector<MaterialSpec>& materials, double height) {
@@ -209,21 +234,41 @@ auto at_place(const std::string& place, const Work& work) {
   }
 }
 
-std::vector<MaterialSpec> choose_materials(const TargetSource& source, TriangleMesh& mesh) {
+// The target with its materials and the note on those of its mesh.
+void choose_materials(const TargetSource& source, TargetMesh& target) {
   MaterialSpec all;
   std::vector<PartMaterial> parts;
+  bool is_whole_chosen = false;
   for (const MaterialChoice& choice : source.materials) {
     const MaterialSpec material = find_material(choice.material, source.material_folder, choice.place);
     if (choice.part) {
       parts.push_back({*choice.part, material});
     } else {
       all = material;
+      is_whole_chosen = true;
     }
   }
-  std::vector<MaterialSpec> materials =
-      at_place(source.materials_place, [&] { return assign_materials(mesh, all, parts); });
-  at_place(source.frequencies_place, [&] { check_frequencies(materials, source.lowest_hz, source.highest_hz); });
-  return materials;
+  TriangleMesh before;  // without its faces
+  before.materials = target.mesh.materials, before.triangle_material = target.mesh.triangle_material;
+  std::vector<std::string> own;
+  at_place(source.materials_place, [&] {
+    target.materials = assign_materials(target.mesh, all, parts);
+    if (!is_whole_chosen) own = assign_own_materials(target.mesh, target.materials, before, source.material_folder);
+  });
+  const std::span<const MaterialSpec> materials = target.materials;
+  const std::size_t chosen = materials.size() - own.size();
+  at_place(source.frequencies_place, [&] {
+    check_frequencies(materials.first(chosen), source.lowest_hz, source.highest_hz);
+    try {
+      check_frequencies(materials.subspan(chosen), source.lowest_hz, source.highest_hz);
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("{}; the mesh names it: {} makes every face a perfect conductor", error.what(),
+                                   source.all_conductor));
+    }
+  });
+  if (!own.empty())
+    target.materials_note = fmt::format("materials as the mesh names them: {}; {} makes every face a perfect conductor",
+                                        fmt::join(own, ", "), source.all_conductor);
 }
 
 }  // namespace
@@ -232,8 +277,9 @@ TargetMesh load_target_mesh(const TargetSource& source) {
   TargetMesh target{placed_near(source.loaded ? *source.loaded : read_mesh(source.mesh, source.placement.unit),
                                 source.placement, source.mesh),
                     {},
+                    {},
                     {}};
-  target.materials = choose_materials(source, target.mesh);
+  choose_materials(source, target);
   at_place(source.mesh_place, [&] {
     RepairedMesh repaired = diagnose_and_repair(target.mesh);
     target.warnings = diagnostic_messages(repaired.health);

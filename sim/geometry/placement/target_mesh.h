@@ -36,24 +36,26 @@ std::string placement_text(const MeshPlacement& placement);
 // z = 0: the offset is in proportion.
 MeshPlacement with_scale(MeshPlacement placement, double scale);
 
-// Material of the whole target (no part), of one part, or with a trailing * of every part whose name has that prefix.
-// The last choice that matches a part applies.
+// Material of the whole target (no part), of one part, or with a trailing * of every part whose name has that prefix,
+// * alone of every face. The last choice that matches a part applies.
 struct MaterialChoice {
   std::optional<std::string> part;
   std::string material = "pec";  // name in assets/materials, or a file
   std::string place;             // source of the choice, prefix of error messages
 };
 
-// Mesh file, or a mesh, with the materials of its surfaces.
+// Mesh file, or a mesh, with the materials of its surfaces. Faces that no choice matches have the material of
+// assets/materials that is named as their material in the mesh, others are perfect conductors.
 struct TargetSource {
   std::filesystem::path mesh;
   MeshPlacement placement;
   std::shared_ptr<const TriangleMesh> loaded;  // in metres, in place of the file and its unit; may be null
-  std::vector<MaterialChoice> materials;       // empty: perfect conductor
+  std::vector<MaterialChoice> materials;       // of users; one of the whole target leaves none to the mesh
   std::filesystem::path material_folder;       // folder searched first for material files
   double lowest_hz = 1e9, highest_hz = 1e9;
   // Prefixes of error messages about materials, their frequencies and the mesh; empty: none.
   std::string materials_place, frequencies_place, mesh_place;
+  std::string all_conductor;  // what a user writes for a perfect conductor throughout, in messages
 };
 
 // Mesh in the form the solver requires, with its materials.
@@ -61,6 +63,7 @@ struct TargetMesh {
   TriangleMesh mesh;
   std::vector<MaterialSpec> materials;  // in the order of mesh.materials
   std::vector<std::string> warnings;    // one sentence per defect or possible mistake of the mesh
+  std::string materials_note;           // which materials are the mesh's; empty: none
 };
 
 // Reads the mesh, assigns its materials and repairs it. Throws InputError for a mesh that is missing, invalid or
@@ -69,7 +72,8 @@ struct TargetMesh {
 TargetMesh load_target_mesh(const TargetSource& source);
 
 struct PartMaterial {
-  std::string part;  // name of a part, else of a material of the mesh's file; with a trailing *, all with that prefix
+  // Name of a part, else of a material of the mesh's file; with a trailing *, all with that prefix; *: every face.
+  std::string part;
   MaterialSpec material;
 };
 
@@ -78,6 +82,13 @@ struct PartMaterial {
 // for a name that neither parts nor materials of the mesh have.
 std::vector<MaterialSpec> assign_materials(TriangleMesh& mesh, const MaterialSpec& all,
                                            std::span<const PartMaterial> parts);
+
+// Gives the faces that still have materials[0] the material of assets/materials that is named as their material in
+// `before`: materials and triangle_material of the mesh before assign_materials(). Appends these to mesh.materials and
+// `materials`, and returns their names. folder: searched first for material files. Throws InputError for an invalid
+// file.
+std::vector<std::string> assign_own_materials(TriangleMesh& mesh, std::vector<MaterialSpec>& materials,
+                                              const TriangleMesh& before, const std::filesystem::path& folder);
 
 // Cuts the mesh at z = height, m. Triangles below become a submerged material, appended to mesh.materials and
 // `materials`: they occlude but neither reflect nor radiate.

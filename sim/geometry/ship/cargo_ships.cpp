@@ -20,6 +20,9 @@ struct AftHouse {
   int tiers;
 };
 
+// Of the casing behind the house, with its gap.
+double casing_length_m(double ship_length) { return std::min(0.055 * ship_length, 13.0); }
+
 // Accommodation block with funnel, masts, domes, whips, liferafts and free-fall boat. Returns the wheelhouse.
 Deckhouse add_aft_house(MeshBuilder& builder, const HullSurface& hull, const ShipDesign& ship, const AftHouse& place,
                         Random& random) {
@@ -39,7 +42,7 @@ Deckhouse add_aft_house(MeshBuilder& builder, const HullSurface& hull, const Shi
                             .rail_width = ship.rail_width};
   const Deckhouse bridge = add_accommodation(builder, block, random);
   // Funnel on a casing behind the house.
-  const double behind = std::max(aft - 0.055 * length, hull.lines().stern_at_deck + 0.02 * length);
+  const double behind = std::max(aft - casing_length_m(length), hull.lines().stern_at_deck + 0.02 * length);
   const double width = 0.22 * breadth, roof = deck + 2.8 * place.tiers;
   const Deckhouse funnel{.name = "funnel",
                          .aft = behind,
@@ -123,10 +126,12 @@ void add_container_ship(MeshBuilder& builder, const HullSurface& hull, const Shi
   const double from = 0.40 * length;
   add_forecastle(builder, hull, ship, from, 3.0, random);
   const double first = -0.475 * length, last = 0.39 * length;
-  const double funnel = house_aft - 0.055 * length - 2;
+  const double funnel = house_aft - casing_length_m(length) - 2;
   int bay = 0;
   for (double x = first; x + kBox < last; x += kPitch) {
-    if (x + kBox > funnel && x < house_fore + 2.5) continue;
+    // The bays behind end at the casing, those ahead begin at the house.
+    if (x + kBox > funnel && x < house_fore + 2.5) x = house_fore + 2.5;
+    if (x + kBox > last) break;
     const double middle = x + 0.5 * kBox, deck = hull.deck_height(middle), hatch = deck + 1.7;
     const double breadth = std::min(hull.deck_half_breadth(x), hull.deck_half_breadth(x + kBox));
     const int rows = static_cast<int>(std::floor(2 * (breadth - 0.4) / kRow));
@@ -313,9 +318,9 @@ void add_ferry(MeshBuilder& builder, const HullSurface& hull, const ShipDesign& 
                         .fore_chamfer = 0.12 * breadth + 1,
                         .aft_chamfer = 0.6};
   add_plated_house(builder, upper, plating, random);
-  // Rows of windows: panes 3 cm proud of the side.
+  // Rows of windows: panes 3 cm proud of the side, of the lower block along its uppermost deck, where it is parallel.
   builder.begin_part("windows");
-  builder.begin_material("glass");
+  builder.begin_material("window_glass");
   const double pane_height = 1.0;
   for (int deck = 0; deck < decks; ++deck) {
     const double sill = upper.foot + 1.4 + 2.9 * deck;
@@ -323,6 +328,16 @@ void add_ferry(MeshBuilder& builder, const HullSurface& hull, const ShipDesign& 
       for (double x = upper.aft + 3; x < upper.fore - 6; x += 2.9)
         add_box(builder, upper.on_side(side, x, sill) * Pose{{-0.02, 0, 0}, Mat3::Identity()}, {0.1, 1.7, pane_height});
     }
+  }
+  const Deckhouse lower{.name = "superstructure",
+                        .half_width = breadth - 0.05,
+                        .foot = hull.deck_height(0) - 0.08,
+                        .side_slope = degrees(std::atan(0.1 / (lower_height + 0.08)))};
+  for (double side : {1.0, -1.0}) {
+    for (double x = -0.36 * length; x < 0.2 * length; x += 2.9)
+      add_box(builder,
+              lower.on_side(side, x, hull.deck_height(x) + lower_height - 1.7) * Pose{{-0.02, 0, 0}, Mat3::Identity()},
+              {0.1, 1.7, pane_height});
   }
   builder.begin_material("pec");
   const Accommodation bridge{.aft = fore - std::clamp(0.1 * length, 9.0, 16.0),
@@ -341,18 +356,20 @@ void add_ferry(MeshBuilder& builder, const HullSurface& hull, const ShipDesign& 
   add_pole_mast(builder, {wheelhouse.aft + 2, 0, wheelhouse.roof}, between(random, 8, 11), 2, random);
   for (double side : {1.0, -1.0})
     add_dome(builder, {wheelhouse.aft + 1, side * 0.5 * wheelhouse.half_width, wheelhouse.roof},
-             between(random, 0.7, 1.2));
+             between(random, 0.7, 1.2) * std::clamp(length / 130, 0.5, 1.0));
   // Funnels: one broad one amidships, or one at either side.
   const bool has_two = random.uniform() < 0.5;
   for (double side : {1.0, -1.0}) {
     if (!has_two && side < 0) continue;
-    const double x = -0.2 * length, y = has_two ? side * 0.6 * half : 0, w = has_two ? 1.6 : 3.0;
+    const double x = -0.2 * length, y = has_two ? side * 0.6 * half : 0;
+    const double size = decks == 1 ? 0.65 : 1, w = (has_two ? 1.6 : 3.0) * size, top = upper.roof + 7.5 * size;
     builder.begin_part("funnel");
     add_plated_frustum(builder, shifted(octagon(x, x + 0.05 * length, w, 0.8, 0.8, upper.roof - 0.2), {0, y, 0}),
-                       shifted(octagon(x - 1.2, x + 0.035 * length, 0.85 * w, 0.7, 0.7, upper.roof + 7.5), {0, y, 0}),
-                       plating, random);
+                       shifted(octagon(x - 1.2, x + 0.035 * length, 0.85 * w, 0.7, 0.7, top), {0, y, 0}), plating,
+                       random);
     for (double dx : {0.8, 1.9, 3.0})
-      add_cone(builder, {x + dx, y, upper.roof + 7.3}, {x + dx - 0.4, y, upper.roof + 8.6}, 0.4, 0.38, 12);
+      add_cone(builder, {x + dx * size, y, top - 0.2}, {x + dx * size - 0.4, y, top + 1.1}, 0.4 * size, 0.38 * size,
+               12);
   }
   if (ship.spec.detail == ShipDetail::kHull) return;
   // Lifeboats in davits along both sides of the upper block, above the lower block's roof.

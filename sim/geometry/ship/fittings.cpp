@@ -59,12 +59,12 @@ void add_house(MeshBuilder& builder, const Deckhouse& house) {
   add_frustum(builder, house.ring(house.foot), house.ring(house.roof));
 }
 
-// A row of panes 3 cm in front of the bridge's front and front corners.
+// A row of panes 3 cm in front of the bridge's front and front corners, each at least half a metre wide.
 void add_windows(MeshBuilder& builder, const Deckhouse& bridge) {
-  const double low = bridge.roof - 1.7, high = bridge.roof - 0.7;
-  const auto bottom = bridge.ring(low), top = bridge.ring(high);
-  constexpr std::array<int, 5> kPanes{5, 3, 6, 3, 5};  // side, corner, front, corner, side
-  for (std::size_t w = 0; w < kPanes.size(); ++w) {
+  const double storey = std::min(1.0, (bridge.roof - bridge.foot) / 2.5);
+  const auto bottom = bridge.ring(bridge.roof - 1.7 * storey), top = bridge.ring(bridge.roof - 0.7 * storey);
+  constexpr std::array<int, 5> kMostPanes{5, 3, 6, 3, 5};  // side, corner, front, corner, side
+  for (std::size_t w = 0; w < kMostPanes.size(); ++w) {
     const std::size_t i = 1 + w;
     Vec3 a = bottom[i], b = bottom[i + 1], c = top[i + 1], d = top[i];
     // The side walls are glazed in their forward third only.
@@ -75,8 +75,9 @@ void add_windows(MeshBuilder& builder, const Deckhouse& bridge) {
       b = a + 0.38 * (b - a), c = d + 0.38 * (c - d);
     }
     const Vec3 out = (b - a).cross(d - a).normalized();
-    for (int k = 0; k < kPanes[w]; ++k) {
-      const double from = (k + 0.08) / kPanes[w], to = (k + 0.92) / kPanes[w];
+    const int panes = std::clamp(static_cast<int>((b - a).norm() / 0.5), 1, kMostPanes[w]);
+    for (int k = 0; k < panes; ++k) {
+      const double from = (k + 0.08) / panes, to = (k + 0.92) / panes;
       const auto at = [&](double s, const Vec3& left, const Vec3& right) -> Vec3 {
         return left + s * (right - left) + 0.03 * out;
       };
@@ -87,7 +88,7 @@ void add_windows(MeshBuilder& builder, const Deckhouse& bridge) {
 
 void add_glass_windows(MeshBuilder& builder, const Deckhouse& bridge) {
   builder.begin_part("windows");
-  builder.begin_material("glass");
+  builder.begin_material("window_glass");
   add_windows(builder, bridge);
   builder.begin_material("pec");
 }
@@ -119,12 +120,17 @@ void add_doors(MeshBuilder& builder, const Deckhouse& house, double height, cons
 
 void add_liferafts(MeshBuilder& builder, const Deckhouse& house, double z, const std::vector<double>& places,
                    int per_rack) {
+  // A single one on a narrow roof is a canister for six, not for twenty-five.
+  const double size = per_rack == 1 && house.half_width_at(z) < 2 ? 0.6 : 1;
   for (double side : {1.0, -1.0}) {
     for (double x : places) {
       for (int k = 0; k < per_rack; ++k) {
-        const Vec3 middle(x + 1.7 * (k - 0.5 * (per_rack - 1)), side * (house.half_width_at(z) - 0.55), z + 0.72);
-        add_cone(builder, middle - Vec3(0.68, 0, 0), middle + Vec3(0.68, 0, 0), 0.34, 0.34, 12);
-        for (double at : {-0.45, 0.45}) add_box(builder, upright(middle + Vec3(at, 0, -0.85)), {0.1, 0.72, 0.6});
+        const Vec3 middle(x + 1.7 * (k - 0.5 * (per_rack - 1)), side * (house.half_width_at(z) - 0.55 * size),
+                          z + 0.72 * size);
+        const Vec3 half(0.68 * size, 0, 0);
+        add_cone(builder, middle - half, middle + half, 0.34 * size, 0.34 * size, 12);
+        for (double at : {-0.45, 0.45})
+          add_box(builder, upright(middle + Vec3(at, 0, -0.85) * size), Vec3(0.1, 0.72, 0.6) * size);
       }
     }
   }
@@ -169,9 +175,9 @@ void add_locker(MeshBuilder& builder, const Pose& pose, const Vec3& size) {
 }
 
 // Ventilator: a trunk with a hood that opens to one side.
-void add_ventilator(MeshBuilder& builder, const Pose& pose, double height) {
-  add_box(builder, pose * upright({0, 0, -0.1}), {0.6, 0.6, height + 0.12});
-  add_open_box(builder, pose * upright({0.15, 0, height}), {0.95, 0.75, 0.65}, 0.03);
+void add_ventilator(MeshBuilder& builder, const Pose& pose, double height, double size) {
+  add_box(builder, pose * upright({0, 0, -0.1}), {0.6 * size, 0.6 * size, height + 0.12});
+  add_open_box(builder, pose * upright({0.15 * size, 0, height}), Vec3(0.95, 0.75, 0.65) * size, 0.03);
 }
 
 // Two upright plates at right angles on a bed plate: screens, splinter shields, ready-use stowages.
@@ -231,14 +237,15 @@ void add_platform(MeshBuilder& builder, const Vec3& centre, double half, double 
 // A yard with its fore-and-aft brackets and dipoles at the ends.
 void add_yard(MeshBuilder& builder, const Vec3& centre, double half_span, double width) {
   const Vec3 tip(0, half_span, 0.25 * half_span * 0.3);
+  const double size = std::min(1.0, half_span / 1.3);  // of what stands on it
   for (double side : {1.0, -1.0}) {
     const Vec3 end(0, side * tip.y(), tip.z());
     add_bar(builder, centre, centre + end, width);
-    add_bar(builder, centre - Vec3(0, 0, 0.9), centre + 0.6 * end, 0.6 * width);
+    add_bar(builder, centre - Vec3(0, 0, 0.9 * size), centre + 0.6 * end, 0.6 * width);
     for (double s : {0.55, 0.8, 0.97}) {
       const Vec3 foot = centre + s * end;
-      add_cone(builder, foot - Vec3(0, 0, 0.1), foot + Vec3(0, 0, 1.0), 0.05, 0.05, 8);
-      add_box(builder, upright(foot + Vec3(0, 0, -0.32)), {0.22, 0.22, 0.26});
+      add_cone(builder, foot - Vec3(0, 0, 0.1 * size), foot + Vec3(0, 0, size), 0.05 * size, 0.05 * size, 8);
+      add_box(builder, upright(foot + Vec3(0, 0, -0.32 * size)), Vec3(0.22, 0.22, 0.26) * size);
     }
   }
 }
@@ -295,33 +302,35 @@ void add_plated_house(MeshBuilder& builder, const Deckhouse& house, const Platin
 }
 
 void add_radar_scanner(MeshBuilder& builder, const Vec3& foot, double length, double yaw) {
-  add_cone(builder, foot - Vec3(0, 0, 0.1), foot + Vec3(0, 0, 0.45), 0.22, 0.18, 10);
-  add_box(builder, upright(foot + Vec3(0, 0, 0.42), yaw), {0.2, length, 0.22});
+  const double size = std::min(1.0, length / 1.6);
+  add_cone(builder, foot - Vec3(0, 0, 0.1), foot + Vec3(0, 0, 0.45 * size), 0.22 * size, 0.18 * size, 10);
+  add_box(builder, upright(foot + Vec3(0, 0, 0.42 * size), yaw), {0.2 * size, length, 0.22 * size});
 }
 
 void add_pole_mast(MeshBuilder& builder, const Vec3& foot, double height, int scanners, Random& random) {
-  const double radius = 0.1 + 0.02 * height;
+  const double size = std::min(1.0, height / 5), radius = 0.1 * size + 0.02 * height;
   add_cone(builder, foot - Vec3(0, 0, 0.3), foot + Vec3(0, 0, height), radius, 0.4 * radius, 12);
   add_yard(builder, foot + Vec3(0, 0, 0.78 * height), std::min(3.2, 0.32 * height), 0.6 * radius);
   for (int k = 0; k < scanners; ++k) {
     // Each on a platform ahead of the mast.
-    const Vec3 at = foot + Vec3(radius + 0.5, 0, (0.35 + 0.22 * k) * height);
-    add_bar(builder, foot + Vec3(0, 0, at.z() - foot.z() - 0.06), at - Vec3(0, 0, 0.06), 0.16);
-    add_box(builder, upright(at - Vec3(0, 0, 0.08)), {0.9, 1.1, 0.06});
-    add_radar_scanner(builder, at, k == 0 ? 2.4 : 1.8, 2 * kPi * random.uniform());
+    const Vec3 at = foot + Vec3(radius + 0.5 * size, 0, (0.35 + 0.22 * k) * height);
+    add_bar(builder, foot + Vec3(0, 0, at.z() - foot.z() - 0.06), at - Vec3(0, 0, 0.06), 0.16 * size);
+    add_box(builder, upright(at - Vec3(0, 0, 0.08)), {0.9 * size, 1.1 * size, 0.06});
+    add_radar_scanner(builder, at, (k == 0 ? 2.4 : 1.8) * size, 2 * kPi * random.uniform());
   }
   // Lights on brackets, all round.
   for (double up : {0.55, 0.66, 0.9, 0.97}) {
     const double yaw = 2 * kPi * random.uniform();
     const Vec3 out = radius * 1.6 * Vec3(std::cos(yaw), std::sin(yaw), 0), at = foot + Vec3(0, 0, up * height) + out;
-    add_box(builder, upright(at - out, yaw), {2.6 * radius, 0.2, 0.03});
-    add_cone(builder, at, at + Vec3(0, 0, 0.25), 0.09, 0.09, 8);
+    add_box(builder, upright(at - out, yaw), {2.6 * radius, 0.2 * size, 0.03});
+    add_cone(builder, at, at + Vec3(0, 0, 0.25 * size), 0.09 * size, 0.09 * size, 8);
   }
 }
 
 void add_dome(MeshBuilder& builder, const Vec3& foot, double radius) {
-  add_cone(builder, foot - Vec3(0, 0, 0.2), foot + Vec3(0, 0, 0.9), 0.5 * radius, 0.4 * radius, 12);
-  add_sphere(builder, foot + Vec3(0, 0, 0.8 + radius), radius, 2);
+  const double stand = std::min(0.9, 3 * radius);
+  add_cone(builder, foot - Vec3(0, 0, 0.2), foot + Vec3(0, 0, stand), 0.5 * radius, 0.4 * radius, 12);
+  add_sphere(builder, foot + Vec3(0, 0, stand - 0.1 + radius), radius, 2);
 }
 
 void add_whip(MeshBuilder& builder, const Vec3& foot, double height) {
@@ -539,7 +548,7 @@ Deckhouse add_accommodation(MeshBuilder& builder, const Accommodation& block, Ra
     add_plated_house(builder, house, block.plating, random);
     const double sill = house.roof - 1.55;
     builder.begin_part("windows");
-    builder.begin_material("glass");
+    builder.begin_material("window_glass");
     add_panes(builder, house, 3, sill, 0.7, std::max(2, static_cast<int>(2 * half / 2.6)));
     for (std::size_t wall : {1u, 5u})
       add_panes(builder, house, wall, sill, 0.7, std::max(2, static_cast<int>((fore - aft) / 3)));

@@ -53,22 +53,23 @@ Pose moved(const Pose& pose, double x, double y, double z);
 void add_house(MeshBuilder& builder, const Deckhouse& house);
 
 // A row of panes 3 cm in front of the bridge's front and front corners, in the current part and material; the same as
-// part "windows" of glass.
+// part "windows" of window_glass.
 void add_windows(MeshBuilder& builder, const Deckhouse& bridge);
 void add_glass_windows(MeshBuilder& builder, const Deckhouse& bridge);
 
 // On a house's side walls, at x and height z.
 void add_cabinets(MeshBuilder& builder, const Deckhouse& house, double from, double to, double spacing, double height);
 void add_doors(MeshBuilder& builder, const Deckhouse& house, double height, const std::vector<double>& places);
-// Canisters in racks on the edge of the roof at height z.
+// Canisters in racks on the edge of the roof at height z, single ones on narrow roofs small.
 void add_liferafts(MeshBuilder& builder, const Deckhouse& house, double z, const std::vector<double>& places,
                    int per_rack = 3);
 void add_brackets(MeshBuilder& builder, const Deckhouse& house, double z, const std::vector<double>& places);
 
-void add_bitts(MeshBuilder& builder, const Pose& pose);                      // a pair of bollards
-void add_fairlead(MeshBuilder& builder, const Pose& pose);                   // rollers in a frame open to the side
-void add_locker(MeshBuilder& builder, const Pose& pose, const Vec3& size);   // a box with a lid
-void add_ventilator(MeshBuilder& builder, const Pose& pose, double height);  // a trunk with a hood open to +x
+void add_bitts(MeshBuilder& builder, const Pose& pose);                     // a pair of bollards
+void add_fairlead(MeshBuilder& builder, const Pose& pose);                  // rollers in a frame open to the side
+void add_locker(MeshBuilder& builder, const Pose& pose, const Vec3& size);  // a box with a lid
+// A trunk with a hood open to +x; size: of its hood, 1 = 0.95 m.
+void add_ventilator(MeshBuilder& builder, const Pose& pose, double height, double size = 1);
 // Two upright plates at right angles on a bed plate: screens, splinter shields, stowages.
 void add_shield(MeshBuilder& builder, const Pose& pose, double leg, double height);
 
@@ -93,7 +94,8 @@ void add_plated_house(MeshBuilder& builder, const Deckhouse& house, const Platin
 
 // Navigation radar: a drive with a slotted array of this length across, turned by yaw (rad).
 void add_radar_scanner(MeshBuilder& builder, const Vec3& foot, double length, double yaw);
-// A mast of one tapered tube with platform, yard, scanners and lights. Height above the foot, m.
+// A mast of one tapered tube with platform, yard, scanners and lights, smaller on masts below 5 m. Height above the
+// foot, m.
 void add_pole_mast(MeshBuilder& builder, const Vec3& foot, double height, int scanners, Random& random);
 // Radome of a satellite antenna on its pedestal.
 void add_dome(MeshBuilder& builder, const Vec3& foot, double radius);

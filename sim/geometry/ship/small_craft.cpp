@@ -42,16 +42,23 @@ void add_pyramid_mast(MeshBuilder& builder, const Vec3& foot, double height, dou
   add_cone(builder, top + Vec3(0, 0, 0.38 * height), top + Vec3(0, 0, 0.38 * height + 0.7), 0.25, 0.25, 12);
 }
 
-// Lockers, ventilators and shields at random places along both sides of the deck.
-void add_deck_gear(MeshBuilder& builder, const HullSurface& hull, double from, double to, int count, Random& random) {
+// Lockers, ventilators and shields along both sides of the deck, from x = from to x = to.
+struct DeckGear {
+  double from = 0, to = 0;
+  int count = 8;
+  double size = 1;  // of each, per its size on ships
+};
+
+void add_deck_gear(MeshBuilder& builder, const HullSurface& hull, const DeckGear& gear, Random& random) {
   builder.begin_part("deck_gear");
-  for (int k = 0; k < count; ++k) {
-    const double x = from + (to - from) * (k + random.uniform()) / count, side = k % 2 == 0 ? 1 : -1;
-    const double y = side * (hull.deck_half_breadth(x) - between(random, 0.7, 1.1)), yaw = 2 * kPi * random.uniform();
+  for (int k = 0; k < gear.count; ++k) {
+    const double x = gear.from + (gear.to - gear.from) * (k + random.uniform()) / gear.count;
+    const double side = k % 2 == 0 ? 1 : -1, inboard = between(random, 0.7, 1.1) * gear.size;
+    const double y = side * (hull.deck_half_breadth(x) - inboard), yaw = 2 * kPi * random.uniform();
     const Pose pose = upright({x, y, hull.deck_height(x)}, yaw);
-    if (k % 3 == 0) add_locker(builder, pose, {0.8, 0.5, 0.6});
-    if (k % 3 == 1) add_ventilator(builder, pose, between(random, 0.4, 0.8));
-    if (k % 3 == 2) add_shield(builder, pose, 0.4, 0.6);
+    if (k % 3 == 0) add_locker(builder, pose, Vec3(0.8, 0.5, 0.6) * gear.size);
+    if (k % 3 == 1) add_ventilator(builder, pose, between(random, 0.4, 0.8) * gear.size, gear.size);
+    if (k % 3 == 2) add_shield(builder, pose, 0.4 * gear.size, 0.6 * gear.size);
   }
 }
 
@@ -78,6 +85,27 @@ void add_winch(MeshBuilder& builder, const Pose& base, double size) {
                base * Vec3(0, (y + end + 0.04) * size, 0.65 * size), 0.58 * size, 0.58 * size, 14);
   }
   add_box(builder, base * upright(Vec3(-0.9, 0, 0) * size), Vec3(0.5, 1.0, 0.9) * size);
+}
+
+// The wheelhouse of a boat: one storey on the deck, glazed, with a door in either side.
+Deckhouse add_wheelhouse(MeshBuilder& builder, double aft, double fore, double half_width, double deck,
+                         Random& random) {
+  const Deckhouse house{.name = "wheelhouse",
+                        .aft = aft,
+                        .fore = fore,
+                        .half_width = half_width,
+                        .foot = deck - 0.2,
+                        .roof = deck + 2.25,
+                        .side_slope = 2,
+                        .fore_slope = between(random, -8, 12),
+                        .aft_slope = 1,
+                        .fore_chamfer = 0.3 * half_width,
+                        .aft_chamfer = 0.1};
+  add_plated_house(builder, house, {1.2, 0.002}, random);
+  add_glass_windows(builder, house);
+  builder.begin_part("doors");
+  add_doors(builder, house, house.foot + 0.2, {aft + 0.7});
+  return house;
 }
 
 }  // namespace
@@ -142,8 +170,8 @@ void add_corvette(MeshBuilder& builder, const HullSurface& hull, const ShipDesig
   add_cabinets(builder, main, -0.14 * length, 0.11 * length, between(random, 3.2, 4.5), foot + 1.2);
   add_brackets(builder, main, main.roof - 0.7, {-0.12 * length, -0.04 * length, 0.05 * length, 0.1 * length});
   add_liferafts(builder, main, main.roof, {-0.04 * length});
-  add_deck_gear(builder, hull, -0.42 * length, -0.22 * length, 8, random);
-  add_deck_gear(builder, hull, 0.2 * length, 0.4 * length, 8, random);
+  add_deck_gear(builder, hull, {-0.42 * length, -0.22 * length, 8}, random);
+  add_deck_gear(builder, hull, {0.2 * length, 0.4 * length, 8}, random);
   builder.begin_part("mooring_gear");
   add_mooring_gear(builder, hull, {-0.44 * length, -0.25 * length, 0.24 * length, 0.38 * length}, 0);
   builder.begin_part("windlasses");
@@ -220,10 +248,12 @@ void add_patrol_boat(MeshBuilder& builder, const HullSurface& hull, const ShipDe
   }
   builder.begin_part("wall_fittings");
   add_doors(builder, main, foot + 0.2, {-0.12 * length});
-  if (length > 25) add_cabinets(builder, main, -0.1 * length, 0.06 * length, 2.6, foot + 0.9);
+  const bool is_boat = length < 25;
+  if (!is_boat) add_cabinets(builder, main, -0.1 * length, 0.06 * length, 2.6, foot + 0.9);
   add_liferafts(builder, main, main.roof, {-0.15 * length}, length > 28 ? 2 : 1);
-  add_deck_gear(builder, hull, -0.45 * length, -0.24 * length, 6, random);
-  add_deck_gear(builder, hull, 0.2 * length, 0.36 * length, 5, random);
+  const double gear = is_boat ? 0.6 : 1;
+  add_deck_gear(builder, hull, {-0.45 * length, -0.24 * length, is_boat ? 4 : 6, gear}, random);
+  add_deck_gear(builder, hull, {0.2 * length, 0.36 * length, is_boat ? 2 : 5, gear}, random);
   builder.begin_part("mooring_gear");
   add_mooring_gear(builder, hull, {-0.36 * length, 0.22 * length}, 0);
   add_side_rails(builder, hull, 0.8 * ship.rail_width, -0.47 * length, 0.44 * length);
@@ -234,24 +264,32 @@ void add_fishing_vessel(MeshBuilder& builder, const HullSurface& hull, const Shi
   const double aft = between(random, -0.02, 0.06) * length, fore = aft + between(random, 0.18, 0.24) * length;
   const double deck = std::min(hull.deck_height(aft), hull.deck_height(fore)),
                half = 0.7 * hull.deck_half_breadth(fore);
-  const Deckhouse bridge = add_accommodation(builder,
-                                             {.aft = aft,
-                                              .fore = fore,
-                                              .half_width = half,
-                                              .foot = deck,
-                                              .tiers = length < 20 ? 1 : 2,
-                                              .tier = 2.4,
-                                              .step = 0.3,
-                                              .fore_slope = 4,
-                                              .side_slope = 2,
-                                              .plating = {1.2, 0.002},
-                                              .rail_width = 0.8 * ship.rail_width},
-                                             random);
+  // Below 20 m a wheelhouse stands on the deck, as high as people.
+  const bool is_boat = length < 20;
+  const double rise = is_boat ? scale : std::sqrt(scale);
+  const Deckhouse bridge = is_boat
+                               ? add_wheelhouse(builder, aft, fore, 0.8 * hull.deck_half_breadth(fore), deck, random)
+                               : add_accommodation(builder,
+                                                   {.aft = aft,
+                                                    .fore = fore,
+                                                    .half_width = half,
+                                                    .foot = deck,
+                                                    .tiers = length < 26   ? 1
+                                                             : length < 50 ? 2
+                                                                           : 3,
+                                                    .tier = 2.4,
+                                                    .step = 0.3,
+                                                    .fore_slope = 4,
+                                                    .side_slope = 2,
+                                                    .plating = {1.2, 0.002},
+                                                    .rail_width = 0.8 * ship.rail_width},
+                                                   random);
   builder.begin_part("antennas");
-  add_pole_mast(builder, {bridge.aft + 0.5, 0, bridge.roof}, between(random, 5, 7) * std::sqrt(scale), 2, random);
-  add_dome(builder, {bridge.aft + 0.6, 0.6 * bridge.half_width, bridge.roof}, 0.35);
+  add_pole_mast(builder, {bridge.aft + 0.5, 0, bridge.roof}, between(random, 5, 7) * rise, is_boat ? 1 : 2, random);
+  add_dome(builder, {bridge.aft + 0.6, 0.6 * bridge.half_width, bridge.roof}, is_boat ? 0.18 : 0.35);
   for (double side : {1.0, -1.0})
-    add_whip(builder, {bridge.fore - 0.8, side * 0.6 * bridge.half_width, bridge.roof}, between(random, 4, 6));
+    add_whip(builder, {bridge.fore - 0.8, side * 0.6 * bridge.half_width, bridge.roof},
+             between(random, 4, 6) * (is_boat ? scale : 1));
   builder.begin_part("whaleback");
   add_deck_block(builder, hull,
                  {.name = "whaleback",
@@ -264,8 +302,7 @@ void add_fishing_vessel(MeshBuilder& builder, const HullSurface& hull, const Shi
   const double stern = hull.lines().stern_at_deck;
   builder.begin_part("gantry");
   add_gantry(builder, {stern + 0.05 * length, 0, hull.deck_height(stern + 0.05 * length)},
-             0.75 * hull.deck_half_breadth(stern + 0.05 * length), between(random, 3.2, 4.4) * std::sqrt(scale),
-             0.26 * scale);
+             0.75 * hull.deck_half_breadth(stern + 0.05 * length), between(random, 3.2, 4.4) * rise, 0.26 * scale);
   builder.begin_part("net_drum");
   const Pose drum = upright({-0.32 * length, 0, hull.deck_height(-0.32 * length)});
   const double r = 0.75 * scale, w = 0.4 * hull.deck_half_breadth(-0.32 * length);
@@ -296,19 +333,21 @@ void add_fishing_vessel(MeshBuilder& builder, const HullSurface& hull, const Shi
   }
   builder.begin_part("derrick");
   const Vec3 mast(aft - 0.02 * length, 0, deck);
-  add_cone(builder, mast - Vec3(0, 0, 0.2), mast + Vec3(0, 0, 7.0 * std::sqrt(scale)), 0.17 * scale, 0.1 * scale, 10);
-  add_cone(builder, mast + Vec3(-0.1, 0, 1.2), mast + Vec3(-0.22 * length, 0, 5.0 * std::sqrt(scale)), 0.1 * scale,
-           0.07 * scale, 8);
-  add_bar(builder, mast + Vec3(0, 0, 6.8 * std::sqrt(scale)), mast + Vec3(-0.215 * length, 0, 4.9 * std::sqrt(scale)),
-          0.04);
+  add_cone(builder, mast - Vec3(0, 0, 0.2), mast + Vec3(0, 0, 7.0 * rise), 0.17 * scale, 0.1 * scale, 10);
+  add_cone(builder, mast + Vec3(-0.1, 0, 1.2), mast + Vec3(-0.22 * length, 0, 5.0 * rise), 0.1 * scale, 0.07 * scale,
+           8);
+  add_bar(builder, mast + Vec3(0, 0, 6.8 * rise), mast + Vec3(-0.215 * length, 0, 4.9 * rise), 0.04);
   builder.begin_part("hatches");
   add_hatch(builder, {-0.13 * length, 0, hull.deck_height(-0.13 * length)}, Vec3(1.6, 1.8, 0.55) * scale, 1, random);
   builder.begin_part("liferafts");
   add_liferafts(builder, bridge, bridge.roof, {0.5 * (bridge.aft + bridge.fore)}, 1);
-  add_deck_gear(builder, hull, -0.42 * length, 0.3 * length, 10, random);
+  add_deck_gear(builder, hull,
+                {-0.42 * length, (is_boat ? -0.04 : 0.3) * length, is_boat ? 4 : 10, is_boat ? scale : 1}, random);
   builder.begin_part("windlasses");
   add_windlasses(builder, {0.40 * length, 0, hull.deck_height(0.40 * length) + 1.0 * scale}, 1.1 * scale, 0.4 * scale);
-  add_bulwark(builder, hull, {.from = stern + 0.1, .to = 0.33 * length, .bays = 14, .height = 0.9, .aft_height = 0.9});
+  const double bulwark = is_boat ? 0.65 : 0.9;
+  add_bulwark(builder, hull,
+              {.from = stern + 0.1, .to = 0.33 * length, .bays = 14, .height = bulwark, .aft_height = bulwark});
 }
 
 void add_tug(MeshBuilder& builder, const HullSurface& hull, const ShipDesign& ship, Random& random) {
@@ -316,12 +355,13 @@ void add_tug(MeshBuilder& builder, const HullSurface& hull, const ShipDesign& sh
   const double aft = between(random, -0.08, -0.03) * length, fore = aft + between(random, 0.27, 0.32) * length;
   const double deck = std::min(hull.deck_height(aft), hull.deck_height(fore)),
                half = 0.66 * hull.deck_half_breadth(fore);
+  const int tiers = length < 25 ? 1 : 2;
   const Deckhouse bridge = add_accommodation(builder,
                                              {.aft = aft,
                                               .fore = fore,
                                               .half_width = half,
                                               .foot = deck,
-                                              .tiers = 2,
+                                              .tiers = tiers,
                                               .tier = 2.4,
                                               .step = 0.09 * length,
                                               .fore_slope = 3,
@@ -330,16 +370,18 @@ void add_tug(MeshBuilder& builder, const HullSurface& hull, const ShipDesign& sh
                                               .rail_width = 0.8 * ship.rail_width},
                                              random);
   builder.begin_part("antennas");
-  add_pole_mast(builder, {bridge.aft + 0.7, 0, bridge.roof}, between(random, 5.5, 7.5), 1, random);
+  add_pole_mast(builder, {bridge.aft + 0.7, 0, bridge.roof}, between(random, 5.5, 7.5) * (tiers == 1 ? 0.7 : 1), 1,
+                random);
   for (double side : {1.0, -1.0})
     add_whip(builder, {bridge.aft + 0.5, side * 0.6 * bridge.half_width, bridge.roof}, 4.5);
   builder.begin_part("funnels");
+  const double top = deck + 2.6 + 2.4 * tiers;
   for (double side : {1.0, -1.0}) {
     const Vec3 place(0, side * 0.75 * half, 0);
     add_frustum(builder, shifted(octagon(aft + 0.3, aft + 2.2 * scale, 0.5 * scale, 0.2, 0.2, deck + 2.3), place),
-                shifted(octagon(aft + 0.2, aft + 1.7 * scale, 0.42 * scale, 0.15, 0.15, deck + 7.4), place));
-    add_cone(builder, {aft + 0.9 * scale, side * 0.75 * half, deck + 7.2},
-             {aft + 0.7 * scale, side * 0.75 * half, deck + 8.3}, 0.2, 0.19, 10);
+                shifted(octagon(aft + 0.2, aft + 1.7 * scale, 0.42 * scale, 0.15, 0.15, top), place));
+    add_cone(builder, {aft + 0.9 * scale, side * 0.75 * half, top - 0.2},
+             {aft + 0.7 * scale, side * 0.75 * half, top + 0.9}, 0.2, 0.19, 10);
   }
   if (ship.spec.detail == ShipDetail::kHull) return;
   builder.begin_part("winches");
@@ -380,14 +422,14 @@ void add_tug(MeshBuilder& builder, const HullSurface& hull, const ShipDesign& sh
   }
   builder.begin_part("boat");
   add_crane(builder, {.foot = {aft - 0.02 * length, 0.7 * half, deck},
-                      .pedestal = 2.6,
+                      .pedestal = tiers == 1 ? 1.9 : 2.6,
                       .radius = 0.22,
-                      .jib = 4.5,
+                      .jib = tiers == 1 ? 3.2 : 4.5,
                       .heading = kPi + between(random, -0.3, 0.3),
                       .elevation = 0.2});
   builder.begin_part("liferafts");
   add_liferafts(builder, bridge, bridge.roof, {bridge.aft + 1.0}, 1);
-  add_deck_gear(builder, hull, -0.42 * length, -0.12 * length, 8, random);
+  add_deck_gear(builder, hull, {-0.42 * length, -0.12 * length, tiers == 1 ? 5 : 8, tiers == 1 ? 0.7 : 1}, random);
   add_bulwark(
       builder, hull,
       {.from = hull.lines().stern_at_deck + 0.1, .to = 0.485 * length, .bays = 18, .height = 0.9, .aft_height = 0.8});
@@ -397,7 +439,7 @@ void add_inflatable_boat(MeshBuilder& builder, const HullSurface& hull, const Sh
   const double length = ship.length, scale = length / 7.5, radius = between(random, 0.24, 0.28) * std::sqrt(scale);
   // Tubes along both sides of the deck, drawn together at the bow, with cones aft.
   builder.begin_part("tubes");
-  builder.begin_material("rubber");
+  builder.begin_material("rubber_tube");
   for (double side : {1.0, -1.0}) {
     const double stern = hull.lines().stern_at_deck - 0.02 * length;
     std::vector<Vec3> line;
@@ -421,30 +463,41 @@ void add_inflatable_boat(MeshBuilder& builder, const HullSurface& hull, const Sh
   const double deck = hull.deck_height(-0.1 * length);
   builder.begin_part("console");
   const double x = between(random, -0.08, 0.02) * length;
-  add_frustum(builder, octagon(x, x + 0.8, 0.4, 0.05, 0.2, deck - 0.05),
-              octagon(x + 0.05, x + 0.5, 0.36, 0.04, 0.15, deck + 1.0));
-  builder.begin_material("glass");
+  // From 9.5 m on the console is as wide as three people, under a roof.
+  const bool is_large = length > 9.5;
+  const double wide = is_large ? 1.8 : 1;
+  add_frustum(builder, octagon(x, x + 0.8 * wide, 0.4 * wide, 0.05, 0.2, deck - 0.05),
+              octagon(x + 0.05, x + 0.5 * wide, 0.36 * wide, 0.04, 0.15, deck + 1.0));
+  if (is_large) {
+    for (double at : {-0.8, 0.7}) {
+      for (double side : {1.0, -1.0})
+        add_cone(builder, {x + at, side * 0.62, deck - 0.05}, {x + at, side * 0.62, deck + 2.1}, 0.03, 0.03, 8);
+    }
+    add_box(builder, upright({x - 0.05, 0, deck + 2.05}), {2.1, 1.7, 0.06});
+  }
+  builder.begin_material("window_glass");
   add_plate(builder,
-            {{x + 0.42, -0.33, deck + 0.97},
-             {x + 0.42, 0.33, deck + 0.97},
-             {x + 0.22, 0.3, deck + 1.4},
-             {x + 0.22, -0.3, deck + 1.4}},
+            {{x + 0.42 * wide, -0.33 * wide, deck + 0.97},
+             {x + 0.42 * wide, 0.33 * wide, deck + 0.97},
+             {x + 0.42 * wide - 0.2, 0.3 * wide, deck + 1.4},
+             {x + 0.42 * wide - 0.2, -0.3 * wide, deck + 1.4}},
             0.02);
   builder.begin_material("pec");
   builder.begin_part("seats");
-  const int seats = length < 6.5 ? 1 : 2 + static_cast<int>(length / 5);
+  const int seats = length < 6.5 ? 1 : is_large ? 4 + 2 * static_cast<int>((length - 9) / 2) : 3;
+  const double abreast = is_large ? 0.45 : 0.35;
   for (int k = 0; k < seats; ++k) {
-    const double at = x - 0.55 - 0.85 * (k / 2), y = seats == 1 ? 0 : (k % 2 == 0 ? 0.35 : -0.35);
+    const double at = x - 0.55 - 0.85 * (k / 2), y = seats == 1 ? 0 : (k % 2 == 0 ? abreast : -abreast);
     if (at < hull.lines().stern_at_deck + 0.12 * length) continue;
     add_box(builder, upright({at, y, deck - 0.05}), {0.6, 0.34, 0.75});
     add_box(builder, upright({at - 0.24, y, deck + 0.65}), {0.1, 0.32, 0.45});
   }
-  // Crew: torso and head of salt water, as upright cylinders.
+  // Crew: torso and head.
   builder.begin_part("crew");
-  builder.begin_material("crew");
-  const int crew = std::min(seats, 1 + static_cast<int>(random.below(3)));
+  builder.begin_material("human_body");
+  const int crew = std::min(seats, (is_large ? 3 : 1) + static_cast<int>(random.below(3)));
   for (int k = 0; k < crew; ++k) {
-    const double at = x - 0.5 - 0.85 * (k / 2), y = seats == 1 ? 0 : (k % 2 == 0 ? 0.35 : -0.35);
+    const double at = x - 0.5 - 0.85 * (k / 2), y = seats == 1 ? 0 : (k % 2 == 0 ? abreast : -abreast);
     if (at < hull.lines().stern_at_deck + 0.12 * length) continue;
     add_cone(builder, {at, y, deck + 0.68}, {at, y, deck + 1.3}, 0.17, 0.2, 10);
     add_sphere(builder, {at, y, deck + 1.45}, 0.13, 1);

@@ -177,7 +177,8 @@ void append(std::vector<std::string>& sentences, const std::vector<std::string>&
 }  // namespace
 
 PreparedTarget prepare_target(TargetMesh mesh, const ScattererSettings& settings) {
-  PreparedTarget target{std::move(mesh.mesh), std::move(mesh.materials), {}, std::move(mesh.warnings), nullptr};
+  PreparedTarget target{std::move(mesh.mesh),     std::move(mesh.materials),      {},
+                        std::move(mesh.warnings), std::move(mesh.materials_note), nullptr};
   if (settings.waterline_m) {
     AboveWater above = above_water(target.mesh, *settings.waterline_m);
     target.below = above.below;

@@ -34,6 +34,7 @@ struct PreparedTarget {
   std::vector<MaterialSpec> materials;
   SubmergedPart below;                // what is below the waterline
   std::vector<std::string> warnings;  // warnings about mesh and edges
+  std::string materials_note;         // of TargetMesh
   std::shared_ptr<const Scatterer> scatterer;
 };
 

@@ -482,5 +482,17 @@ TEST_F(RigidRaft, ReachesAsFarAsItCanTurn) {
   EXPECT_GE(Pipeline(scenario).window_m(), 2 * (300 + 100));
 }
 
+// In the same mesh, made once, for another target: the caches distinguish them.
+TEST_F(BodiesInWater, HaveTheMaterialsThatTheirMeshesNameUnlessTheScenarioAssignsOthers) {
+  const Scenario scenario = scene_of(
+      "  own: {label: 1, ship: {kind: inflatable_boat}, motion: {model: fixed}}\n"
+      "  pec: {label: 0, ship: {kind: inflatable_boat}, motion: {model: fixed}, part_materials: [{part: '*', material: "
+      "pec}]}");
+  const Pipeline pipeline(scenario);
+  EXPECT_THAT(material_notes(pipeline.targets()),
+              ElementsAre("targets.own.ship: materials as the mesh names them: rubber_tube, window_glass, human_body; "
+                          "part_materials: [{part: '*', material: pec}] makes every face a perfect conductor"));
+}
+
 }  // namespace
 }  // namespace seaglint

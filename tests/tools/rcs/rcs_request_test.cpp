@@ -164,6 +164,17 @@ TEST_F(PlateRequest, HeadsItsTableWithAMethodOtherThanBeams) {
   EXPECT_EQ(read_again(sweep, *target.prepared.scatterer).values.size(), 1u);
 }
 
+TEST_F(PlateRequest, HeadsItsTableWithTheMaterialsThatTheMeshNames) {
+  const auto head = [&] { return rcs_heading(request_, *prepare_mesh(request_).scatterer, "rcs"); };
+  EXPECT_THAT(head(), HasSubstr("# material pec, contributions: all\n"));
+  auto mesh = std::make_shared<TriangleMesh>(make_plate(1, 1));
+  mesh->materials = {{"stainless_steel"}};
+  request_.mesh = mesh;
+  EXPECT_THAT(head(), HasSubstr("# material pec, of the mesh: stainless_steel, contributions: all\n"));
+  request_.materials = {{"*", "aluminium", ""}};
+  EXPECT_THAT(head(), HasSubstr("# material *=aluminium, contributions: all\n"));
+}
+
 TEST_F(PlateRequest, WarnsOfReceiversBehindTheTarget) {
   EXPECT_TRUE(request_warnings(request_).empty());
   request_.transmitter = FixedTransmitter{150, 0};

@@ -3,7 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
@@ -76,6 +80,82 @@ TEST(TargetMesh, MaterialsAreAssignedByTheMaterialsOfTheFileWhereNoPartHasTheNam
   EXPECT_EQ(assigned({{file.part_names[0], b}, {"gl*", a}}), "b a pec a ");
   EXPECT_EQ(assigned({{"gl*", a}, {file.part_names[0], b}}), "b b pec a ");
   EXPECT_THROW(assigned({{"pec", a}}), InputError);
+}
+
+// A plate of two faces and a sphere; names of the materials of its faces in turn.
+TargetSource source_with(const std::vector<std::string>& names) {
+  TriangleMesh mesh = make_plate(1, 1);
+  mesh.append(make_sphere(1, 1));
+  mesh.materials.clear();
+  for (const std::string& name : names) mesh.materials.push_back({name});
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    mesh.triangle_material[t] = static_cast<std::uint16_t>(t % names.size());
+  TargetSource source;
+  source.loaded = std::make_shared<const TriangleMesh>(std::move(mesh));
+  source.lowest_hz = source.highest_hz = 10e9;
+  source.all_conductor = "--material '*=pec'";
+  return source;
+}
+
+// Of the first faces.
+std::vector<std::string> names_of(const TargetMesh& target, std::size_t faces) {
+  std::vector<std::string> names;
+  for (std::size_t t = 0; t < faces; ++t) names.push_back(target.materials[target.mesh.triangle_material[t]].name);
+  return names;
+}
+
+// Only files of assets/materials by their names: neither paths nor others.
+TEST(TargetMesh, HasTheMaterialsThatItsMeshNamesAndSaysSo) {
+  TargetSource source = source_with({"pec", "stainless_steel", "painted", "assets/materials/aluminium.yaml"});
+  const TargetMesh target = load_target_mesh(source);
+  EXPECT_THAT(names_of(target, 4), ElementsAre("pec", "stainless_steel", "pec", "pec"));
+  EXPECT_EQ(target.materials[1], find_material("stainless_steel", {}, ""));
+  EXPECT_EQ(target.materials_note,
+            "materials as the mesh names them: stainless_steel; --material '*=pec' makes every face a perfect "
+            "conductor");
+  EXPECT_EQ(load_target_mesh(source_with({"pec", "painted"})).materials_note, "");
+}
+
+TEST(TargetMesh, HasTheMaterialsOfItsUserWhereTheseMatchAPartOrANameOfTheMesh) {
+  TargetSource source = source_with({"stainless_steel", "window_glass"});
+  const std::string plate = source.loaded->part_names[0];
+  const auto chosen = [&](const std::vector<MaterialChoice>& choices) {
+    source.materials = choices;
+    return load_target_mesh(source);
+  };
+  EXPECT_THAT(names_of(chosen({{"window_glass", "pec", ""}}), 4),
+              ElementsAre("stainless_steel", "pec", "stainless_steel", "pec"));
+  EXPECT_THAT(names_of(chosen({{plate, "aluminium", ""}}), 4),
+              ElementsAre("aluminium", "aluminium", "stainless_steel", "window_glass"));
+  EXPECT_THAT(names_of(chosen({{"*", "pec", ""}}), 4), ElementsAre("pec", "pec", "pec", "pec"));
+  EXPECT_THAT(names_of(chosen({{std::nullopt, "aluminium", ""}}), 4),
+              ElementsAre("aluminium", "aluminium", "aluminium", "aluminium"));
+  for (const std::optional<std::string>& all : {std::optional<std::string>("*"), std::optional<std::string>()})
+    EXPECT_EQ(chosen({{all, "pec", ""}}).materials_note, "");
+  EXPECT_EQ(chosen({{plate, "pec", ""}, {"window_glass", "pec", ""}}).materials_note,
+            "materials as the mesh names them: stainless_steel; --material '*=pec' makes every face a perfect "
+            "conductor");
+}
+
+TEST(TargetMesh, OfMaterialsThatItNamesBeyondTheirBandIsRefusedWithTheWayOut) {
+  TargetSource source = source_with({"pec", "window_glass"});
+  source.highest_hz = 140e9;
+  EXPECT_EQ(refusal_of([&] { load_target_mesh(source); }),
+            "material window_glass: its source covers 0.1 to 100 GHz, asked for 10 to 140 GHz; the mesh names it: "
+            "--material '*=pec' makes every face a perfect conductor");
+  source.materials = {{"*", "pec", ""}};
+  EXPECT_NO_THROW(load_target_mesh(source));
+  source.materials = {{"*", "window_glass", ""}};
+  EXPECT_EQ(refusal_of([&] { load_target_mesh(source); }),
+            "material window_glass: its source covers 0.1 to 100 GHz, asked for 10 to 140 GHz");
+}
+
+TEST(TargetMesh, WithoutPartsAndMaterialsIsAllOfTheMaterialOfAStar) {
+  TriangleMesh mesh = make_plate(1, 1);
+  mesh.part_names.clear(), mesh.triangle_part.clear(), mesh.materials.clear(), mesh.triangle_material.clear();
+  const std::vector<PartMaterial> choices{{"*", named("a")}};
+  const auto materials = assign_materials(mesh, MaterialSpec{}, choices);
+  EXPECT_EQ(materials[mesh.triangle_material[0]].name, "a");
 }
 
 TEST(TargetMesh, IsSilentForAReflectorAt16GHz) {

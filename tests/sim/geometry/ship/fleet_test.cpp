@@ -19,6 +19,7 @@
 #include "sim/geometry/placement/hydrostatics.h"
 #include "sim/geometry/ship/make_ship.h"
 #include "sim/geometry/ship/ship_design.h"
+#include "sim/scenario/material_spec.h"
 
 namespace seaglint {
 namespace {
@@ -96,6 +97,14 @@ TEST_P(Fleet, ConsistsOfClosedSolidsOfGenusZeroThatFaceOutwards) {
     for (const Vec3& p : mesh.vertices) ASSERT_LT(p.norm(), ship_reach_m(spec));
     EXPECT_GE(mesh.triangles.size(), 3000u);
     EXPECT_LE(mesh.triangles.size(), 60000u);
+  });
+}
+
+TEST_P(Fleet, NamesMaterialsOfAssets) {
+  for_each_ship([](const ShipSpec&, const Ship& ship) {
+    for (const Material& material : ship.mesh.materials) {
+      EXPECT_TRUE(material.name == "pec" || known_material_file(material.name, {})) << material.name;
+    }
   });
 }
 
@@ -285,6 +294,25 @@ TEST(ShipOfASeed, OfTheShortestLengthHasNoDefects) {
     const double length = kShipLengths_m[static_cast<std::size_t>(kind)].lowest;
     EXPECT_THAT(diagnostic_messages(diagnose(make_ship({.kind = kind, .length_m = length}).mesh)), testing::IsEmpty())
         << name_of(kind);
+  }
+}
+
+// The wheelhouse of a boat below 20 m is no higher than a person needs and wider than half the boat.
+TEST(ShipOfASeed, OfTheShortestFishingVesselsHasAWheelhouseOfOneStorey) {
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    const TriangleMesh mesh = make_ship({.kind = ShipKind::kFishingVessel, .length_m = 12, .seed = seed}).mesh;
+    const auto part = std::ranges::find(mesh.part_names, "wheelhouse") - mesh.part_names.begin();
+    Bounds box{Vec3::Constant(1e9), Vec3::Constant(-1e9)};
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      if (mesh.triangle_part[t] != part) continue;
+      for (const std::uint32_t v : mesh.triangles[t])
+        box = {box.lower.cwiseMin(mesh.vertices[v]), box.upper.cwiseMax(mesh.vertices[v])};
+    }
+    const Vec3 size = box.upper - box.lower, ship = bounds(mesh).upper - bounds(mesh).lower;
+    EXPECT_GT(size.y(), 1.8);
+    EXPECT_LT(size.z(), 2.7);
+    EXPECT_GT(size.y(), 0.5 * ship.y());
+    EXPECT_THAT(mesh.part_names, testing::Not(testing::Contains("accommodation")));
   }
 }
 
