@@ -86,6 +86,12 @@ std::vector<MaterialSpec> assign_materials(TriangleMesh& mesh, const MaterialSpe
   std::vector<MaterialSpec> materials{all};
   // Number of the last entry that applies.
   std::vector<std::uint16_t> of_part(mesh.part_names.size(), 0), of_file_material(mesh.materials.size(), 0);
+  for (std::size_t m = 0; m < of_file_material.size(); ++m) {
+    const std::optional<MaterialSpec> lens = lens_material(mesh.materials[m].name);
+    if (!lens) continue;
+    of_file_material[m] = static_cast<std::uint16_t>(materials.size());
+    materials.push_back(*lens);
+  }
   for (const PartMaterial& entry : parts) {
     const bool prefix = entry.part.ends_with('*');
     const std::string name = prefix ? entry.part.substr(0, entry.part.size() - 1) : entry.part;

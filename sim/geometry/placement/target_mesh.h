@@ -73,7 +73,8 @@ struct PartMaterial {
   MaterialSpec material;
 };
 
-// Assigns a material to every triangle: `all`, or the last entry of `parts` that matches it. Overwrites
+// Assigns a material to every triangle: `all`, or the last entry of `parts` that matches it; without one, faces whose
+// material in the mesh is a lens by its name (lens_material()) stay one. Overwrites
 // mesh.materials and triangle_material and returns the specifications in the order of mesh.materials. Throws InputError
 // for a name that neither parts nor materials of the mesh have.
 std::vector<MaterialSpec> assign_materials(TriangleMesh& mesh, const MaterialSpec& all,

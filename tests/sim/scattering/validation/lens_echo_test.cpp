@@ -1,0 +1,369 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <utility>
+#include <vector>
+
+#include "sim/geometry/decoy/make_decoy.h"
+#include "sim/geometry/files/mesh_io.h"
+#include "sim/geometry/placement/target_mesh.h"
+#include "sim/geometry/placement/waterline.h"
+#include "sim/scattering/radiation/lens_reflection.h"
+#include "tests/sim/scattering/solver_fixtures.h"
+
+namespace seaglint {
+namespace {
+
+using namespace testing_echoes;
+
+// Echo of a Luneburg lens reflector against geometrical optics, diffraction of a circular aperture, and rays that are
+// integrated through its refractive index.
+
+// A projection of the sphere has 0.2 to 0.3 % less area than the disc: sides of 5.6 deg in both directions.
+constexpr double kFacets = 0.0035;
+
+DecoySpec lens_of(double radius, double cap_half_angle_deg = 70) {
+  DecoySpec spec;
+  spec.kind = DecoyKind::kLuneburgLens;
+  spec.leg_m = radius;
+  spec.cap_half_angle_deg = cap_half_angle_deg;
+  return spec;
+}
+
+Scatterer scatterer_of(TriangleMesh mesh) {
+  const std::vector<MaterialSpec> materials = assign_materials(mesh, {}, {});
+  return Scatterer(mesh, materials);
+}
+Scatterer scatterer_of(const DecoySpec& spec) { return scatterer_of(make_decoy(spec)); }
+
+// Of the part with this number alone.
+TracingSettings only_part(int part) {
+  TracingSettings settings;
+  settings.filter.included = {{ContributionSelector::Kind::kPart, part}};
+  return settings;
+}
+
+ScatteringMatrix lens_echo(const Scatterer& scatterer, const BistaticGeometry& antennas, double k,
+                           TracingSettings settings = only_part(0)) {
+  return scattering_matrices(scatterer, antennas, std::array{k}, settings)[0];
+}
+
+ScatteringMatrix lens_echo(const Scatterer& scatterer, const Vec3& r, double k) {
+  return lens_echo(scatterer, monostatic(radar_basis(r)), k);
+}
+
+// k a^2 / 2, the amplitude of the whole disc, m.
+double disc_amplitude(double k, double radius) { return 0.5 * k * radius * radius; }
+
+TEST(LensEcho, HasThePeakOfAPlateOfTheSizeOfItsDisc) {
+  for (const double radius : {0.15, 0.3})
+    for (const double frequency : {9.4e9, 16e9})
+      for (const SolverMethod method : {SolverMethod::kBeams, SolverMethod::kRays}) {
+        const Scatterer lens = scatterer_of(lens_of(radius));
+        const double k = wavenumber(frequency), wavelength = kSpeedOfLight / frequency,
+                     peak = 4 * std::pow(kPi, 3) * std::pow(radius, 4) / (wavelength * wavelength);
+        for (const Vec3& r : {direction(0, 0), direction(12, 0), direction(-5, 15)}) {
+          const double off_axis = std::acos(r.x()), on_cap = focal_spot_on_cap(k * radius * (radians(70) - off_axis));
+          TracingSettings settings;
+          settings.edges = true;
+          settings.method = method;
+          const ScatteringMatrix s = lens_echo(lens, monostatic(radar_basis(r)), k, settings);
+          const double rcs = 4 * kPi * std::norm(s[kVvChannel]) / (on_cap * on_cap);
+          EXPECT_LT(rcs, peak * (1 + 1e-9));
+          EXPECT_GT(rcs, peak * (1 - 2 * kFacets));
+          EXPECT_LT(std::abs(s[kHhChannel] - s[kVvChannel]), 1e-12 * std::abs(s[kVvChannel]));
+          EXPECT_LT(std::abs(s[kHvChannel]) + std::abs(s[kVhChannel]), 1e-12 * std::abs(s[kVvChannel]));
+        }
+        if (method == SolverMethod::kBeams)
+          fmt::print("radius {} m, {} GHz: {:.2f} dBsm, 4 pi^3 a^4 / lambda^2 {:.2f} dBsm\n", radius, 1e-9 * frequency,
+                     dbsm(lens_echo(lens, direction(0, 0), k)[kVvChannel]), dbsm_of_area(peak));
+      }
+}
+
+// Ray through a lens of radius 1 about the origin, x' = p, p' = grad (n^2 / 2) = -x with the parameter d tau = ds / n
+// (M. Born and E. Wolf, Principles of Optics, 7th ed., eq. 3.2.2), by Runge and Kutta.
+struct Ray {
+  Vec3 x, p;
+  double path = 0;  // integral of n ds = integral of n^2 d tau
+
+  void step(double dt) {
+    const auto square = [](const Vec3& at) { return 2 - at.squaredNorm(); };
+    const Vec3 x1 = p, p1 = -x, x2 = p + 0.5 * dt * p1, p2 = -(x + 0.5 * dt * x1), x3 = p + 0.5 * dt * p2,
+               p3 = -(x + 0.5 * dt * x2), x4 = p + dt * p3, p4 = -(x + dt * x3);
+    path += dt / 6 * (square(x) + 2 * square(x + 0.5 * dt * x1) + 2 * square(x + 0.5 * dt * x2) + square(x + dt * x3));
+    x += dt / 6 * (x1 + 2 * x2 + 2 * x3 + x4);
+    p += dt / 6 * (p1 + 2 * p2 + 2 * p3 + p4);
+  }
+  // Up to the next point on the sphere.
+  void cross_the_lens() {
+    double dt = 1e-3;
+    step(dt);
+    while (dt > 1e-10) {
+      Ray further = *this;
+      further.step(dt);
+      if (further.x.norm() < 1)
+        *this = further;
+      else
+        dt *= 0.5;
+    }
+  }
+};
+
+// Error of the integration: steps of 1e-3 with an error of the fourth order, and the last step of 1e-10. Rays near the
+// rim pass the lens along its surface.
+constexpr double kOfRays = 1e-8;
+
+TEST(LensEcho, HasThePathOfRaysThroughTheLensThatLeaveMirroredInItsCentre) {
+  const Vec3 r = direction(20, 10);
+  const RadarBasis basis = radar_basis(r);
+  double path = 0;
+  for (const double offset : {0.0, 0.1, 0.4, 0.7, 0.9, 0.99}) {
+    const Vec3 across = offset * (0.6 * basis.h - 0.8 * basis.v);
+    Ray ray{across + std::sqrt(1 - offset * offset) * r, -r};
+    ray.path = -ray.x.dot(r);
+    ray.cross_the_lens();
+    EXPECT_LT((ray.x + r).norm(), kOfRays);
+    ray.p = reflect_direction(ray.p, r);
+    ray.cross_the_lens();
+    EXPECT_LT((ray.x - r * r.dot(ray.x) + across).norm(), kOfRays) << offset;
+    EXPECT_LT((ray.p - r).norm(), kOfRays);
+    ray.path -= ray.x.dot(r);
+    EXPECT_NEAR(ray.path, kPi, kOfRays);
+    path = ray.path;
+  }
+  const double radius = 0.25;
+  for (const double frequency : {9.4e9, 16e9})
+    for (const Vec3& moved : {Vec3(0, 0, 0), Vec3(3.1, -2.2, 0.7)}) {
+      const double k = wavenumber(frequency);
+      const Scatterer lens = scatterer_of(transformed(make_decoy(lens_of(radius)), Mat3::Identity(), moved));
+      const Complex expected = kJ * std::polar(1.0, k * (2 * r.dot(moved) - radius * path));
+      EXPECT_NEAR(std::arg(lens_echo(lens, r, k)[kVvChannel] / expected), 0, 1e-6) << frequency;
+    }
+}
+
+// A trihedron returns the field of three reflections, E' = -E of each as a whole; a plate that of one.
+TEST(LensEcho, HasTheSignOfATrihedronAndTheOppositeOfAPlate) {
+  const double k = wavenumber(16e9);
+  const Vec3 boresight = Vec3(1, 1, 1).normalized();
+  const Scatterer trihedron(make_triangular_trihedral(0.5)), plate(make_plate(0.3, 0.3));
+  TracingSettings three;
+  three.filter.included = {{ContributionSelector::Kind::kBounces, 3}};
+  const Complex of_trihedron = lens_echo(trihedron, monostatic(radar_basis(boresight)), k, three)[kHhChannel],
+                of_plate = lens_echo(plate, monostatic(radar_basis(Vec3::UnitX())), k, {})[kHhChannel],
+                of_lens = std::polar(1.0, k * kPi * 0.25) *
+                          lens_echo(scatterer_of(lens_of(0.25)), Vec3::UnitX(), k)[kHhChannel];
+  EXPECT_NEAR(std::arg(of_lens / of_trihedron), 0, 0.01);
+  EXPECT_NEAR(std::arg(-of_lens / of_plate), 0, 0.01);
+}
+
+// Rays enter and leave beside a hemispherical cap: the disc less two lunes, an ellipse of the half axes a, a cos theta.
+TEST(LensEcho, OfAHemisphericalCapFallsWithTheCosineOfTheLookAngle) {
+  const double radius = 0.3, k = wavenumber(16e9);
+  const Scatterer lens = scatterer_of(lens_of(radius, 90));
+  for (const double angle_deg : {0.0, 10.0, 30.0, 50.0, 65.0}) {
+    const double on_cap = focal_spot_on_cap(k * radius * radians(90 - angle_deg)),
+                 found = std::abs(lens_echo(lens, direction(angle_deg, 0), k)[kVvChannel]) /
+                         (on_cap * disc_amplitude(k, radius)),
+                 expected = std::cos(radians(angle_deg));
+    // Both borders of the ellipse are polygons.
+    EXPECT_NEAR(found, expected, 2 * kFacets) << angle_deg;
+    fmt::print("hemispherical cap, {:.0f} deg off the axis: {:.4f} of the disc, cosine {:.4f}\n", angle_deg, found,
+               expected);
+  }
+}
+
+TEST(LensEcho, FallsBySixDecibelsWhereTheFocusIsOnTheRimOfTheCap) {
+  const double radius = 0.3, k = wavenumber(10e9);
+  const Scatterer lens = scatterer_of(lens_of(radius, 30));
+  const auto level = [&](double angle_deg) {
+    return std::abs(lens_echo(lens, direction(angle_deg, 0), k)[kVvChannel]) / disc_amplitude(k, radius);
+  };
+  EXPECT_NEAR(level(30), 0.5, 0.5 * kFacets);
+  EXPECT_NEAR(level(0), 1 - 2 / (kPi * kPi * k * radius * radians(30)), 2 * kFacets);
+  double before = 1;
+  for (const double angle_deg : {24.0, 27.0, 29.0, 30.0, 31.0, 33.0, 36.0}) {
+    EXPECT_LT(level(angle_deg), before);
+    before = level(angle_deg);
+    fmt::print("cap of 30 deg, 20 wavelengths, {:.0f} deg off the axis: {:.2f} dB\n", angle_deg,
+               20 * std::log10(before));
+  }
+}
+
+// The Airy pattern summed over one side of a line: its strips parallel to the line, up to a distance beyond which 2 /
+// (pi^2 u) of the power is left.
+TEST(FocalSpot, OnTheCapIsTheAiryPatternOnOneSideOfTheRim) {
+  constexpr double kStep = 0.05, kReach = 40;
+  const auto airy = [](double u) { return u < 1e-9 ? 1.0 : std::pow(2 * std::cyl_bessel_j(1.0, u) / u, 2); };
+  double strip_sum = 0;
+  std::vector<double> beyond;  // power between the distance and kReach
+  for (double x = kReach - 0.5 * kStep; x > 0; x -= kStep) {
+    double strip = 0;
+    for (double y = 0.5 * kStep; y < kReach; y += kStep) strip += 2 * airy(std::hypot(x, y)) * kStep * kStep;
+    beyond.push_back(strip_sum += strip);
+  }
+  // The integral of the Airy pattern over the plane is 4 pi; the corners outside the square have less than what the
+  // four half-planes beyond its sides have.
+  const double left = 2 / (kPi * kPi * kReach);
+  for (const double u : {0.0, 0.5, 1.0, 2.0, 5.0, 10.0}) {
+    const auto strips = static_cast<std::size_t>(std::lround((kReach - u) / kStep));
+    const double outside = beyond[strips - 1] / (4 * kPi) + left;
+    EXPECT_NEAR(1 - focal_spot_on_cap(u), outside, left);
+    EXPECT_NEAR(focal_spot_on_cap(u) + focal_spot_on_cap(-u), 1, 1e-12);
+  }
+  EXPECT_NEAR(focal_spot_on_cap(0), 0.5, 1e-12);
+  EXPECT_NEAR(focal_spot_on_cap(99.999), focal_spot_on_cap(100), 3e-5);
+}
+
+TEST(LensEcho, HasTheBistaticPatternOfACircularAperture) {
+  const double radius = 0.3, k = wavenumber(10e9), ka = k * radius;
+  const Scatterer lens = scatterer_of(lens_of(radius, 90));
+  double worst = 0;
+  for (const double u : {0.5, 1.5, 3.0, 3.8317, 5.1, 7.0156, 8.4}) {
+    const double angle = std::asin(u / ka);
+    const RadarBasis transmit = radar_basis(direction(0, 3)),
+                     receive = radar_basis(axis_rotation(angle, Vec3(0.3, 0.5, 0.8).cross(transmit.r).normalized()) *
+                                           transmit.r);
+    const double on_cap = focal_spot_on_cap(ka * 0.5 * kPi);
+    const Complex found = lens_echo(lens, bistatic(transmit, receive), k)[kVvChannel] /
+                          (kJ * std::polar(1.0, -k * kPi * radius) * on_cap * disc_amplitude(k, radius));
+    const double expected = 2 * std::cyl_bessel_j(1.0, u) / u;
+    worst = std::max(worst, std::abs(found - expected));
+  }
+  // Facets; basis vectors of the two directions, and the half lune that the receiver does not see: 8.4 / ka squared.
+  EXPECT_LT(worst, kFacets + std::pow(8.4 / ka, 2) * 0.25);
+  fmt::print("bistatic pattern: {:.4f} from 2 J1(u) / u\n", worst);
+}
+
+TEST(LensEcho, IsReciprocalForEverySenseOfThePath) {
+  const double k = wavenumber(10e9);
+  const Scatterer lens = scatterer_of(lens_of(0.3, 50));
+  const RadarBasis a = radar_basis(direction(20, 0)), b = radar_basis(direction(22, 4));
+  const auto one_way = one_way_matrices(lens, std::array{bistatic(a, b), bistatic(b, a)}, std::array{k}, only_part(0));
+  const ScatteringMatrix &there = one_way[0][0], &back = one_way[1][0];
+  for (const auto& [i, j] : {std::pair{0, 0}, {1, 2}, {2, 1}, {3, 3}})
+    EXPECT_LT(std::abs(there[i] - back[j]), kFacets * disc_amplitude(k, 0.3));
+}
+
+// A plate before a part of the disc also covers the exits of the rays that enter opposite to it.
+TEST(LensEcho, LosesTheShadowOfAPlateAndItsMirrorImage) {
+  const double radius = 0.3, k = wavenumber(10e9), whole = disc_amplitude(k, radius);
+  const auto behind_plate = [&](const Vec3& middle, double length) {
+    TriangleMesh mesh = make_decoy(lens_of(radius));
+    mesh.append(transformed(make_plate(length, length), Mat3::Identity(), middle));
+    return std::abs(lens_echo(scatterer_of(mesh), Vec3::UnitX(), k)[kVvChannel]) /
+           (whole * focal_spot_on_cap(k * radius * radians(70)));
+  };
+  EXPECT_NEAR(behind_plate({1, 0.5, 0.5}, 1), 0.5, kFacets);  // a quarter of the disc
+  EXPECT_NEAR(behind_plate({1, 0.5, 0}, 1), 0, kFacets);      // half of it
+  EXPECT_NEAR(behind_plate({1, 0.9, 0}, 1), 1, kFacets);      // nothing
+  EXPECT_NEAR(behind_plate({-1, 0.5, 0.5}, 1), 1, kFacets);   // behind the lens
+}
+
+TEST(LensEcho, OfALensInTheWaterIsThatOfTheStripWhoseMirrorImageIsAboveIt) {
+  const double radius = 0.3, k = wavenumber(10e9), whole = disc_amplitude(k, radius);
+  for (const double height : {-0.15, 0.0}) {
+    TriangleMesh cut = make_decoy(lens_of(radius));
+    const TriangleMesh above = above_water(cut, height).mesh;
+    std::vector<MaterialSpec> materials = assign_materials(cut, {}, {});
+    cut_at_sea_level(cut, materials, height);
+    const double h = std::abs(height),
+                 strip = 2 * (h * std::sqrt(radius * radius - h * h) + radius * radius * std::asin(h / radius)),
+                 expected = strip / (kPi * radius * radius) * focal_spot_on_cap(k * radius * radians(70));
+    for (const Scatterer& lens : {Scatterer(cut, materials), scatterer_of(above)})
+      EXPECT_NEAR(std::abs(lens_echo(lens, Vec3::UnitX(), k)[kVvChannel]) / whole, expected, 2 * kFacets) << height;
+  }
+}
+
+TEST(LensEcho, TurnsAndGrowsWithItsMesh) {
+  const double k = wavenumber(10e9);
+  const Vec3 r = direction(25, 5);
+  const TriangleMesh mesh = make_decoy(lens_of(0.2));
+  const Complex one = lens_echo(scatterer_of(mesh), r, k)[kVvChannel];
+  const Mat3 turn = axis_rotation(1.1, Vec3(0.2, 0.4, 0.9).normalized());
+  const Complex turned = lens_echo(scatterer_of(transformed(mesh, turn, Vec3::Zero())), turn * r, k)[kVvChannel];
+  EXPECT_LT(std::abs(turned - one), 1e-6 * std::abs(one));
+  const Complex larger = lens_echo(scatterer_of(enlarged(mesh, 2)), r, 0.5 * k)[kVvChannel];
+  EXPECT_LT(std::abs(larger - 2.0 * one), 1e-9 * std::abs(one));
+}
+
+// The elevation of its axis, and its loss.
+TEST(LensEcho, FollowsItsParameters) {
+  const double k = wavenumber(10e9);
+  DecoySpec spec = lens_of(0.2, 40);
+  spec.boresight_elevation_deg = 30;
+  const double raised = std::abs(lens_echo(scatterer_of(spec), direction(0, 50), k)[kVvChannel]),
+               level = std::abs(lens_echo(scatterer_of(lens_of(0.2, 40)), direction(0, 20), k)[kVvChannel]);
+  EXPECT_NEAR(raised, level, kFacets * level);
+  spec.lens_loss_db = 1.5;
+  const double lossy = std::abs(lens_echo(scatterer_of(spec), direction(0, 50), k)[kVvChannel]);
+  EXPECT_NEAR(20 * std::log10(lossy / raised), -1.5, 1e-9);
+}
+
+TEST(LensEcho, OfAFileIsThatOfItsMesh) {
+  const double k = wavenumber(10e9);
+  const Vec3 r = direction(10, 5);
+  DecoySpec spec = lens_of(0.2);
+  spec.lens_loss_db = 0.75;
+  const Complex expected = lens_echo(scatterer_of(spec), r, k)[kVvChannel];
+  for (const char* ending : {".glb", ".gltf"}) {
+    const std::filesystem::path path =
+        std::filesystem::path(testing::TempDir()) / (std::string("seaglint_lens") + ending);
+    write_mesh(path, make_decoy(spec));
+    TargetSource source;
+    source.mesh = path;
+    const TargetMesh target = load_target_mesh(source);
+    std::filesystem::remove(path);
+    const Complex found = lens_echo(Scatterer(target.mesh, target.materials), r, k)[kVvChannel];
+    EXPECT_LT(std::abs(found - expected), 1e-4 * std::abs(expected)) << ending;
+  }
+}
+
+// Over a band and over a change of the look direction, near the rim, where the pattern depends on both.
+TEST(LensEcho, OfASweepAndOfFrozenPointsIsThatOfSingleViews) {
+  TriangleMesh mesh = make_decoy(lens_of(0.2, 30));
+  mesh.append(transformed(make_decoy(lens_of(0.15, 30)), Mat3::Identity(), {0.5, 6, 1}));
+  const Scatterer lenses = scatterer_of(mesh);
+  const RadarBasis basis = radar_basis(direction(25, 0));
+  std::vector<double> wavenumbers;
+  for (int i = 0; i < 40; ++i) wavenumbers.push_back(wavenumber(9.5e9 + 25e6 * i));
+  const Matrices sweep = scattering_matrices(lenses, monostatic(basis), wavenumbers, {});
+  const double size = disc_amplitude(wavenumbers[0], 0.2);
+  for (const std::size_t q : {0u, 13u, 39u})
+    EXPECT_LT(std::abs(sweep[q][0] - lens_echo(lenses, monostatic(basis), wavenumbers[q], {})[0]), 1e-3 * size);
+
+  const double turn = 1e-3, k = wavenumbers[0];
+  const std::vector<Point> points = points_of(lenses, monostatic(basis), k, turn, {}).points;
+  const Vec3 r = (basis.r + turn * basis.h).normalized();
+  // The pattern falls by 0.3 per deg at the rim.
+  EXPECT_LT(std::abs(direct_sum(points, k, r - basis.r)[3] - lens_echo(lenses, monostatic(radar_basis(r)), k, {})[3]),
+            0.02 * size);
+}
+
+TEST(LuneburgLenses, AreFoundWithTheirSphereAxisAndCap) {
+  DecoySpec spec = lens_of(0.3, 65);
+  spec.boresight_elevation_deg = 20;
+  TriangleMesh mesh = make_decoy(spec);
+  mesh.append(transformed(make_decoy(lens_of(0.1, 90)), Mat3::Identity(), {0, 2, 0}));
+  const Scatterer scatterer = scatterer_of(mesh);
+  const std::vector<LuneburgLens> lenses = luneburg_lenses(scatterer);
+  ASSERT_EQ(lenses.size(), 2u);
+  constexpr double kRounding = 1e-9;
+  EXPECT_LT((lenses[0].centre + scatterer.centre()).norm(), kRounding);
+  EXPECT_NEAR(lenses[0].radius, 0.3, kRounding);
+  EXPECT_LT((lenses[0].axis - direction(0, 20)).norm(), 1e-7);
+  EXPECT_NEAR(lenses[0].cap_half_angle, radians(65), kRounding);
+  EXPECT_LT((lenses[1].centre + scatterer.centre() - Vec3(0, 2, 0)).norm(), kRounding);
+  EXPECT_LT((lenses[1].axis - Vec3::UnitX()).norm(), 1e-7);
+  EXPECT_NEAR(lenses[1].cap_half_angle, 0.5 * kPi, kRounding);
+  // Without a cap nothing returns.
+  TriangleMesh bare = make_decoy(spec);
+  for (std::uint16_t& material : bare.triangle_material) material = 0;
+  EXPECT_TRUE(luneburg_lenses(scatterer_of(bare)).empty());
+}
+
+}  // namespace
+}  // namespace seaglint
