@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/scattering/radiation/lens_reflection.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -8,6 +10,7 @@
 
 #include "sim/core/numbers/real_functions.h"
 #include "sim/core/numbers/rotation.h"
+#include "sim/core/process/error.h"
 
 namespace seaglint {
 
@@ -35,6 +38,9 @@ Sphere sphere_through(std::span<const Vec3> points) {
   const Vec3 from_mean = Mat3(moment_of(points, mean).inverse()) * right;
   return {mean + from_mean, std::sqrt(mean_square + from_mean.squaredNorm())};
 }
+
+// Largest distance of a corner from the sphere over its radius: a polygon of 8 sides that the water cuts.
+constexpr double kOffSphere = 0.08;
 
 // Corners of the facets of one lens, and those on the border of its cap.
 struct LensCorners {
@@ -69,6 +75,14 @@ std::vector<LuneburgLens> luneburg_lenses(const Scatterer& scatterer) {
   for (auto& [surface, own] : corners) {
     if (own.rim.empty()) continue;
     const Sphere sphere = sphere_through(own.all);
+    double off = 0;
+    for (const Vec3& x : own.all) off = std::max(off, std::abs((x - sphere.centre).norm() - sphere.radius));
+    if (!(off <= kOffSphere * sphere.radius))
+      throw InputError(
+          fmt::format("the surface of a Luneburg lens is up to {:.3g} m off a sphere with a radius of {:.3g} m: must "
+                      "be within {:g} "
+                      "of the radius",
+                      off, sphere.radius, kOffSphere));
     const Vec3 of_rim = mean_of(own.rim);
     Vec3 axis = principal_axes(moment_of(own.rim, of_rim)).axes.col(0);
     if (axis.dot(mean_of(own.all) - of_rim) < 0) axis = -axis;

@@ -33,7 +33,8 @@ struct LuneburgLens {
 };
 
 // The lenses of a scatterer: connected surfaces with facets of the kind kLens, by the sphere through the corners of
-// these facets and the circle in which they border on the cap. A lens without cap has no echo and is left out.
+// these facets and the circle in which they border on the cap. A lens without cap has no echo and is left out. Throws
+// InputError where they are not on a sphere.
 std::vector<LuneburgLens> luneburg_lenses(const Scatterer& scatterer);
 
 // Share of the power of the focal spot on the cap, 0..1: of the Airy pattern (2 J1(u) / u)^2 on one side of a straight

@@ -462,7 +462,8 @@ TEST(LensMesh, StandsOnEverySupport) {
     spec.support = support;
     spec.tether_m = 3;
     const TriangleMesh mesh = make_decoy(spec);
-    EXPECT_NEAR(bounds(part_named(mesh, "mast")).upper.z(), -0.15, kRounding);
+    // Below a facet, which is lower than the sphere by its sagitta.
+    EXPECT_NEAR(bounds(part_named(mesh, "mast")).upper.z(), -0.15, 0.15 * (1 - std::cos(kPi / 64)));
     EXPECT_EQ(above_water(mesh, -spec.mast_m).below.open_m, 0);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       const Material& material = mesh.materials[mesh.triangle_material[t]];
