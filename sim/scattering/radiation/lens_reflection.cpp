@@ -78,11 +78,10 @@ std::vector<LuneburgLens> luneburg_lenses(const Scatterer& scatterer) {
     double off = 0;
     for (const Vec3& x : own.all) off = std::max(off, std::abs((x - sphere.centre).norm() - sphere.radius));
     if (!(off <= kOffSphere * sphere.radius))
-      throw InputError(
-          fmt::format("the surface of a Luneburg lens is up to {:.3g} m off a sphere with a radius of {:.3g} m: must "
-                      "be within {:g} "
-                      "of the radius",
-                      off, sphere.radius, kOffSphere));
+      throw InputError(fmt::format(
+          "the surface of a Luneburg lens is up to {:.3g} m off a sphere of radius {:.3g} m: must be within "
+          "{:g} of the radius",
+          off, sphere.radius, kOffSphere));
     const Vec3 of_rim = mean_of(own.rim);
     Vec3 axis = principal_axes(moment_of(own.rim, of_rim)).axes.col(0);
     if (axis.dot(mean_of(own.all) - of_rim) < 0) axis = -axis;
