@@ -417,14 +417,18 @@ void visit(ShipSpec& spec, FieldVisitor& v) {
 void visit(DecoySpec& spec, FieldVisitor& v) {
   v.require("kind");
   v.choice("kind", spec.kind, kDecoyKindNames,
-           "icosahedral (20 trihedra), octahedral (8), trihedral_cluster (a ring of them), trihedral or dihedral.");
-  v.number("leg_m", spec.leg_m, within(0.05, 5), "Leg of a trihedron; side of a dihedral's faces.");
+           "icosahedral (20 trihedra), octahedral (8), trihedral_cluster (a ring of them), trihedral, dihedral or "
+           "luneburg_lens (with a metal cap).");
+  v.number("leg_m", spec.leg_m, within(0.05, 5), "Leg of a trihedron; side of a dihedral's faces; radius of a lens.");
   v.choice("panel", spec.panel, kDecoyPanelNames, "Panels of an octahedral or trihedral reflector.");
   v.choice("pose", spec.pose, kDecoyPoseNames,
            "Octahedral: rain_catcher, one trihedron upwards, or point_up, one corner upwards.");
   v.integer("cells", spec.cells, within(3, 12), "Trihedra of a trihedral_cluster.");
   v.number("boresight_elevation_deg", spec.boresight_elevation_deg, within(-45, 45),
-           "Elevation of the boresights of a trihedral_cluster, a trihedral or a dihedral.");
+           "Elevation of the boresights of a trihedral_cluster, a trihedral, a dihedral or a lens.");
+  v.number("cap_half_angle_deg", spec.cap_half_angle_deg, within(20, 90),
+           "Lens: half angle of its metal cap, seen from its centre.");
+  v.number("lens_loss_db", spec.lens_loss_db, within(0, 10), "Lens: loss of its dielectric, both ways.");
   v.number("angle_error_deg", spec.angle_error_deg, within(0, 5), "Standard deviation of every right angle.");
   if (v.optional("seam_errors_deg", spec.seam_errors_deg != DecoySpec().seam_errors_deg))
     v.triple("seam_errors_deg", spec.seam_errors_deg, within(-10, 10),
@@ -515,7 +519,7 @@ void visit(TargetSpec& spec, FieldVisitor& v) {
   }
   if (v.optional("decoy", spec.decoy.has_value())) {
     if (!spec.decoy) spec.decoy.emplace();
-    v.section("decoy", *spec.decoy, visit, "Generated corner-reflector decoy in the place of a mesh file.");
+    v.section("decoy", *spec.decoy, visit, "Generated decoy in the place of a mesh file.");
   }
   const bool is_mesh = spec.points.empty(), is_file = is_mesh && !is_generated(spec);
   if (v.optional("unit", is_file))

@@ -9,6 +9,7 @@
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/core/text/names.h"
+#include "sim/core/text/words.h"
 #include "sim/scenario/fields.h"
 
 namespace seaglint {
@@ -130,8 +131,35 @@ MaterialSpec parse_material(const std::string& yaml, const std::string& file_nam
   return spec;
 }
 
+namespace {
+
+constexpr std::string_view kLensName = "luneburg_lens", kDecibels = "dB";
+
+}  // namespace
+
+std::string lens_material_name(double loss_db) {
+  return loss_db > 0 ? fmt::format("{}_{}{}", kLensName, loss_db, kDecibels) : std::string(kLensName);
+}
+
+std::optional<MaterialSpec> lens_material(const std::string& name) {
+  if (!name.starts_with(kLensName)) return std::nullopt;
+  MaterialSpec lens;
+  lens.name = name;
+  lens.source = "geometrical optics of a Luneburg lens";
+  lens.kind = SurfaceKind::kLens;
+  std::string_view loss = std::string_view(name).substr(kLensName.size());
+  if (loss.empty()) return lens;
+  if (!loss.starts_with('_') || !loss.ends_with(kDecibels)) return std::nullopt;
+  loss.remove_prefix(1);
+  loss.remove_suffix(kDecibels.size());
+  const std::optional<double> value = parse_number(loss);
+  if (!value || !(*value >= 0 && *value <= 10)) return std::nullopt;
+  lens.loss_db = *value;
+  return lens;
+}
+
 std::optional<fs::path> find_material_file(const std::string& name, const fs::path& folder, const std::string& where) {
-  if (name == "pec") return std::nullopt;
+  if (name == "pec" || lens_material(name)) return std::nullopt;
   const bool is_file = is_path(name);
   const fs::path path = is_file ? fs::path(name) : file_of_name(name);
   if (std::optional<fs::path> file = search_file(path.string(), folder)) return file;
@@ -152,14 +180,15 @@ std::optional<fs::path> find_material_file(const std::string& name, const fs::pa
                                path.parent_path().string(), places_text(folder), suggestion(name, names)));
 }
 
-std::optional<fs::path> known_material_file(const std::string& name, const fs::path& folder) {
+std::optional<MaterialSpec> known_material(const std::string& name, const fs::path& folder) {
   if (name == "pec" || is_path(name)) return std::nullopt;
-  return search_file(file_of_name(name).string(), folder);
+  if (const auto file = search_file(file_of_name(name).string(), folder)) return read_material(*file);
+  return lens_material(name);
 }
 
 MaterialSpec find_material(const std::string& name, const fs::path& folder, const std::string& where) {
   const std::optional<fs::path> file = find_material_file(name, folder, where);
-  return file ? read_material(*file) : MaterialSpec{};
+  return file ? read_material(*file) : lens_material(name).value_or(MaterialSpec{});
 }
 
 }  // namespace seaglint

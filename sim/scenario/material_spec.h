@@ -54,8 +54,11 @@ enum class SurfaceKind {
   kImpedance,  // surface impedance relative to free space, independent of angle (Leontovich)
   kLayers,     // stack of plane layers, illuminated layer first, on a perfect conductor or with air behind
   kSeaWater,   // half-space of sea water
-  kSubmerged   // opaque, neither reflects nor radiates; not available in files
+  kSubmerged,  // opaque, neither reflects nor radiates; not available in files
+  kLens        // uncapped surface of a Luneburg lens reflector; not available in files
 };
+// True for surfaces that reflect no beam and diffract at no edge.
+inline bool ends_beams(SurfaceKind kind) { return kind == SurfaceKind::kSubmerged || kind == SurfaceKind::kLens; }
 enum class Backing { kPec, kAir };
 
 struct MaterialSpec {
@@ -72,24 +75,30 @@ struct MaterialSpec {
   std::vector<LayerSpec> layers;
   double temperature_c = 20;  // of sea water, -2 <= x <= 29
   double salinity_psu = 35;   // of sea water, 0 <= x <= 40
+  double loss_db = 0;         // of a lens, both ways, 0 <= x <= 10
 
   bool operator==(const MaterialSpec&) const = default;
 };
+
+// Name of the surface of a Luneburg lens in a mesh: luneburg_lens, with a loss luneburg_lens_1.5dB.
+std::string lens_material_name(double loss_db);
+// The material of such a name; nullopt for any other name.
+std::optional<MaterialSpec> lens_material(const std::string& name);
 
 // Reads and checks a material file. Throws InputError "file:line:col: key.path: value ...: bound".
 MaterialSpec read_material(const std::filesystem::path& file);
 MaterialSpec parse_material(const std::string& yaml, const std::string& file_name);
 
 // File of a material: a path, or NAME for assets/materials/NAME.yaml; searched in `folder`, then in the working
-// directory. nullopt for `pec`. Throws InputError, beginning with `where`, when there is none.
+// directory. nullopt for `pec` and the names of lenses. Throws InputError, beginning with `where`, when there is none.
 std::optional<std::filesystem::path> find_material_file(const std::string& name, const std::filesystem::path& folder,
                                                         const std::string& where);
 
-// The file assets/materials/NAME.yaml of the name of a material in a mesh, in the same places; nullopt for `pec`, for a
-// path and for a name without a file.
-std::optional<std::filesystem::path> known_material_file(const std::string& name, const std::filesystem::path& folder);
+// The material of the name of a material in a mesh: assets/materials/NAME.yaml in the same places, or a lens; nullopt
+// for `pec`, for a path and for a name without a file.
+std::optional<MaterialSpec> known_material(const std::string& name, const std::filesystem::path& folder);
 
-// Contents of the file of find_material_file(); a perfect conductor for `pec`. Throws likewise.
+// Contents of the file of find_material_file(); a perfect conductor for `pec`, a lens for its name. Throws likewise.
 MaterialSpec find_material(const std::string& name, const std::filesystem::path& folder, const std::string& where);
 
 }  // namespace seaglint

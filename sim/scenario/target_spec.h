@@ -194,14 +194,14 @@ struct ShipSpec {
 // for a loading outside of 0 to 1.
 void check_ship(const ShipSpec& ship);
 
-// A corner-reflector decoy as it is built (sim/geometry/decoy/make_decoy.h).
-enum class DecoyKind { kIcosahedral, kOctahedral, kTrihedralCluster, kTrihedral, kDihedral };
+// A passive decoy as it is built (sim/geometry/decoy/make_decoy.h).
+enum class DecoyKind { kIcosahedral, kOctahedral, kTrihedralCluster, kTrihedral, kDihedral, kLuneburgLens };
 enum class DecoyPanel { kTriangular, kSquare, kCircular };
 enum class DecoyPose { kRainCatcher, kPointUp };  // of an octahedral one: a cell or a corner upwards
 enum class DecoySupport { kNone, kFloat, kRaft, kTow };
 enum class DecoyFloat { kDisc, kSphere };
-inline constexpr const char* kDecoyKindNames[] = {"icosahedral", "octahedral", "trihedral_cluster", "trihedral",
-                                                  "dihedral"};
+inline constexpr const char* kDecoyKindNames[] = {"icosahedral", "octahedral", "trihedral_cluster",
+                                                  "trihedral",   "dihedral",   "luneburg_lens"};
 inline constexpr const char* kDecoyPanelNames[] = {"triangular", "square", "circular"};
 inline constexpr const char* kDecoyPoseNames[] = {"rain_catcher", "point_up"};
 inline constexpr const char* kDecoySupportNames[] = {"none", "float", "raft", "tow"};
@@ -209,13 +209,15 @@ inline constexpr const char* kDecoyFloatNames[] = {"disc", "sphere"};
 
 struct DecoySpec {
   DecoyKind kind = DecoyKind::kIcosahedral;
-  double leg_m = 0.372;                            // of a trihedron; side of a dihedral's faces, 0.05 <= x <= 5
-  DecoyPanel panel = DecoyPanel::kTriangular;      // octahedral, trihedral
-  DecoyPose pose = DecoyPose::kRainCatcher;        // octahedral
-  int cells = 5;                                   // trihedral_cluster, 3 <= x <= 12
-  double boresight_elevation_deg = 0;              // trihedral_cluster, trihedral, dihedral, -45 <= x <= 45
-  std::uint64_t seed = 0;                          // of all imperfections
-  double angle_error_deg = 0;                      // standard deviation of every right angle, 0 <= x <= 5
+  double leg_m = 0.372;                        // of a trihedron; side of a dihedral; radius of a lens, 0.05 <= x <= 5
+  DecoyPanel panel = DecoyPanel::kTriangular;  // octahedral, trihedral
+  DecoyPose pose = DecoyPose::kRainCatcher;    // octahedral
+  int cells = 5;                               // trihedral_cluster, 3 <= x <= 12
+  double boresight_elevation_deg = 0;          // all but icosahedral, octahedral, -45 <= x <= 45
+  double cap_half_angle_deg = 70;              // luneburg_lens: of its cap, seen from its centre, 20 <= x <= 90
+  double lens_loss_db = 0;                     // luneburg_lens: both ways, 0 <= x <= 10
+  std::uint64_t seed = 0;                      // of all imperfections
+  double angle_error_deg = 0;                  // standard deviation of every right angle, 0 <= x <= 5
   std::array<double, 3> seam_errors_deg{0, 0, 0};  // trihedral: of the right angle at each seam, -10 <= x <= 10
   double surface_error_mm = 0;                     // rms of a panel's displacement, 0 <= x <= leg / 50
   double rounding_mm = 0;                          // radius of seams, of tubes if inflatable, 0 or 0.1 <= x <= leg / 5

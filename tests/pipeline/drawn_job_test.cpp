@@ -117,7 +117,8 @@ const std::vector<DrawnKey>& drawn_job_keys() {
     return Override{"targets.corner",
                     fmt::format("{{label: 0, decoy: {{{}}}, motion: {{model: float, spin_up_s: 10}}}}", keys)};
   };
-  const Override octahedral = decoy("kind: octahedral"), cluster = decoy("kind: trihedral_cluster");
+  const Override octahedral = decoy("kind: octahedral"), cluster = decoy("kind: trihedral_cluster"),
+                 lens = decoy("kind: luneburg_lens, leg_m: 0.2");
   const Override soft = decoy("kind: octahedral, rounding_mm: 20"),
                  dented = decoy("kind: octahedral, dented_panels: 2");
   const Override afloat = decoy("kind: octahedral, support: float"),
@@ -180,6 +181,8 @@ const std::vector<DrawnKey>& drawn_job_keys() {
       {"targets.NAME.decoy.pose", "choice(rain_catcher, point_up)", "corner", {octahedral}},
       {"targets.NAME.decoy.cells", "integers(3, 6)", "corner", {cluster}},
       {"targets.NAME.decoy.boresight_elevation_deg", "uniform(-5, 5)", "corner", {cluster}},
+      {"targets.NAME.decoy.cap_half_angle_deg", "uniform(50, 80)", "corner", {lens}},
+      {"targets.NAME.decoy.lens_loss_db", "uniform(0, 2)", "corner", {lens}},
       {"targets.NAME.decoy.angle_error_deg", "uniform(0, 2)", "corner", {octahedral}},
       {"targets.NAME.decoy.surface_error_mm", "uniform(0, 2)", "corner", {octahedral}},
       {"targets.NAME.decoy.rounding_mm", "uniform(5, 20)", "corner", {octahedral}},

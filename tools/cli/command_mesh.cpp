@@ -76,9 +76,10 @@ std::string material_lines(const TriangleMesh& mesh) {
   std::string text = fmt::format("materials  {}\n", mesh.materials.size());
   for (std::size_t m = 0; m < count.size(); ++m) {
     const std::string& name = mesh.materials[m].name;
-    const char* use = name == Material{}.name         ? ""
-                      : known_material_file(name, {}) ? ", of assets/materials"
-                                                      : ", no name of assets/materials: perfect conductor";
+    const char* use = name == Material{}.name    ? ""
+                      : lens_material(name)      ? ", a Luneburg lens"
+                      : known_material(name, {}) ? ", of assets/materials"
+                                                 : ", no name of assets/materials: perfect conductor";
     text += fmt::format("  {:<24} {:>7} triangles{}\n", on_one_line(name), count[m], use);
   }
   return text;
@@ -238,21 +239,25 @@ struct DecoyArguments {
 
 void add_decoy_kind(CommandOptions& make, CommandContext& context) {
   auto arguments = std::make_shared<DecoyArguments>();
-  CommandOptions kind = add_kind(make, context, "decoy", "Corner-reflector decoy as it is built, with its support",
+  CommandOptions kind = add_kind(make, context, "decoy", "Corner reflector or lens as it is built, with its support",
                                  "--kind octahedral --leg-m 0.4 --angle-error-deg 0.5 --support float -o decoy.glb",
                                  [arguments] { return make_decoy(arguments->make_spec()); });
   const auto add_word = [&kind](const char* option, std::string& word, const auto& names, const char* what) {
     kind.add_option(option, word, what).one_of({std::begin(names), std::end(names)}).show_default();
   };
   DecoySpec& spec = arguments->spec;
-  add_word("--kind", arguments->kind, kDecoyKindNames, "Arrangement of its trihedra");
-  kind.add_option("--leg-m", spec.leg_m, "Length of a leg of its trihedra, side of a dihedral's faces").show_default();
+  add_word("--kind", arguments->kind, kDecoyKindNames, "Arrangement of its trihedra, or a lens");
+  kind.add_option("--leg-m", spec.leg_m, "Leg of its trihedra, side of a dihedral's faces, radius of a lens")
+      .show_default();
   add_word("--panel", arguments->panel, kDecoyPanelNames, "Panels of an octahedral or a trihedral one");
   add_word("--pose", arguments->pose, kDecoyPoseNames, "Octahedral: a cell or a corner upwards");
   kind.add_option("--cells", spec.cells, "Trihedra of a trihedral_cluster").show_default();
   kind.add_option("--boresight-elevation-deg", spec.boresight_elevation_deg,
-                  "Of a trihedral_cluster, a trihedral or a dihedral one")
+                  "Of a trihedral_cluster, a trihedral, a dihedral or a lens")
       .show_default();
+  kind.add_option("--cap-half-angle-deg", spec.cap_half_angle_deg, "Half angle of the metal cap of a lens")
+      .show_default();
+  kind.add_option("--lens-loss-db", spec.lens_loss_db, "Loss of the dielectric of a lens, both ways").show_default();
   kind.add_option("--seed", spec.seed, "Of all imperfections").show_default();
   kind.add_option("--angle-error-deg", spec.angle_error_deg, "Standard deviation of every right angle").show_default();
   kind.add_option("--seam-errors-deg", spec.seam_errors_deg,

@@ -123,13 +123,13 @@ std::string ship_text(const Scenario& scenario, const TargetSpec& target) {
                      text("seed", fmt::format("{}", ship.seed)));
 }
 
-// "generated octahedral decoy, legs of 0.5 m, seed 3", or the distributions of its keys.
+// "generated octahedral decoy, leg_m 0.5, seed 3", or the distributions of its keys.
 std::string decoy_text(const Scenario& scenario, const TargetSpec& target) {
   const DecoySpec& decoy = *target.decoy;
   const auto text = [&](const char* key, const std::string& value) {
     return markdown_text(value_text(scenario, fmt::format("targets.{}.decoy.{}", target.name, key), value));
   };
-  return fmt::format("generated {} decoy, legs of {} m, seed {}",
+  return fmt::format("generated {} decoy, leg_m {}, seed {}",
                      text("kind", kDecoyKindNames[static_cast<std::size_t>(decoy.kind)]),
                      text("leg_m", fmt::format("{:g}", decoy.leg_m)), text("seed", fmt::format("{}", decoy.seed)));
 }

@@ -13,6 +13,7 @@
 #include "sim/core/numbers/rotation.h"
 #include "sim/geometry/decoy/make_decoy.h"
 #include "sim/geometry/shapes/generators.h"
+#include "sim/scenario/material_spec.h"
 
 namespace seaglint {
 
@@ -402,6 +403,59 @@ class FilletMesh {
   std::vector<Vec3> end_;
 };
 
+// Sides of a lens along its circumference. The polygon of a projection has 0.2 to 0.3 % less area than the disc.
+constexpr int kLensSides = 64;
+
+// A sphere with its vertices at leg_m from its centre: rings about its axis, from the front of the lens to the middle
+// of the cap, with one ring along the rim. Outside the cap it has the material of a lens.
+TriangleMesh lens_mesh(const DecoySpec& spec) {
+  const Mat3 axes = axis_rotation(-radians(spec.boresight_elevation_deg), Vec3::UnitY());
+  const double rim = kPi - radians(spec.cap_half_angle_deg), step = 2 * kPi / kLensSides;
+  std::vector<double> angles{0};  // of the rings from the axis
+  std::size_t rim_ring = 0;
+  for (const double end : {rim, kPi}) {
+    const double start = angles.back();
+    const int rings = static_cast<int>(std::ceil((end - start) / step));
+    if (end == kPi) rim_ring = angles.size() - 1;
+    for (int i = 1; i <= rings; ++i) angles.push_back(start + (end - start) * i / rings);
+  }
+  MeshBuilder builder;
+  std::vector<Vec3> normals;
+  const auto point = [&](double angle, int k) {
+    const double turn = step * k;
+    const Vec3 normal =
+        axes * Vec3(std::cos(angle), std::sin(angle) * std::cos(turn), std::sin(angle) * std::sin(turn));
+    normals.push_back(normal);
+    return builder.vertex(spec.leg_m * normal);
+  };
+  const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    if (a != b && b != c && c != a) builder.triangle(a, b, c, {normals[a], normals[b], normals[c]});
+  };
+  const auto ring_at = [&](std::size_t i) {
+    const bool is_pole = i == 0 || i + 1 == angles.size();
+    std::vector<std::uint32_t> ring{point(angles[i], 0)};
+    for (int k = 1; k < kLensSides; ++k) ring.push_back(is_pole ? ring.front() : point(angles[i], k));
+    return ring;
+  };
+  builder.begin_part("lens");
+  builder.begin_material(lens_material_name(spec.lens_loss_db));
+  std::vector<std::uint32_t> ring = ring_at(0);
+  for (std::size_t i = 0; i + 1 < angles.size(); ++i) {
+    if (i == rim_ring) {
+      builder.begin_part("cap");
+      builder.begin_material(Material{}.name);
+    }
+    const std::vector<std::uint32_t> next = ring_at(i + 1);
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      const std::size_t beside = (k + 1) % ring.size();
+      add(ring[k], next[k], next[beside]);
+      add(ring[k], next[beside], ring[beside]);
+    }
+    ring = next;
+  }
+  return builder.take();
+}
+
 }  // namespace
 
 DecoyReflector decoy_reflector(const DecoySpec& spec) {
@@ -410,12 +464,14 @@ DecoyReflector decoy_reflector(const DecoySpec& spec) {
     case DecoyKind::kOctahedral: return octahedral(spec);
     case DecoyKind::kTrihedralCluster: return trihedral_cluster(spec);
     case DecoyKind::kTrihedral: return trihedral(spec);
+    case DecoyKind::kLuneburgLens: return {};
     case DecoyKind::kDihedral: break;
   }
   return dihedral(spec);
 }
 
 TriangleMesh reflector_mesh(const DecoySpec& spec, const DecoyReflector& reflector) {
+  if (spec.kind == DecoyKind::kLuneburgLens) return lens_mesh(spec);
   const bool is_curved = spec.surface_error_mm > 0 || spec.dented_panels > 0, is_dihedral = reflector.trihedra.empty();
   const std::uint32_t divisions = is_curved ? kDivisions : 1;
   const double rho = 1e-3 * spec.rounding_mm / spec.leg_m;

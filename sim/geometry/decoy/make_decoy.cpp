@@ -43,14 +43,17 @@ void check_bounds(const DecoySpec& spec) {
   require_within(spec.leg_m, 0.05, 5, "leg_m");
   require_within(spec.cells, 3, 12, "cells");
   require_within(spec.boresight_elevation_deg, -45, 45, "boresight_elevation_deg");
+  require_within(spec.cap_half_angle_deg, 20, 90, "cap_half_angle_deg");
+  require_within(spec.lens_loss_db, 0, 10, "lens_loss_db");
   require_within(spec.angle_error_deg, 0, 5, "angle_error_deg");
   for (const double error : spec.seam_errors_deg) require_within(error, -10, 10, "seam_errors_deg");
   require_within(spec.surface_error_mm, 0, leg_mm / 50, "surface_error_mm");
   require_zero_or_within(spec.rounding_mm, 0.1, leg_mm / 5, "rounding_mm");
   require_zero_or_within(spec.frame_mm, 0.1, leg_mm / 10, "frame_mm");
-  const int panels = decoy_panel_count(spec);
-  require_within(spec.missing_panels, 0, panels - 1, "missing_panels");
-  require_within(spec.dented_panels, 0, panels - spec.missing_panels, "dented_panels");
+  if (const int panels = decoy_panel_count(spec); panels > 0) {
+    require_within(spec.missing_panels, 0, panels - 1, "missing_panels");
+    require_within(spec.dented_panels, 0, panels - spec.missing_panels, "dented_panels");
+  }
   require_within(spec.dent_depth, std::numeric_limits<double>::min(), 0.2, "dent_depth");
   require_zero_or_within(spec.float_m, 0.05, 20, "float_m");
   require_within(spec.mast_m, std::numeric_limits<double>::min(), 50, "mast_m");
@@ -66,9 +69,23 @@ void check_contradictions(const DecoySpec& spec) {
   refuse_if(spec.pose != defaults.pose && !is(DecoyKind::kOctahedral), "pose", "octahedral");
   refuse_if(spec.cells != defaults.cells && !is(DecoyKind::kTrihedralCluster), "cells", "trihedral_cluster");
   refuse_if(spec.boresight_elevation_deg != 0 && (is(DecoyKind::kIcosahedral) || is(DecoyKind::kOctahedral)),
-            "boresight_elevation_deg", "trihedral_cluster, trihedral and dihedral");
+            "boresight_elevation_deg", "trihedral_cluster, trihedral, luneburg_lens and dihedral");
   refuse_if(spec.seam_errors_deg != defaults.seam_errors_deg && !is(DecoyKind::kTrihedral), "seam_errors_deg",
             "trihedral");
+  const bool is_lens = is(DecoyKind::kLuneburgLens);
+  refuse_if(spec.cap_half_angle_deg != defaults.cap_half_angle_deg && !is_lens, "cap_half_angle_deg", "luneburg_lens");
+  refuse_if(spec.lens_loss_db > 0 && !is_lens, "lens_loss_db", "luneburg_lens");
+  const auto refuse_of_lens = [&](bool is_set, const char* name) {
+    refuse_if(is_set && is_lens, name, "corner reflectors");
+  };
+  refuse_of_lens(spec.angle_error_deg > 0, "angle_error_deg");
+  refuse_of_lens(spec.surface_error_mm > 0, "surface_error_mm");
+  refuse_of_lens(spec.rounding_mm > 0, "rounding_mm");
+  refuse_of_lens(spec.inflatable, "inflatable");
+  refuse_of_lens(spec.missing_panels != 0, "missing_panels");
+  refuse_of_lens(spec.dented_panels != 0, "dented_panels");
+  refuse_of_lens(spec.dent_depth != defaults.dent_depth, "dent_depth");
+  refuse_of_lens(spec.frame_mm > 0, "frame_mm");
   if (spec.inflatable && spec.rounding_mm == 0)
     throw InputError("inflatable: needs rounding_mm, the radius of its tubes");
   if (spec.inflatable && spec.frame_mm > 0)
@@ -312,6 +329,7 @@ int decoy_panel_count(const DecoySpec& spec) {
     case DecoyKind::kOctahedral: return 12;
     case DecoyKind::kTrihedralCluster: return 3 * spec.cells;
     case DecoyKind::kTrihedral: return 3;
+    case DecoyKind::kLuneburgLens: return 0;
     case DecoyKind::kDihedral: break;
   }
   return 2;

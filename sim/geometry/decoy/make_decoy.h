@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Corner-reflector decoys as they are built: trihedra of flat panels with their imperfections, on a float, a raft or a
-// mast.
+// Passive decoys as they are built: trihedra of flat panels with their imperfections, and Luneburg lenses, on a float,
+// a raft or a mast.
 
 #include <array>
 #include <cstddef>
@@ -25,6 +25,9 @@ namespace seaglint {
 // * trihedral: panel_01..panel_03, panel k opposite to seam k; seams 1 and 2 are the lower ones to starboard and to
 //   port, seam 3 is the upper one. Origin midway between the apex and the plane through the ends of the seams.
 // * dihedral: panel_01, panel_02, two squares with an upright seam. Origin midway between seam and opening.
+// * luneburg_lens: a sphere of radius leg_m in the parts lens and cap, whose axis is the boresight. The cap is behind.
+// The
+//   solver takes the material of the lens from its name, lens_material_name() (radiation/lens_reflection.h).
 // Panels are sheets. The icosahedral reflector without missing panels is closed. Fillets are in the part of their cell,
 // else in `seams`.
 //
@@ -59,7 +62,7 @@ DecoySpec decoy_of_body(DecoySpec spec, std::size_t body);
 DecoySpec without_imperfections(DecoySpec spec);
 double largest_displacement_m(const DecoySpec& spec);
 
-// Panels of the whole reflector, without those missing subtracted.
+// Panels of the whole reflector, without those missing subtracted; 0 of a lens.
 int decoy_panel_count(const DecoySpec& spec);
 
 // Diameter of the float or raft, m; 0 without.
@@ -93,7 +96,7 @@ struct DecoyReflector {
 // Of a spec within its bounds, with the errors of its right angles.
 DecoyReflector decoy_reflector(const DecoySpec& spec);
 
-// Panels with their displacements, and fillets.
+// Panels with their displacements, and fillets; a lens with its cap.
 TriangleMesh reflector_mesh(const DecoySpec& spec, const DecoyReflector& reflector);
 
 }  // namespace seaglint

@@ -133,10 +133,10 @@ std::vector<std::string> assign_own_materials(TriangleMesh& mesh, std::vector<Ma
     const std::size_t own = before.triangle_material[t];
     if (!number[own]) {
       number[own] = 0;
-      if (const auto file = known_material_file(before.materials[own].name, folder)) {
+      if (const auto material = known_material(before.materials[own].name, folder)) {
         number[own] = static_cast<std::uint16_t>(materials.size());
         names.push_back(before.materials[own].name);
-        materials.push_back(read_material(*file));
+        materials.push_back(*material);
         mesh.materials.push_back({materials.back().name});
       }
     }

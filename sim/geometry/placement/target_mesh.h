@@ -83,7 +83,7 @@ struct PartMaterial {
 std::vector<MaterialSpec> assign_materials(TriangleMesh& mesh, const MaterialSpec& all,
                                            std::span<const PartMaterial> parts);
 
-// Gives the faces that still have materials[0] the material of assets/materials that is named as their material in
+// Gives the faces that still have materials[0] the known material (known_material()) that is named as their material in
 // `before`: materials and triangle_material of the mesh before assign_materials(). Appends these to mesh.materials and
 // `materials`, and returns their names. folder: searched first for material files. Throws InputError for an invalid
 // file.

@@ -66,7 +66,8 @@ MaterialSurface::MaterialSurface(const MaterialSpec& spec, double k)
       slabs_.push_back({sea_water_permittivity(frequency_hz, spec.temperature_c, spec.salinity_psu), 1.0, 0});
       half_space_ = true;
       break;
-    case SurfaceKind::kSubmerged: break;
+    case SurfaceKind::kSubmerged:
+    case SurfaceKind::kLens: break;
   }
 }
 
@@ -77,7 +78,7 @@ InterfaceCoefficients MaterialSurface::at(double cos_incidence) const {
     const Complex z = impedance_;
     fields.te = (z * cos_incidence - 1.0) / (z * cos_incidence + 1.0);
     fields.tm = (cos_incidence - z) / (cos_incidence + z);
-  } else if (kind_ == SurfaceKind::kSubmerged) {
+  } else if (ends_beams()) {
     fields.te = fields.tm = 0;
   } else if (kind_ != SurfaceKind::kPec) {
     fields = stack(cos_incidence);

@@ -34,7 +34,7 @@ class MaterialSurface {
   // k: free-space wavenumber, rad/m. The frequency range of the material's source is not checked here.
   MaterialSurface(const MaterialSpec& spec, double k);
 
-  bool is_submerged() const { return kind_ == SurfaceKind::kSubmerged; }
+  bool ends_beams() const { return seaglint::ends_beams(kind_); }
 
   // Of all layers, m; 0 without layers.
   double thickness() const;

@@ -55,10 +55,10 @@ class LengthByPart {
 // a good approximation at right angles and at others that divide pi.
 bool is_left_out(const Scatterer& scatterer, std::size_t number) {
   const SharpEdge& edge = scatterer.edges().edges[number];
-  const auto is_submerged = [&](int facet) {
-    return scatterer.materials()[scatterer.facets()[facet].material].kind == SurfaceKind::kSubmerged;
+  const auto has_no_edges = [&](int facet) {
+    return ends_beams(scatterer.materials()[scatterer.facets()[facet].material].kind);
   };
-  if (edge.conducts || is_submerged(edge.facet[0]) || is_submerged(edge.facet[1])) return false;
+  if (edge.conducts || has_no_edges(edge.facet[0]) || has_no_edges(edge.facet[1])) return false;
   const double N = edge.front_wedge.N;
   if (N < 1 && std::abs(std::sin(kPi / N)) < 1e-3) return false;
   const auto& sides = scatterer.edges().edges_of_facet[edge.facet[0]];

@@ -190,9 +190,9 @@ bool is_air_backed(const MaterialSpec& material) {
 }
 
 // Edges of materials diffract where there is a coefficient for them: free edges of sheets, with air behind or opaque,
-// and convex wedges of two opaque faces; none at submerged faces.
+// and convex wedges of two opaque faces; none at submerged faces and lenses.
 bool diffracts_with(const MaterialSpec& a, const MaterialSpec& b, const SharpEdge& edge) {
-  if (a.kind == SurfaceKind::kSubmerged || b.kind == SurfaceKind::kSubmerged) return false;
+  if (ends_beams(a.kind) || ends_beams(b.kind)) return false;
   if (edge.is_free_edge()) return edge.two_sided;
   return !edge.two_sided && edge.front_wedge.N > 1 && !is_air_backed(a) && !is_air_backed(b);
 }

@@ -139,7 +139,8 @@ AspectTrace::AspectTrace(const Scatterer& scatterer, std::span<const BistaticGeo
       settings_(settings),
       wavenumbers_(wavenumbers),
       reciprocity_(reciprocity),
-      threads_(threads) {
+      threads_(threads),
+      lenses_(luneburg_lenses(scatterer)) {
   std::vector<const RadarBasis*> known;
   const auto number_of = [&](const RadarBasis& basis) {
     const auto at = std::ranges::find_if(known, [&](const RadarBasis* other) { return *other == basis; });
@@ -212,6 +213,14 @@ std::size_t AspectTrace::run(const Visit& visit, const Complete& complete, const
   }
   for (std::size_t pair = 0; pair < pairs_.size(); ++pair) {
     const std::size_t first = own_chunks(pair) - kEdgeChunks;
+    if (!lenses_.empty()) {
+      const Aspect &from = *directions_[transmit_[pair]], &to = *directions_[receive_[pair]];
+      const BistaticGeometry antennas =
+          pairs_[pair].monostatic ? monostatic(from.basis) : bistatic(from.basis, to.basis);
+      pass_on(pair, first,
+              lens_reflection({scatterer_, lenses_, antennas, from.visible, to.visible, wavenumbers_, settings_}),
+              visit);
+    }
     if (settings_.edges) {
       std::optional<IlluminationByEdge>& outgoing = illuminations[receive_[pair]];
       if (!outgoing) {

@@ -14,6 +14,7 @@
 
 #include "sim/core/process/parallel.h"
 #include "sim/scattering/radiation/contribution.h"
+#include "sim/scattering/radiation/lens_reflection.h"
 #include "sim/scattering/tracing/edge_illumination.h"
 #include "sim/scattering/tracing/transmitted_wave.h"
 
@@ -121,6 +122,7 @@ class AspectTrace {
   std::vector<std::size_t> transmit_, receive_;            // indices into directions_, per pair
   std::vector<std::optional<std::size_t>> exchanged_;      // per pair, the other one that shares contributions
   std::vector<Transmitter> transmitters_;
+  std::vector<LuneburgLens> lenses_;
 };
 
 }  // namespace seaglint

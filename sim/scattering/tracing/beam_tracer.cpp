@@ -126,7 +126,7 @@ class BeamTracer {
   std::size_t segments() const { return segments_; }
 
   void trace_panel(int facet) {
-    if (scene_.is_submerged(facet)) return;
+    if (scene_.ends_beams(facet)) return;
     const BeamSegment first = transmitted();
     CandidatePanel candidate;
     candidate.projection.facet = facet;
@@ -269,7 +269,7 @@ class BeamTracer {
     }
     for (const std::uint32_t i : order) {
       const CandidatePanel& candidate = met[i];
-      if (candidate.illuminated.empty() || scene_.is_submerged(candidate.projection.facet)) continue;
+      if (candidate.illuminated.empty() || scene_.ends_beams(candidate.projection.facet)) continue;
       visit_candidate(segment, candidate, scratch.visible);
       if (continues(segment, candidate)) trace_segment(reflected_segment(segment, candidate), candidate.illuminated);
     }
@@ -284,7 +284,7 @@ class BeamTracer {
     const Scratch& scratch = scratch_[segment.bounce];
     return std::ranges::any_of(scratch.order, [&](std::uint32_t i) {
       const CandidatePanel& candidate = scratch.met[i];
-      return !candidate.illuminated.empty() && !scene_.is_submerged(candidate.projection.facet) &&
+      return !candidate.illuminated.empty() && !scene_.ends_beams(candidate.projection.facet) &&
              arriving_rays(segment, candidate).scale < segment.curvature_scale;
     });
   }

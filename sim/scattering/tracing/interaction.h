@@ -115,9 +115,9 @@ struct TracingContext {
     if (surfaces.empty()) return {};
     return surfaces[scatterer.facets()[facet].material];
   }
-  bool is_submerged(int facet) const {
+  bool ends_beams(int facet) const {
     const std::span<const MaterialSurface> surface = surface_of(facet);
-    return !surface.empty() && surface.front().is_submerged();
+    return !surface.empty() && surface.front().ends_beams();
   }
 };
 

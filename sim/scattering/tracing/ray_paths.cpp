@@ -202,10 +202,10 @@ void RayPaths::trace(std::span<const Vec2> rays, std::span<std::uint64_t> signat
     first_hits();
     reflect(signatures);
     find_obstacles(rays, signatures);
-    // Rays end in water and at the walls of cavities.
+    // Rays end in water, at lenses and at the walls of cavities.
     std::erase_if(bundles_, [&](const Bundle& bundle) {
       const int facet = paths_[static_cast<std::size_t>(bundle.path)].facet;
-      return scene_.is_submerged(facet) || scene_.settings.filter.is_cavity(facets_[facet].part);
+      return scene_.ends_beams(facet) || scene_.settings.filter.is_cavity(facets_[facet].part);
     });
     std::size_t kept = 0;
     for (Bundle& bundle : bundles_) {

@@ -81,6 +81,22 @@ TEST_F(GeneratedTargets, OfADecoyHaveTheEchoOfItsFile) {
   EXPECT_LT(relative_difference_db(response_of(made, 0), response_of(file, 0)), -78);
 }
 
+// The material of the lens is in the file. Its middle is the origin: positions of 0.2 m on the lens are rounded by 6e-9
+// m, and its circles by ten times that.
+TEST_F(GeneratedTargets, OfALensHaveTheEchoOfItsFile) {
+  const DecoySpec spec{.kind = DecoyKind::kLuneburgLens,
+                       .leg_m = 0.2,
+                       .lens_loss_db = 1.5,
+                       .support = DecoySupport::kFloat,
+                       .mast_m = 1.1};
+  write_mesh(folder() / "lens.glb", make_decoy(spec));
+  const std::string motion = "motion: {model: float, origin_above_waterline_m: 1.1}";
+  const Pipeline made(parse(
+      "  a: {label: 0, decoy: {kind: luneburg_lens, leg_m: 0.2, lens_loss_db: 1.5, support: float}, " + motion + "}"));
+  const Pipeline file(parse("  a: {label: 0, mesh: lens.glb, " + motion + "}"));
+  EXPECT_LT(relative_difference_db(response_of(made, 0), response_of(file, 0)), -78);
+}
+
 // GM and the roll period: 2 pi 0.40 B / sqrt(g GM) by the default of the ship model.
 TEST_F(GeneratedTargets, OfAShipRollByTheMetacentreOfTheirMesh) {
   const Pipeline pipeline(parse("  a: {label: 0, ship: {kind: tug, seed: 2}, motion: {model: ship}}"));

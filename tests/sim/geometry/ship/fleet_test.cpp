@@ -103,7 +103,7 @@ TEST_P(Fleet, ConsistsOfClosedSolidsOfGenusZeroThatFaceOutwards) {
 TEST_P(Fleet, NamesMaterialsOfAssets) {
   for_each_ship([](const ShipSpec&, const Ship& ship) {
     for (const Material& material : ship.mesh.materials) {
-      EXPECT_TRUE(material.name == "pec" || known_material_file(material.name, {})) << material.name;
+      EXPECT_TRUE(material.name == "pec" || known_material(material.name, {})) << material.name;
     }
   });
 }
