@@ -16,7 +16,7 @@ SPHERE = ["--frequency-ghz", "9.2:9.6:0.1", "--azimuth-deg", "0:354:6", "--eleva
 LIMIT_DB = 6.0  # of the minima below the lobes, IMO A.384(X)
 CELL_ELEVATION_DEG = math.degrees(math.asin(1 / 3))  # of the lower and upper cells of an octahedral reflector as rain catcher
 
-# Largest cross-section of one reflector over a^4 / lambda^2 by geometrical optics. Triangular trihedral and dihedral: US Navy, EW and Radar Systems Engineering Handbook. Square and circular (quadrant) trihedral: 4 pi A^2 with the
+# Largest cross-section of one reflector over a^4 / lambda^2 by geometrical optics. Triangular trihedral and dihedral: Knott, Shaeffer and Tuley, Radar Cross Section, table 6.1, as sim/canonical. Square and circular (quadrant) trihedral: 4 pi A^2 with the
 # aperture A on the axis, sqrt(3) a^2 and 1.114 a^2.
 TRIANGULAR, SQUARE, CIRCULAR, DIHEDRAL = 4 * math.pi / 3, 12 * math.pi, 15.6, 8 * math.pi
 
@@ -40,7 +40,7 @@ def peak_dbsm(factor):
 
 
 def triangular_aperture(cosines):
-    """Aperture over a^2 of a triangular trihedral for three reflections; cosines: of the direction with its legs (Spencer, Optical Theory of the Corner Reflector, 1944)."""
+    """Aperture over a^2 of a triangular trihedral for three reflections; cosines: of the direction with its legs; that of sim/canonical."""
     c = sorted(abs(x) for x in cosines)
     p = sum(c)
     return p - 2 / p if c[0] + c[1] >= c[2] else 4 * c[0] * c[1] / p
