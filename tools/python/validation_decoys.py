@@ -32,7 +32,8 @@ DECOYS = {
 
 ABOUT = f"""Perfect reflectors with legs of {LEG_M:g} m (12.5 wavelengths at 9.4 GHz), octahedral ones as rain catchers, one cell upwards. <b>Peak</b>: on the axis of a cell, by geometrical optics 4&pi;a<sup>4</sup>/3&lambda;<sup>2</sup> for triangular panels, 12&pi;a<sup>4</sup>/&lambda;<sup>2</sup> for square and 15.6a<sup>4</sup>/&lambda;<sup>2</sup>
 for circular ones, 8&pi;a<sup>4</sup>/&lambda;<sup>2</sup> for the dihedral. <b>Horizon</b>: elevation 0, every 0.25 deg of azimuth. <b>Sphere</b>: 9.2 to 9.6 GHz, all directions. Levels are relative to the peak by geometrical optics, and of hh unless stated."""
-LIMITS = """No measured curve of an octahedral reflector with its dimensions could be found that may be shown here. Geometrical optics counts three reflections alone; the solver adds plates, dihedrals and edges, which fill the minima between the lobes."""
+LIMITS = """No measured curve of an octahedral reflector with stated dimensions was found that could be shown beside these. Geometrical optics counts three reflections alone (two of the dihedral), which the solver has exactly without edges. With edges the boundary of the reflected wave, which meets the rim of the next panel on the axis of square trihedra and dihedrals, takes a decibel off,
+waves between the rims of adjacent cells of the icosahedral reflector likewise, with a ripple over frequency; plates and dihedrals fill the minima between the lobes."""
 
 
 def peak_dbsm(factor):
