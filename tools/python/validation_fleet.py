@@ -128,11 +128,11 @@ def hydrostatics(text):
     return "\n".join(line.removeprefix("afloat").strip() for line in lines), float(volume[1]) * SEA_WATER_KT_PER_M3
 
 
-def scenario(out):
-    """One sample for each ship, the same view and sea."""
-    file = out / "fleet.yaml"
-    targets = "".join(f"  {kind}: {{label: 1, ship: {{kind: {kind}, seed: 0}}, motion: {{model: ship, translations: true}}}}\n" for kind in KINDS)
-    file.write_text("seaglint: 1\nname: fleet\nview: {azimuth_deg: 40, elevation_deg: 2}\nsea: {significant_wave_height_m: 1.5, peak_period_s: 7, propagation_deg: 60}\ntargets:\n" + targets, encoding="utf-8")
+def scenario(kind, out):
+    """The ship alone in the view and the sea of all."""
+    file = out / f"{kind}.yaml"
+    file.write_text(f"seaglint: 1\nname: fleet\nview: {{azimuth_deg: 40, elevation_deg: 2}}\nsea: {{significant_wave_height_m: 1.5, peak_period_s: 7, propagation_deg: 60}}\n"
+                    f"targets:\n  {kind}: {{label: 1, ship: {{kind: {kind}, seed: 0}}, motion: {{model: ship, translations: true}}}}\n", encoding="utf-8")
     return file
 
 
@@ -150,7 +150,7 @@ def draw_levels(areas, file):
     return file
 
 
-def solve(kind, number, scene, out):
+def solve(kind, out):
     """Everything of one ship."""
     print(f"    {kind} ...", flush=True)
     mesh, parts = out / f"{kind}.glb", out / f"{kind}_parts.csv"
@@ -159,8 +159,9 @@ def solve(kind, number, scene, out):
     files = [(f"{kind}: {about}", out / f"{kind}_{name}.png") for about, name in (("the mesh above water", "mesh"), ("RCS over azimuth, elevation 1 deg", "levels"), ("range-velocity map", "map"), ("ISAR image", "isar"))]
     seaglint("mesh", "info", mesh, "--picture", files[0][1], "--width", 900, "--azimuth-deg", 50, "--elevation-deg", 12)
     draw_levels(areas, files[1][1])
+    scene = scenario(kind, out)
     for product, (_, file) in zip(("rv", "isar"), files[2:]):
-        seaglint("map", scene, "--sample", number, "--product", product, "-o", file)
+        seaglint("map", scene, "--product", product, "-o", file)
     ship = {"kind": kind, "mesh": mesh, "afloat": text, "displacement_kt": displacement_kt, "files": files, "areas": areas, "shares": shares(parts)}
     ship["sea"], ship["free"] = rcs(mesh, sweep(SEA_AZIMUTHS), out, *SEA), thinned(areas, SEA_AZIMUTHS)
     ship["statistic"] = {element: skolnik_statistic(areas[element]) for element in ELEMENTS}
@@ -268,8 +269,7 @@ def curve(ships):
 def compare(out):
     """The section of the page, and its figures for validation.json; the tables as Markdown in fleet_tables.md."""
     start_s = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
-    scene = scenario(out)
-    ships = [solve(kind, number, scene, out) for number, kind in enumerate(KINDS)]
+    ships = [solve(kind, out) for kind in KINDS]
     for ship in ships:
         if max(abs(distance_db(ship, element)) for element in ELEMENTS) > EXPLAINED_DB:
             print(f"    {ship['kind']} without parts ...", flush=True)
