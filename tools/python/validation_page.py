@@ -11,6 +11,10 @@ STYLE = """main > p, section > p { max-width: none; }
 td:nth-child(n+2):not(:last-child) { white-space: nowrap; }
 img.mesh { float: right; width: 300px; margin: 0 0 1em 1.5em; }
 section, section pre { clear: both; }
+.row { display: grid; grid-template-columns: repeat(4, 1fr); gap: 10px; align-items: center; }
+.row img { width: 100%; height: auto; border: 1px solid var(--line); cursor: zoom-in; }
+.row input { position: absolute; opacity: 0; }
+.row input:checked + img { position: fixed; inset: 4vh 0 0; margin: auto; width: auto; max-width: 96vw; max-height: 92vh; background: #fff; cursor: zoom-out; z-index: 1; }
 """
 
 LEAD = """<p>{version}, edge diffraction on unless stated. <b>Errors</b> are mean of the magnitude / rms in dB against the reference, both sides clipped at 80 dB (box, almond, ship and grooves: 40 dB) below the reference's maximum, over all directions or
@@ -34,6 +38,12 @@ def table(head, rows):
 
 def picture(file):
     return "data:image/png;base64," + base64.b64encode(file.read_bytes()).decode()
+
+
+def enlarged(about, file):
+    """A picture of a row that a click enlarges."""
+    about = html.escape(about)
+    return f'<label><input type="checkbox"><img alt="{about}" title="{about}" src="{picture(file)}"></label>'
 
 
 def summary(results):

@@ -31,11 +31,12 @@ def panel(title, x, y, span, data):
 def draw(panels, file, size=(1400, 1000)):
     """The panels, two beside each other, as a picture."""
     styles = {"points": "points pt 7 ps 1.3", "lines": "lines lw 2", "linespoints": "linespoints pt 6 lw 2"}
-    script = [f'set terminal pngcairo size {size[0]},{size[1]} font "sans,13"; set output "{file}"', f"set multiplot layout {(len(panels) + 1) // 2},2", "set grid; set key top left; set autoscale xfix; set offsets graph 0.02, graph 0.02, 0, 0"]
+    script = [f'set terminal pngcairo size {size[0]},{size[1]} font "sans,13"; set output "{file}"', f"set multiplot layout {(len(panels) + 1) // 2},{min(len(panels), 2)}", "set grid; set key top left; set autoscale xfix; set offsets graph 0.02, graph 0.02, 0, 0"]
     for plot in panels:
         low, high = plot["y"]["range"]
         above = 0.35 if any(one["name"] for one in plot["series"]) else 0.05  # room for the names
-        script += [f'set title "{plot["title"]}"; set xlabel "{plot["x"]["label"]}"; set ylabel "{plot["y"]["label"]}"; set yrange [{low}:{high + above * (high - low)}]']
+        scale = "set" if plot["x"]["log"] else "unset"
+        script += [f'set title "{plot["title"]}"; set xlabel "{plot["x"]["label"]}"; set ylabel "{plot["y"]["label"]}"; {scale} logscale x; set yrange [{low}:{high + above * (high - low)}]']
         drawn = []
         for one in plot["series"]:
             style = f"filledcurves fs transparent solid 0.3 noborder lc rgb '{one['colour']}'" if one["style"] == "band" else f"{'yerrorbars pt 7 ps 1.3' if 'low' in one else styles[one['style']]} lc rgb '{one['colour']}'"
@@ -50,5 +51,5 @@ def draw(panels, file, size=(1400, 1000)):
 def figure(panels, file, about, size=(1400, 1000)):
     """The panels as a figure of the page, with the picture in the file."""
     draw(panels, file, size)
-    plot = json.dumps({"columns": 2, "panels": panels}).replace("<", "\\u003c")
+    plot = json.dumps({"columns": min(len(panels), 2), "panels": panels}).replace("<", "\\u003c")
     return f'<figure class="plot"><img alt="{html.escape(about)}" src="{validation_page.picture(file)}"><script type="application/json">{plot}</script></figure>'
