@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <ctime>
+#include <iterator>
+#include <memory>
 #include <vector>
 
 #include "sim/core/numbers/constants.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/shapes/generators.h"
+#include "sim/geometry/ship/make_ship.h"
 #include "sim/scattering/observation/observation.h"
 #include "sim/scattering/points/phase_integral.h"
 #include "sim/scattering/scatterer/embree_scene.h"
@@ -211,6 +214,40 @@ void SolverTimeOverEmbreeFirstHits(benchmark::State& state) {
       1e9 * static_cast<double>(solver) / CLOCKS_PER_SEC / static_cast<double>(rays.size() * state.iterations());
 }
 BENCHMARK(SolverTimeOverEmbreeFirstHits)->Arg(10)->Arg(50)->Arg(90)->Unit(benchmark::kMillisecond);
+
+// Processor time of the interval of a generated ship over that of the combatant, mean over six azimuths, alternating
+// on one thread. Arguments: kind, seed.
+void FleetIntervalOverCombatant(benchmark::State& state) {
+  ShipSpec spec;
+  spec.kind = static_cast<ShipKind>(state.range(0));
+  spec.seed = static_cast<std::uint64_t>(state.range(1));
+  TargetSource source;
+  source.loaded = std::make_shared<const TriangleMesh>(make_ship(spec).mesh);
+  ScattererSettings settings;
+  settings.waterline_m = 0;
+  const PreparedTarget target = prepare_target(load_target_mesh(source), settings);
+  const Trajectory trajectory = rolling(0.005, {0, 0, 1.7});
+  const auto interval = [&](const Scatterer& scatterer, double azimuth_deg) {
+    return processor_seconds([&] {
+      benchmark::DoNotOptimize(
+          interval_response(scatterer, trajectory, direction(azimuth_deg), Polarisation::kVv, paper_interval(), {}, 1));
+    });
+  };
+  double of_kind = 0, of_combatant = 0;
+  for (auto _ : state) {
+    for (int azimuth_deg = 5; azimuth_deg < 180; azimuth_deg += 34) {
+      of_kind += interval(*target.scatterer, azimuth_deg);
+      of_combatant += interval(ship(), azimuth_deg);
+    }
+  }
+  state.SetLabel(kShipKindNames[state.range(0)]);
+  state.counters["triangles"] = static_cast<double>(target.mesh.triangles.size());
+  state.counters["ratio"] = of_kind / of_combatant;
+}
+BENCHMARK(FleetIntervalOverCombatant)
+    ->ArgsProduct({benchmark::CreateDenseRange(0, std::size(kShipKindNames) - 1, 1), {0, 1}})
+    ->Unit(benchmark::kSecond)
+    ->Iterations(1);
 
 // Run time against the ship's length in metres.
 void ShipLength(benchmark::State& state) {

@@ -127,6 +127,8 @@ METHODS = {
                                 each("sphere_by_rays_{}_s", median("rays_s", 2)),
                                 each("sphere_by_rays_{}_over_beams", median("rays/beams", 1)))),
 }
+# Generated ships beside the combatant, three minutes.
+FLEET = {"FleetIntervalOverCombatant/": (1, each("fleet_{}_{}_over_combatant", median("ratio", 2)))}
 BENCHMARKS = {
     "ShipAspect/": (4, each("ship_aspect_{1}_s", fastest_s)),
     "ShipSweepOverOneFrequency/": (1, each("ship_sweep_over_one_{}", median("ratio", 2))),
