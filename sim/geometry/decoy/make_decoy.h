@@ -25,9 +25,8 @@ namespace seaglint {
 // * trihedral: panel_01..panel_03, panel k opposite to seam k; seams 1 and 2 are the lower ones to starboard and to
 //   port, seam 3 is the upper one. Origin midway between the apex and the plane through the ends of the seams.
 // * dihedral: panel_01, panel_02, two squares with an upright seam. Origin midway between seam and opening.
-// * luneburg_lens: a sphere of radius leg_m in the parts lens and cap, whose axis is the boresight. The cap is behind.
-// The
-//   solver takes the material of the lens from its name, lens_material_name() (radiation/lens_reflection.h).
+// * luneburg_lens: a sphere of radius leg_m in the parts lens and cap, the cap behind; its axis is the boresight. The
+//   material of the lens has the name lens_material_name() (sim/scattering/radiation/lens_reflection.h).
 // Panels are sheets. The icosahedral reflector without missing panels is closed. Fillets are in the part of their cell,
 // else in `seams`.
 //

@@ -325,7 +325,7 @@ TEST(MaterialLibrary, EveryMaterialIsReadAndPassive) {
     }
     ++count;
   }
-  EXPECT_EQ(count, 7);
+  EXPECT_EQ(count, 9);
 }
 
 TEST(MaterialLibrary, CoatingAbsorbsAtItsFrequencyAndMetalsDoNot) {
