@@ -37,9 +37,9 @@ struct LuneburgLens {
 // InputError where they are not on a sphere.
 std::vector<LuneburgLens> luneburg_lenses(const Scatterer& scatterer);
 
-// Share of the power of the focal spot on the cap, 0..1: of the Airy pattern (2 J1(u) / u)^2 on one side of a straight
-// line at the signed distance u = k a angle from its middle. The amplitude of the echo has this factor, since the cap
-// returns the reaction of the focal field with itself.
+// Share of the focal spot's power on the cap, 0..1. The spot is the Airy pattern (2 J1(u) / u)^2, the rim of the cap a
+// straight line at the distance u = k a angle from its middle, positive where the middle is on the cap. The amplitude
+// of the echo has this factor, since the cap returns the reaction of the focal field with itself.
 double focal_spot_on_cap(double u);
 
 struct LensReflectionRequest {
