@@ -318,8 +318,10 @@ DecoySpec decoy_of_body(DecoySpec spec, std::size_t body) {
 }
 
 double largest_displacement_m(const DecoySpec& spec) {
-  constexpr double kLargestDeviate = 8.3, kLargestMode = 5;  // three modes of unit mean square, over sqrt3
-  return kLargestDeviate * (radians(spec.angle_error_deg) * spec.leg_m + kLargestMode * 1e-3 * spec.surface_error_mm) +
+  // Ends of both legs at the corner of a square panel; three modes of unit mean square, over sqrt3.
+  constexpr double kLargestDeviate = 8.3, kLegs = 2, kLargestMode = 5;
+  return kLargestDeviate * (kLegs * std::tan(radians(spec.angle_error_deg)) * spec.leg_m +
+                            kLargestMode * 1e-3 * spec.surface_error_mm) +
          (spec.dented_panels > 0 ? spec.dent_depth * spec.leg_m : 0);
 }
 
