@@ -551,7 +551,7 @@ TEST_F(RcsTarget, RefusesUnknownMaterials) {
   };
   EXPECT_HAS(refused("16", "unobtainium"), "--material unobtainium: value 'unobtainium': no such material");
   EXPECT_HAS(refused("16", "mast=pec"), "part 'mast': the mesh has no such part");
-  EXPECT_HAS(refused("36", library + "grp_sheet.yaml"), "its source covers 1 to 20 GHz");
+  EXPECT_HAS(refused("41", library + "grp_sheet.yaml"), "its source covers 1 to 40 GHz");
 }
 
 TEST_F(RcsTarget, APlateOnAConductingSeaIsADihedral) {

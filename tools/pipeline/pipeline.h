@@ -110,8 +110,9 @@ class Pipeline {
   std::shared_ptr<const std::vector<Target>> targets_;
   double range_window_m_ = 0;
 
-  // By sea state, realisation, target (-1: all) and least duration.
-  mutable SharedResults<std::tuple<int, int, int, double>, Scene> scenes_{8};
+  // By sea state, realisation, target (-1: all) and least duration. Those of drawn targets have models of their own, up
+  // to 100 MB each.
+  mutable SharedResults<std::tuple<int, int, int, double>, Scene> scenes_{draws_targets(scenario_) ? 2u : 8u};
   mutable SharedResults<std::size_t, IntervalResult> responses_{16};  // by the first sample of interval and target
 };
 

@@ -380,7 +380,8 @@ struct MeasuredWork {
   int intervals = 0, seas = 0;
 };
 
-// Adds a map of every target, at a place within the sweeps; those of one interval share its response.
+// Adds a map of every target, at a place within the sweeps; those of one interval share its response. Of the target at
+// which it stops, the time until then.
 void measure(const Pipeline& pipeline, const TimedPlace& place, const StopFlag* stop, MeasuredWork& work) {
   const SamplePlan& plan = pipeline.plan();
   SampleAddress at{.sea_state = index_at(place.sea, plan.sea_states().size()),
@@ -397,14 +398,18 @@ void measure(const Pipeline& pipeline, const TimedPlace& place, const StopFlag* 
     at.target = target;
     at.clutter = 0;
     work.seas_s += seconds([&] { pipeline.scene(at); });  // common to all targets unless their keys are drawn
-    const double first_s = seconds([&] { pipeline.generate_sample(plan.sample(at), stop); });
-    double other_s = 0;
-    if (plan.maps_per_interval() > 1) {
-      at.clutter = 1;
-      other_s = seconds([&] { pipeline.generate_sample(plan.sample(at), stop); });
-    }
-    work.intervals_s += first_s + other_s * (plan.maps_per_interval() - 1);
     ++work.intervals;
+    const double begin_s = thread_seconds();
+    try {
+      work.intervals_s += seconds([&] { pipeline.generate_sample(plan.sample(at), stop); });
+      if (plan.maps_per_interval() == 1) continue;
+      at.clutter = 1;
+      work.intervals_s +=
+          (plan.maps_per_interval() - 1) * seconds([&] { pipeline.generate_sample(plan.sample(at), stop); });
+    } catch (const Interrupted&) {
+      work.intervals_s += thread_seconds() - begin_s;
+      throw;
+    }
   }
 }
 
@@ -587,10 +592,8 @@ WorkEstimate estimate_work(const Pipeline& pipeline, const TrialLimit& limit) {
     }
   } catch (const Interrupted&) {
     if (limit.stop != nullptr && *limit.stop) throw;
-    if (work.intervals == 0) {
-      work = {thread_seconds() - begin_s, 0, 1, 1};
-      estimate.is_bound = true;
-    }
+    estimate.is_bound = work.intervals <= static_cast<int>(plan.classes().size());
+    if (work.intervals == 0) work = {thread_seconds() - begin_s, 0, 1, 1};
   } catch (const InputError& error) {
     estimate.failure = error.what();
     return estimate;

@@ -18,8 +18,8 @@ namespace seaglint {
 
 namespace {
 
-constexpr int kSides = 24;              // of masts, tubes and floats
-constexpr double kSmoothTurn_deg = 20;  // their sides turn by 15 deg
+constexpr int kSides = 20;              // of masts, tubes and floats
+constexpr double kSmoothTurn_deg = 20;  // their sides turn by 18 deg
 constexpr double kLineRadius_m = 0.006;
 constexpr std::uint64_t kBodyIndex = std::uint64_t{1} << 32;  // of Stream::kDecoy, beyond those of panels
 

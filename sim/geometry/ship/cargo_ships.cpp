@@ -27,8 +27,9 @@ double casing_length_m(double ship_length) { return std::min(0.055 * ship_length
 Deckhouse add_aft_house(MeshBuilder& builder, const HullSurface& hull, const ShipDesign& ship, const AftHouse& place,
                         Random& random) {
   const double length = ship.length, fore = place.fore * length, aft = place.aft * length;
-  const double breadth = hull.deck_half_breadth(0.5 * (aft + fore)), deck = hull.deck_height(0.5 * (aft + fore));
+  const double middle = 0.5 * (aft + fore), breadth = hull.deck_half_breadth(middle);
   const double half = place.half_width * std::min(breadth, hull.deck_half_breadth(aft) - 0.3);
+  const double deck = hull.deck_height(middle, half);
   const Accommodation block{.aft = aft,
                             .fore = fore,
                             .half_width = half,
@@ -41,26 +42,40 @@ Deckhouse add_aft_house(MeshBuilder& builder, const HullSurface& hull, const Shi
                             .plating = {2.4, 0.003},
                             .rail_width = ship.rail_width};
   const Deckhouse bridge = add_accommodation(builder, block, random);
-  // Funnel on a casing behind the house.
+  // Casing behind the house, half as high, and the funnel on it: inclined walls, rounded in plan.
   const double behind = std::max(aft - casing_length_m(length), hull.lines().stern_at_deck + 0.02 * length);
-  const double width = 0.22 * breadth, roof = deck + 2.8 * place.tiers;
-  const Deckhouse funnel{.name = "funnel",
+  const double width = std::max(1.2, 0.22 * breadth), roof = deck + 2.8 * place.tiers;
+  const Deckhouse casing{.name = "casing",
                          .aft = behind,
                          .fore = aft - 0.8,
-                         .half_width = std::max(1.2, width),
+                         .half_width = width,
                          .foot = deck - 0.2,
+                         .roof = deck + 2.8 * ((place.tiers + 1) / 2),
+                         .side_slope = 0.5,
+                         .fore_slope = 0.5,
+                         .aft_slope = 0.5,
+                         .fore_chamfer = 0.2,
+                         .aft_chamfer = 0.2};
+  const double long_side = casing.fore - casing.aft, inclination = between(random, 4, 8);
+  const Deckhouse funnel{.name = "funnel",
+                         .aft = behind + 0.1 * long_side,
+                         .fore = behind + 0.75 * long_side,
+                         .half_width = 0.8 * width,
+                         .foot = casing.roof - 0.2,
                          .roof = roof + between(random, 1.0, 3.5),
-                         .side_slope = 1.5,
-                         .fore_slope = 2,
-                         .aft_slope = 1,
-                         .fore_chamfer = 0.5,
-                         .aft_chamfer = 0.5};
+                         .side_slope = inclination,
+                         .fore_slope = 1.5 * inclination,
+                         .aft_slope = 0.5 * inclination,
+                         .fore_chamfer = 0.4 * width,
+                         .aft_chamfer = 0.3 * width};
+  add_plated_house(builder, casing, block.plating, random);
+  add_plated_house(builder, funnel, block.plating, random);
   builder.begin_part("funnel");
-  add_plated_frustum(builder, funnel.ring(funnel.foot), funnel.ring(funnel.roof), block.plating, random);
+  const double top_middle = 0.5 * (funnel.aft_at(funnel.roof) + funnel.fore_at(funnel.roof));
   const int pipes = 2 + static_cast<int>(random.below(3));
   for (int k = 0; k < pipes; ++k) {
-    const Vec3 foot(0.5 * (funnel.aft + funnel.fore) + 0.7 * (k % 2), 0.6 * (k - 0.5 * (pipes - 1)), funnel.roof - 0.2);
-    add_cone(builder, foot, foot + Vec3(-0.3, 0, between(random, 1.0, 2.0)), 0.32, 0.3, 12);
+    const Vec3 foot(top_middle + 0.5 * (k % 2) - 0.25, 0.5 * (k - 0.5 * (pipes - 1)), funnel.roof - 0.2);
+    add_cone(builder, foot, foot + Vec3(-0.3, 0, between(random, 1.0, 2.0)), 0.28, 0.26, 12);
   }
   builder.begin_part("antennas");
   add_pole_mast(builder, {bridge.aft + 0.4 * (bridge.fore - bridge.aft), 0, bridge.roof}, between(random, 7, 11), 2,
@@ -71,18 +86,19 @@ Deckhouse add_aft_house(MeshBuilder& builder, const HullSurface& hull, const Shi
     add_whip(builder, {bridge.fore - 1.5, side * 0.7 * bridge.half_width, bridge.roof}, between(random, 5, 8));
   if (ship.spec.detail == ShipDetail::kHull) return bridge;
   builder.begin_part("boats");
-  const Vec3 ramp(behind - 1.0, 0.45 * breadth, hull.deck_height(behind) + 3.4);
+  const double below_ramp = hull.deck_height(behind, 0.45 * breadth);
+  const Vec3 ramp(behind - 1.0, 0.45 * breadth, below_ramp + 3.4);
   const Pose boat{ramp + Vec3(0.5, 0, 1.2), Mat3(rotation_from_angles(0, radians(30), kPi))};
   add_lifeboat(builder, boat, 6.5);
   for (double y : {-0.9, 0.9}) {
     add_bar(builder, ramp + Vec3(-3.0, y, -1.6), ramp + Vec3(3.6, y, 2.2), 0.3);
-    add_bar(builder, {ramp.x() + 3.0, ramp.y() + y, hull.deck_height(behind) - 0.1}, ramp + Vec3(3.0, y, 1.8), 0.3);
+    add_bar(builder, {ramp.x() + 3.0, ramp.y() + y, below_ramp - 0.1}, ramp + Vec3(3.0, y, 1.8), 0.3);
   }
   // Rescue boats behind the house, inboard of the rails.
   const double stand = std::max(aft - 4.5, behind + 2);
   for (double side : {1.0, -1.0}) {
-    const Vec3 davit(stand, side * std::max(0.35 * breadth, hull.deck_half_breadth(stand) - 3.4),
-                     hull.deck_height(stand));
+    const double inboard = std::max(0.35 * breadth, hull.deck_half_breadth(stand) - 3.4);
+    const Vec3 davit(stand, side * inboard, hull.deck_height(stand, inboard));
     add_davit(builder, davit, {0, side, 0}, 3.2, 4.2);
     add_rescue_boat(builder, upright(davit + Vec3(0, side * 1.9, 1.8)));
   }
@@ -97,7 +113,7 @@ void add_forecastle(MeshBuilder& builder, const HullSurface& hull, const ShipDes
     add_deck_block(builder, hull, {.name = "forecastle", .from = from, .to = stem, .height = height}, {2.4, 0.003},
                    random);
   if (ship.spec.detail == ShipDetail::kHull) return;
-  const double x = 0.5 * (from + stem), z = hull.deck_height(x) + height;
+  const double x = 0.5 * (from + stem), z = hull.deck_edge_height(x) + height;
   builder.begin_part("windlasses");
   const double size = std::clamp(ship.length / 180, 0.5, 1.6);
   add_windlasses(builder, {x, 0, z}, std::max(2.4 * size, 0.7 * hull.deck_half_breadth(x)), size);
@@ -108,10 +124,11 @@ void add_forecastle(MeshBuilder& builder, const HullSurface& hull, const ShipDes
   add_mooring_gear(builder, hull, {from + 0.3 * (stem - from), from + 0.6 * (stem - from)}, height);
   builder.begin_part("ventilators");
   for (double side : {1.0, -1.0})
-    add_ventilator(builder,
-                   upright({from + 1.5, side * 0.5 * hull.deck_half_breadth(from), hull.deck_height(from) + height},
-                           2 * kPi * random.uniform()),
-                   1.1);
+    add_ventilator(
+        builder,
+        upright({from + 1.5, side * 0.5 * hull.deck_half_breadth(from), hull.deck_edge_height(from) + height},
+                2 * kPi * random.uniform()),
+        1.1);
 }
 
 }  // namespace
@@ -132,10 +149,11 @@ void add_container_ship(MeshBuilder& builder, const HullSurface& hull, const Shi
     // The bays behind end at the casing, those ahead begin at the house.
     if (x + kBox > funnel && x < house_fore + 2.5) x = house_fore + 2.5;
     if (x + kBox > last) break;
-    const double middle = x + 0.5 * kBox, deck = hull.deck_height(middle), hatch = deck + 1.7;
+    const double middle = x + 0.5 * kBox;
     const double breadth = std::min(hull.deck_half_breadth(x), hull.deck_half_breadth(x + kBox));
     const int rows = static_cast<int>(std::floor(2 * (breadth - 0.4) / kRow));
     if (rows < 2) continue;
+    const double deck = hull.deck_height(middle, 0.5 * kRow * rows), hatch = deck + 1.7;
     ++bay;
     builder.begin_part("hatches");
     add_box(builder, upright({middle, 0, deck - 0.2}), {kBox + 0.6, kRow * rows - 0.8, 1.9});
@@ -178,7 +196,7 @@ void add_tanker(MeshBuilder& builder, const HullSurface& hull, const ShipDesign&
   add_forecastle(builder, hull, ship, from, 2.6, random);
   add_side_rails(builder, hull, ship.rail_width, -0.46 * length, from);
   if (ship.spec.detail == ShipDetail::kHull) return;
-  const double deck = hull.deck_height(0), breadth = hull.deck_half_breadth(0);
+  const double deck = hull.deck_height(0, 0), breadth = hull.deck_half_breadth(0);
   const double first = fore + 4, last = from - 6;
   // Cargo lines along the deck on saddles, catwalk above.
   builder.begin_part("pipes");
@@ -207,12 +225,13 @@ void add_tanker(MeshBuilder& builder, const HullSurface& hull, const ShipDesign&
     for (double side : {1.0, -1.0}) {
       add_cone(builder, {x, side * (breadth - 3.3), deck + 1.6}, {x, side * (breadth - 3.1), deck + 1.6}, 0.42, 0.42,
                12);
-      add_bar(builder, {x, side * (breadth - 4.2), deck - 0.1}, {x, side * (breadth - 4.2), deck + 1.5}, 0.2);
+      const double y = breadth - 4.2;
+      add_bar(builder, {x, side * y, hull.deck_height(x, y) - 0.1}, {x, side * y, deck + 1.5}, 0.2);
     }
   }
   for (double side : {1.0, -1.0}) {
-    const Pose tray = upright({0, side * (breadth - 2.6), deck});
-    add_box(builder, tray * upright({0, 0, -0.1}), {2.4 * flanges + 2, 2.2, 0.2});
+    const Pose tray = upright({0, side * (breadth - 2.6), hull.deck_height(0, breadth - 2.6)});
+    add_box(builder, tray * upright({0, 0, -0.2}), {2.4 * flanges + 2, 2.2, 0.3});
     for (double x : {-1.0, 1.0})
       add_box(builder, tray * upright({x * (1.2 * flanges + 0.95), 0, 0.05}), {0.05, 2.15, 0.5});
     for (double y : {-1.0, 1.0})
@@ -221,7 +240,7 @@ void add_tanker(MeshBuilder& builder, const HullSurface& hull, const ShipDesign&
   builder.begin_part("cranes");
   const double pedestal = std::clamp(0.045 * length, 4.0, 11.0);
   for (double side : {1.0, -1.0})
-    add_crane(builder, {.foot = {1.2 * flanges + 2.5, side * 0.45 * breadth, deck},
+    add_crane(builder, {.foot = {1.2 * flanges + 2.5, side * 0.45 * breadth, hull.deck_height(0, 0.45 * breadth)},
                         .pedestal = pedestal,
                         .radius = 0.8,
                         .jib = 0.9 * breadth,
@@ -232,13 +251,16 @@ void add_tanker(MeshBuilder& builder, const HullSurface& hull, const ShipDesign&
   for (double x = first + 6; x < last - 8; x += std::max(14.0, 0.085 * length)) {
     for (double side : {1.0, -1.0}) {
       const double y = side * between(random, 0.35, 0.6) * breadth;
-      add_cone(builder, {x, y, deck - 0.1}, {x, y, deck + 0.9}, 0.65, 0.65, 14);
-      add_cone(builder, {x, y, deck + 0.85}, {x, y, deck + 1.0}, 0.75, 0.72, 14);
-      add_cone(builder, {x + 3, y, deck - 0.1}, {x + 3, y, deck + 2.6}, 0.13, 0.13, 8);
-      add_box(builder, upright({x + 3, y, deck + 2.5}), {0.45, 0.45, 0.35});
-      add_locker(builder, upright({x - 3, side * (breadth - 2.2), deck}, side * between(random, -0.4, 0.4)),
+      const auto at = [&](double dx, double off, double up) {
+        return Vec3(x + dx, off, hull.deck_height(x + dx, off) + up);
+      };
+      add_cone(builder, at(0, y, -0.1), at(0, y, 0.9), 0.65, 0.65, 14);
+      add_cone(builder, at(0, y, 0.85), at(0, y, 1.0), 0.75, 0.72, 14);
+      add_cone(builder, at(3, y, -0.1), at(3, y, 2.6), 0.13, 0.13, 8);
+      add_box(builder, upright(at(3, y, 2.5)), {0.45, 0.45, 0.35});
+      add_locker(builder, upright(at(-3, side * (breadth - 2.2), 0), side * between(random, -0.4, 0.4)),
                  {1.2, 0.7, 0.9});
-      add_shield(builder, upright({x + 6, side * (breadth - 1.8), deck}, 2 * kPi * random.uniform()), 0.55, 0.9);
+      add_shield(builder, upright(at(6, side * (breadth - 1.8), 0), 2 * kPi * random.uniform()), 0.55, 0.9);
     }
   }
   builder.begin_part("mooring_gear");
@@ -260,14 +282,14 @@ void add_bulk_carrier(MeshBuilder& builder, const HullSurface& hull, const ShipD
     const double middle = first + (k + 0.5) * pitch;
     const double width = 1.15 * std::min(breadth, hull.deck_half_breadth(middle + 0.4 * pitch));
     builder.begin_part("hatches");
-    add_hatch(builder, {middle, 0, hull.deck_height(middle)}, {0.66 * pitch, width, between(random, 1.3, 1.9)}, 4,
-              random);
+    add_hatch(builder, {middle, 0, hull.deck_height(middle, 0.5 * width)},
+              {0.66 * pitch, width, between(random, 1.3, 1.9)}, 4, random);
     if (ship.spec.detail == ShipDetail::kHull || k + 1 == holds) continue;
-    const double gap = first + (k + 1) * pitch, deck = hull.deck_height(gap);
+    const double gap = first + (k + 1) * pitch;
     if (is_geared) {
       builder.begin_part("cranes");
       // Stowed along the deck over the hatch ahead.
-      add_crane(builder, {.foot = {gap, 0, deck},
+      add_crane(builder, {.foot = {gap, 0, hull.deck_height(gap, 0)},
                           .pedestal = between(random, 8.5, 10.5),
                           .radius = 1.25,
                           .jib = 0.86 * pitch,
@@ -276,7 +298,8 @@ void add_bulk_carrier(MeshBuilder& builder, const HullSurface& hull, const ShipD
     }
     builder.begin_part("ventilators");
     for (double side : {1.0, -1.0}) {
-      add_ventilator(builder, upright({gap + 0.8, side * 0.45 * width, deck}, 2 * kPi * random.uniform()),
+      const double deck = hull.deck_height(gap, 0.5 * width);
+      add_ventilator(builder, upright({gap + 0.8, side * 0.5 * width, deck}, 2 * kPi * random.uniform()),
                      between(random, 1.2, 2.0));
       add_locker(builder, upright({gap - 0.6, side * 0.5 * width, deck}, between(random, -0.3, 0.3)), {1.3, 0.8, 1.0});
     }
@@ -287,8 +310,8 @@ void add_bulk_carrier(MeshBuilder& builder, const HullSurface& hull, const ShipD
     for (double side : {1.0, -1.0}) {
       const double y = hull.deck_half_breadth(x) - 1.6;
       add_shield(builder,
-                 upright({x + between(random, 0, 3), side * y, hull.deck_height(x)}, 2 * kPi * random.uniform()), 0.55,
-                 0.9);
+                 upright({x + between(random, 0, 3), side * y, hull.deck_height(x, y)}, 2 * kPi * random.uniform()),
+                 0.55, 0.9);
     }
   }
   builder.begin_part("mooring_gear");
@@ -304,7 +327,7 @@ void add_ferry(MeshBuilder& builder, const HullSurface& hull, const ShipDesign& 
   add_deck_block(builder, hull,
                  {.name = "superstructure", .from = from, .to = to, .height = lower_height, .inset = 0.05, .lean = 0.1},
                  plating, random);
-  const double roof = hull.deck_height(0) + lower_height, half = breadth - between(random, 1.4, 2.4);
+  const double roof = hull.deck_edge_height(0) + lower_height, half = breadth - between(random, 1.4, 2.4);
   const double fore = 0.33 * length;
   const Deckhouse upper{.name = "upper_decks",
                         .aft = -0.34 * length,
@@ -331,13 +354,14 @@ void add_ferry(MeshBuilder& builder, const HullSurface& hull, const ShipDesign& 
   }
   const Deckhouse lower{.name = "superstructure",
                         .half_width = breadth - 0.05,
-                        .foot = hull.deck_height(0) - 0.08,
+                        .foot = hull.deck_edge_height(0) - 0.08,
                         .side_slope = degrees(std::atan(0.1 / (lower_height + 0.08)))};
   for (double side : {1.0, -1.0}) {
     for (double x = -0.36 * length; x < 0.2 * length; x += 2.9)
-      add_box(builder,
-              lower.on_side(side, x, hull.deck_height(x) + lower_height - 1.7) * Pose{{-0.02, 0, 0}, Mat3::Identity()},
-              {0.1, 1.7, pane_height});
+      add_box(
+          builder,
+          lower.on_side(side, x, hull.deck_edge_height(x) + lower_height - 1.7) * Pose{{-0.02, 0, 0}, Mat3::Identity()},
+          {0.1, 1.7, pane_height});
   }
   builder.begin_material("pec");
   const Accommodation bridge{.aft = fore - std::clamp(0.1 * length, 9.0, 16.0),
@@ -397,7 +421,7 @@ void add_ferry(MeshBuilder& builder, const HullSurface& hull, const ShipDesign& 
   }
   // Stern ramp: two doors, folded up, with their frames.
   builder.begin_part("stern_ramp");
-  const double stern = hull.lines().stern_at_deck, sill = hull.deck_height(stern) - 0.3;
+  const double stern = hull.lines().stern_at_deck, sill = hull.deck_edge_height(stern) - 0.3;
   for (double side : {1.0, -1.0}) {
     const double y = side * 0.45 * hull.deck_half_breadth(stern + 1);
     const auto at = [&](double dy, double up) { return Vec3(stern + 1.2 + 0.1 * up, y + dy, sill + up); };
@@ -409,8 +433,8 @@ void add_ferry(MeshBuilder& builder, const HullSurface& hull, const ShipDesign& 
   builder.begin_part("mooring_gear");
   add_mooring_gear(builder, hull, {0.40 * length, 0.44 * length}, 0);
   builder.begin_part("windlasses");
-  add_windlasses(builder, {0.42 * length, 0, hull.deck_height(0.42 * length)},
-                 0.5 * hull.deck_half_breadth(0.42 * length), 0.8);
+  const double bow = 0.42 * length, spacing = 0.5 * hull.deck_half_breadth(bow);
+  add_windlasses(builder, {bow, 0, hull.deck_height(bow, 0.5 * spacing)}, spacing, 0.8);
   if (!(ship.rail_width > 0)) return;
   builder.begin_part("rails");
   for (double side : {1.0, -1.0}) {

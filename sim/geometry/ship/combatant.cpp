@@ -92,7 +92,7 @@ void add_funnel(MeshBuilder& builder, const CombatantHull& hull, const Deckhouse
 
 void add_hangar(MeshBuilder& builder, const CombatantHull& hull, const Deckhouse& aft) {
   builder.begin_part("hangar_door");
-  const double low = hull.deck_height(aft.aft) + 0.15, high = low + 4.6;
+  const double low = hull.deck_edge_height(aft.aft) + 0.15, high = low + 4.6;
   const auto at = [&](double y, double z) { return Vec3(aft.aft_at(z) - 0.06, y, z); };
   // Five slats, each projecting slightly beyond the one below.
   for (int k = 0; k < 5; ++k) {
@@ -112,7 +112,7 @@ void add_hangar(MeshBuilder& builder, const CombatantHull& hull, const Deckhouse
 }
 
 ShipHouses ship_houses(const CombatantHull& hull) {
-  const double deck = hull.lines().freeboard, foot = std::min(deck, hull.deck_height(hull.x_of(-47))) - 0.35;
+  const double deck = hull.lines().freeboard, foot = std::min(deck, hull.deck_edge_height(hull.x_of(-47))) - 0.35;
   // Ends and half-width at the foot are those of the design.
   const auto house = [&](Deckhouse design) {
     design.aft = hull.x_of(design.aft), design.fore = hull.x_of(design.fore);
@@ -269,7 +269,7 @@ void add_deck_rails(MeshBuilder& builder, const CombatantHull& hull, double widt
     double x = -45.5;
     while (x < 46.6) {
       const double at = hull.x_of(x);
-      line.push_back({at, side * (hull.deck_half_breadth(at) - 0.14), hull.deck_height(at)});
+      line.push_back({at, side * (hull.deck_half_breadth(at) - 0.14), hull.deck_edge_height(at)});
       x += 4.2;
     }
     add_rail(builder, line, width);
@@ -331,7 +331,7 @@ void add_nets(MeshBuilder& builder, const CombatantHull& hull, double width) {
     while (x < -47.5) {
       const auto at = [&](double design_x, double out, double down) {
         const double place = hull.x_of(design_x);
-        return Vec3(place, side * (hull.deck_half_breadth(place) + out), hull.deck_height(place) - down);
+        return Vec3(place, side * (hull.deck_half_breadth(place) + out), hull.deck_edge_height(place) - down);
       };
       add_bar(builder, at(x, -0.1, 0.12), at(x, 1.25, -0.06), width);
       add_bar(builder, at(x + 2.3, -0.1, 0.12), at(x + 2.3, 1.25, -0.06), width);
@@ -476,9 +476,10 @@ void add_domes_and_whips(MeshBuilder& builder, const CombatantHull& hull, const 
   }
   builder.begin_part("flagstaffs");
   const double bow = hull.x_of(71.0), stern = hull.x_of(-71.3);
-  add_cone(builder, {bow, 0, hull.deck_height(bow) - 0.1}, {bow + 0.3, 0, hull.deck_height(bow) + 3.4}, 0.05, 0.04, 6);
-  add_cone(builder, {stern, 0, hull.deck_height(stern) - 0.1}, {stern - 0.6, 0, hull.deck_height(stern) + 3.0}, 0.05,
+  add_cone(builder, {bow, 0, hull.deck_edge_height(bow) - 0.1}, {bow + 0.3, 0, hull.deck_edge_height(bow) + 3.4}, 0.05,
            0.04, 6);
+  add_cone(builder, {stern, 0, hull.deck_edge_height(stern) - 0.1},
+           {stern - 0.6, 0, hull.deck_edge_height(stern) + 3.0}, 0.05, 0.04, 6);
 }
 
 void add_masts(MeshBuilder& builder, const CombatantHull& hull, const ShipHouses& houses) {
@@ -491,7 +492,7 @@ void add_masts(MeshBuilder& builder, const CombatantHull& hull, const ShipHouses
 // Gun, vertical launchers, close-in weapon, canisters, decoy launchers.
 
 void add_gun(MeshBuilder& builder, const CombatantHull& hull) {
-  const double x = hull.x_of(46.5), z = hull.deck_height(x - 2.5);
+  const double x = hull.x_of(46.5), z = hull.deck_edge_height(x - 2.5);
   builder.begin_part("gun");
   add_cone(builder, {x, 0, z - 0.4}, {x, 0, z + 0.75}, 2.0, 1.9, 20);
   // Faceted shield.
@@ -510,7 +511,7 @@ void add_gun(MeshBuilder& builder, const CombatantHull& hull) {
 }
 
 void add_vertical_launchers(MeshBuilder& builder, const CombatantHull& hull) {
-  const double x = hull.x_of(36.0), z = hull.deck_height(x);
+  const double x = hull.x_of(36.0), z = hull.deck_edge_height(x);
   builder.begin_part("vertical_launchers");
   add_box(builder, upright({x, 0, z - 0.5}), {7.6, 7.4, 1.15});
   for (int i = 0; i < 8; ++i) {
@@ -523,8 +524,8 @@ void add_vertical_launchers(MeshBuilder& builder, const CombatantHull& hull) {
   builder.begin_part("breakwater");
   const double bx = hull.x_of(54.5);
   for (double side : {1.0, -1.0}) {
-    const Vec3 tip(bx + 2.2, -0.03 * side, hull.deck_height(bx) - 0.1),
-        end(bx - 0.8, side * (hull.deck_half_breadth(bx - 0.8) - 0.9), hull.deck_height(bx) - 0.1);
+    const Vec3 tip(bx + 2.2, -0.03 * side, hull.deck_edge_height(bx) - 0.1),
+        end(bx - 0.8, side * (hull.deck_half_breadth(bx - 0.8) - 0.9), hull.deck_edge_height(bx) - 0.1);
     const Vec3 up(-0.25, 0, 1.35);
     side > 0 ? add_plate(builder, {tip, end, end + up, tip + up}, 0.05)
              : add_plate(builder, {end, tip, tip + up, end + up}, 0.05);
@@ -598,23 +599,23 @@ void add_mooring_gear(MeshBuilder& builder, const CombatantHull& hull) {
   builder.begin_part("mooring_gear");
   for (double side : {1.0, -1.0}) {
     for (double design_x : {67.0, 60.5, 50.0, 41.5, 31.5, -49.5, -58.0, -66.0}) {
-      const double x = hull.x_of(design_x), z = hull.deck_height(x), y = hull.deck_half_breadth(x);
+      const double x = hull.x_of(design_x), z = hull.deck_edge_height(x), y = hull.deck_half_breadth(x);
       const double along = std::atan2(hull.deck_half_breadth(x + 1) - hull.deck_half_breadth(x - 1), 2.0);
       if (y < 2.5) continue;
       add_bitts(builder, upright({x, side * (y - 1.35), z}, side * along));
       if (design_x < 45)
         add_fairlead(builder,
-                     upright({x - 2.6, side * (hull.deck_half_breadth(x - 2.6) - 0.5), hull.deck_height(x - 2.6)},
+                     upright({x - 2.6, side * (hull.deck_half_breadth(x - 2.6) - 0.5), hull.deck_edge_height(x - 2.6)},
                              side * along));
     }
   }
   builder.begin_part("windlasses");
   for (double side : {1.0, -1.0}) {
-    const Vec3 foot(hull.x_of(61.5), side * 1.5, hull.deck_height(hull.x_of(61.5)));
+    const Vec3 foot(hull.x_of(61.5), side * 1.5, hull.deck_edge_height(hull.x_of(61.5)));
     add_cone(builder, foot - Vec3(0, 0, 0.2), foot + Vec3(0, 0, 0.45), 0.75, 0.7, 14);
     add_cone(builder, foot + Vec3(0, 0, 0.4), foot + Vec3(0, 0, 1.1), 0.42, 0.5, 14);
     add_bar(builder, foot + Vec3(0.6, 0, 0.14),
-            Vec3(hull.x_of(66.0), side * 0.9, hull.deck_height(hull.x_of(66.0)) + 0.12), 0.16);
+            Vec3(hull.x_of(66.0), side * 0.9, hull.deck_edge_height(hull.x_of(66.0)) + 0.12), 0.16);
   }
 }
 
@@ -627,7 +628,7 @@ struct Pair {
 };
 
 Pose on_deck(const CombatantHull& hull, double x, double y, double yaw_deg) {
-  return upright({hull.x_of(x), hull.y_of(y), hull.deck_height(hull.x_of(x))}, radians(yaw_deg));
+  return upright({hull.x_of(x), hull.y_of(y), hull.deck_edge_height(hull.x_of(x))}, radians(yaw_deg));
 }
 
 void add_fittings(MeshBuilder& builder, const CombatantHull& hull, const ShipHouses& h) {
@@ -684,7 +685,7 @@ void add_fittings(MeshBuilder& builder, const CombatantHull& hull, const ShipHou
 // Rigid inflatable in the bay between the houses, under its davit.
 void add_boat(MeshBuilder& builder, const CombatantHull& hull, double side) {
   builder.begin_part(side > 0 ? "boat_port" : "boat_starboard");
-  const double x = hull.x_of(-13.4), z = hull.deck_height(x), y = side * hull.y_of(6.9);
+  const double x = hull.x_of(-13.4), z = hull.deck_edge_height(x), y = side * hull.y_of(6.9);
   const Pose base = upright({x, y, z + 1.0});
   add_rescue_boat(builder, base);
   for (double at : {-1.6, 1.6}) {

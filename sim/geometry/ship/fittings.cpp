@@ -432,7 +432,8 @@ void add_deck_rail(MeshBuilder& builder, const HullSurface& hull, double side, d
   std::vector<Vec3> line;
   for (int k = 0; k <= bays; ++k) {
     const double x = from + (to - from) * k / bays;
-    line.push_back({x, side * std::max(0.1, hull.deck_half_breadth(x) - 0.14), hull.deck_height(x)});
+    const double y = std::max(0.1, hull.deck_half_breadth(x) - 0.14);
+    line.push_back({x, side * y, hull.deck_height(x, y)});
   }
   add_rail(builder, line, width);
 }
@@ -444,12 +445,16 @@ void add_side_rails(MeshBuilder& builder, const HullSurface& hull, double width,
 }
 
 void add_mooring_gear(MeshBuilder& builder, const HullSurface& hull, const std::vector<double>& places, double height) {
+  // On the deck, or on the flat roof of a block of this height.
+  const auto at = [&](double x, double y) {
+    return Vec3(x, y, height > 0 ? hull.deck_edge_height(x) + height : hull.deck_height(x, y));
+  };
   for (double x : places) {
-    const double z = hull.deck_height(x) + height, y = std::max(1.6, hull.deck_half_breadth(x));
+    const double y = std::max(1.6, hull.deck_half_breadth(x)) - 1.35;
     const double along = std::atan2(hull.deck_half_breadth(x + 1) - hull.deck_half_breadth(x - 1), 2.0);
     for (double side : {1.0, -1.0}) {
-      add_bitts(builder, upright({x, side * (y - 1.35), z}, side * along));
-      add_fairlead(builder, upright({x - 2.2, side * (hull.deck_half_breadth(x - 2.2) - 0.7), z}, side * along));
+      add_bitts(builder, upright(at(x, side * y), side * along));
+      add_fairlead(builder, upright(at(x - 2.2, side * (hull.deck_half_breadth(x - 2.2) - 0.7)), side * along));
     }
   }
 }
@@ -475,7 +480,7 @@ void add_deck_block(MeshBuilder& builder, const HullSurface& hull, const DeckBlo
   std::vector<Vec3> lower, upper;
   const auto add = [&](int k, double side) {
     const double x = std::min(stem, block.from + (block.to - block.from) * k / bays);
-    const double z = hull.deck_height(x), y = std::max(0.12, hull.deck_half_breadth(x) - block.inset);
+    const double z = hull.deck_edge_height(x), y = std::max(0.12, hull.deck_half_breadth(x) - block.inset);
     lower.push_back({x, side * y, z - 0.08});
     upper.push_back({x, side * std::max(0.08, y - block.lean), z + block.height});
   };

@@ -25,9 +25,6 @@ double smooth_step(double from, double to, double x) {
   return t * t * (3.0 - 2.0 * t);
 }
 
-// Transverse vertices of deck, lid and transom, as fractions of the half-breadth from starboard to port.
-constexpr std::array<double, 5> kAcross{-1.0, -0.5, 0.0, 0.5, 1.0};
-
 }  // namespace
 
 double PlanShape::at(double u) const {
@@ -91,7 +88,7 @@ Vec3 HullSurface::below(double u, double p) const {
   return {water.x(), p >= 1 ? 0 : water.y() * (1 - std::pow(d, n)), -d * keel_depth(u)};
 }
 
-double HullSurface::deck_height(double x) const {
+double HullSurface::deck_edge_height(double x) const {
   const double s = 2.0 * x / length();
   const double rise =
       s > 0 ? (lines_.bow_height - lines_.freeboard) * s * s : (lines_.stern_height - lines_.freeboard) * s * s;
@@ -100,6 +97,11 @@ double HullSurface::deck_height(double x) const {
 
 double HullSurface::deck_half_breadth(double x) const {
   return 0.5 * lines_.beam * lines_.flare * lines_.deck.at(u_at_deck(x));
+}
+
+double HullSurface::deck_rise(double x, double y) const {
+  const double edge = deck_half_breadth(x);
+  return 4 * lines_.camber / (lines_.beam * lines_.flare) * std::max(0.0, edge * edge - y * y);
 }
 
 Vec3 HullSurface::side(double u, double v) const {
@@ -115,15 +117,15 @@ Vec3 HullSurface::side(double u, double v) const {
   const double section = v <= kKnuckle ? at_knuckle * std::pow(v / kKnuckle, kSectionPower + h.hollow * forward)
                                        : at_knuckle + (1.0 - at_knuckle) * (v - kKnuckle) / (1.0 - kKnuckle);
   const double deck_x = h.stern_at_deck + (h.stem_at_deck - h.stern_at_deck) * u;
-  return {stern + (stem - stern) * u, b0 + (b1 - b0) * section, v * deck_height(deck_x)};
+  return {stern + (stem - stern) * u, b0 + (b1 - b0) * section, v * deck_edge_height(deck_x)};
 }
 
 namespace {
 
 // Vertices of the two sides of a station at a level, starboard and port; equal on the centreline.
 using BothSides = std::array<std::uint32_t, 2>;
-using Row = std::vector<BothSides>;  // from stern to stem
-using Across = std::array<std::uint32_t, kAcross.size()>;
+using Row = std::vector<BothSides>;         // from stern to stem
+using Across = std::vector<std::uint32_t>;  // from starboard to port
 
 class HullMesh {
  public:
@@ -131,6 +133,7 @@ class HullMesh {
     const HullLines& h = hull.lines();
     stations_ = std::max(24, static_cast<int>(std::lround(hull.length() / h.panel)));
     levels_ = std::max(3, static_cast<int>(std::lround(h.bow_height / h.panel)));
+    strips_ = h.camber > 0 ? 8 : 4;
     below_ = h.draught > 0 ? std::clamp(static_cast<int>(std::lround(2 * h.draught / h.panel)), 8, 16) : 0;
   }
 
@@ -141,13 +144,13 @@ class HullMesh {
     for (int k = 0; k < levels_; ++k) add_strake(sides[k], sides[k + 1]);
     std::vector<Across> deck, bottom;
     for (int i = 0; i <= stations_; ++i) {
-      deck.push_back(across(sides[levels_][i]));
+      deck.push_back(across(sides[levels_][i], true));
       if (below_ == 0) bottom.push_back(across(sides[0][i]));
     }
     std::vector<Across> transom;
     for (int k = 0; k <= levels_; ++k)
       transom.push_back(k == 0 && below_ == 0 ? bottom[0] : k == levels_ ? deck[0] : across(sides[k][0]));
-    for (std::size_t j = 0; j + 1 < kAcross.size(); ++j) {
+    for (int j = 0; j < strips_; ++j) {
       for (int i = 0; i < stations_; ++i) {
         patch(deck[i][j], deck[i + 1][j], deck[i + 1][j + 1], deck[i][j + 1]);
         if (below_ == 0) patch(bottom[i][j + 1], bottom[i + 1][j + 1], bottom[i + 1][j], bottom[i][j]);
@@ -209,16 +212,18 @@ class HullMesh {
     }
   }
 
-  // Points across the ship between the two sides of a station; the ends are the sides' own vertices.
-  Across across(const BothSides& pair) {
-    Across line{};
+  // Points across the ship between the two sides of a station, level or on the deck; the ends are the sides' own
+  // vertices.
+  Across across(const BothSides& pair, bool on_deck = false) {
     const auto [starboard, port] = pair;
-    line.fill(starboard);
+    Across line(static_cast<std::size_t>(strips_) + 1, starboard);
     line.back() = port;
     if (starboard == port) return line;
     const Vec3 rim = builder_.vertices()[port];
-    for (std::size_t j = 1; j + 1 < kAcross.size(); ++j)
-      line[j] = builder_.vertex({rim.x(), kAcross[j] * rim.y(), rim.z()});
+    for (int j = 1; j < strips_; ++j) {
+      const double y = (2.0 * j / strips_ - 1.0) * rim.y();
+      line[j] = builder_.vertex({rim.x(), y, rim.z() + (on_deck ? hull_.deck_rise(rim.x(), y) : 0)});
+    }
     return line;
   }
 
@@ -232,7 +237,7 @@ class HullMesh {
                               dents_at(i, k, 1)));
       add_strake(low, high);
       const Across line = across(low[0]);
-      for (std::size_t j = 0; j + 1 < kAcross.size(); ++j) patch(line[j + 1], line[j], above[j], above[j + 1]);
+      for (int j = 0; j < strips_; ++j) patch(line[j + 1], line[j], above[j], above[j + 1]);
       high = std::move(low);
       above = line;
     }
@@ -241,6 +246,7 @@ class HullMesh {
   MeshBuilder& builder_;
   const HullSurface& hull_;
   int stations_, levels_, below_;
+  int strips_;  // across deck, lid and transom
 };
 
 }  // namespace
@@ -255,7 +261,7 @@ void add_bulwark(MeshBuilder& builder, const HullSurface& hull, const Bulwark& b
     std::vector<std::array<std::uint32_t, 4>> sections;
     for (int i = 0; i <= bays; ++i) {
       const double x = from + (to - from) * i / bays;
-      const double z = hull.deck_height(x), y = std::max(hull.deck_half_breadth(x) - 0.05, 0.02 + kThickness);
+      const double z = hull.deck_edge_height(x), y = std::max(hull.deck_half_breadth(x) - 0.05, 0.02 + kThickness);
       // The bulwark continues the flare and ends in a slope.
       const double height = i == 0 ? aft_height : full_height, lean = 0.12 * height;
       const auto at = [&](double offset, double up) { return builder.vertex({x, side * (y + offset), z + up}); };
@@ -275,7 +281,7 @@ void add_bulwark(MeshBuilder& builder, const HullSurface& hull, const Bulwark& b
     // Stays: upright triangular plates across, every bay.
     for (int i = 1; i < bays - 2; ++i) {
       const double x = from + (to - from) * (i + 0.5) / bays;
-      const double z = hull.deck_height(x), y = hull.deck_half_breadth(x) - 0.05;
+      const double z = hull.deck_edge_height(x), y = hull.deck_half_breadth(x) - 0.05;
       const Vec3 foot(x, side * (y - 0.75), z - 0.03), root(x, side * (y - 0.04), z - 0.03),
           head(x, side * (y + 0.05), z + 0.95);
       side > 0 ? add_plate(builder, {foot, root, head}, 0.02) : add_plate(builder, {root, foot, head}, 0.02);

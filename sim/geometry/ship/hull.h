@@ -31,6 +31,7 @@ struct HullLines {
   double freeboard = 5.8, bow_height = 9.8, stern_height = 5.2;  // of the deck; parabolas fore and aft
   // Breadth from waterline to deck over height: power 1.12, in the forebody larger by `hollow`, with a knuckle there.
   double hollow = 0.75, knuckle_gain = 0.20;
+  double camber = 0;    // of the deck: height of its middle over its edges amidships, per breadth there
   double panel = 1.5;   // length of a plate
   double dent = 0.004;  // largest displacement of a plate's vertex above the water
   std::uint32_t plating_key = 144;
@@ -56,9 +57,12 @@ class HullSurface {
   Vec3 below(double u, double p) const;
   double keel_depth(double u) const;
 
-  // Height and half-breadth of the deck at body x, m.
-  double deck_height(double x) const;
+  // Edge of the deck at body x: height and half-breadth, m.
+  double deck_edge_height(double x) const;
   double deck_half_breadth(double x) const;
+  // Height of the deck at body (x, y), m, and over its edge there: by the camber, one parabola for all sections.
+  double deck_height(double x, double y) const { return deck_edge_height(x) + deck_rise(x, y); }
+  double deck_rise(double x, double y) const;
   // u of the deck's point at body x.
   double u_at_deck(double x) const { return (x - lines_.stern_at_deck) / (lines_.stem_at_deck - lines_.stern_at_deck); }
 

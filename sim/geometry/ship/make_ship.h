@@ -10,7 +10,7 @@ namespace seaglint {
 
 // Body frame, origin amidships on the centreline at the waterline z = 0, underwater body included. Every part is closed
 // and faces outwards, with normals where the surface is smooth; adjacent parts overlap slightly, so that no two faces
-// coincide. Materials: pec, window_glass, rubber_tube and human_body of assets/materials.
+// coincide. Materials of assets/materials: pec, window_glass, rubber_tube, grp_sheet and human_body.
 struct Ship {
   TriangleMesh mesh;
   double centre_of_gravity_m = 0;  // height above the waterline

@@ -36,6 +36,7 @@ HullLines lines_of(double stern_at_water, double stem_at_water, const PlanShape&
   lines.beam = 1, lines.flare = 1.001;
   lines.freeboard = lines.bow_height = lines.stern_height = 1;
   lines.hollow = 0.3, lines.knuckle_gain = 0;
+  lines.camber = 0.02;
   return lines;
 }
 
@@ -92,9 +93,9 @@ HullLines tug() {
   return lines;
 }
 
-HullLines planing(double midship) {
+HullLines planing(double midship, double camber) {
   HullLines lines = lines_of(-0.485, 0.43, {0.45, 0.47, 0.08, 2, 2.0}, {0.45, 0.50, 0.05, 2, 2.7});
-  lines.flare = 1.1, lines.hollow = 0.7, lines.bow_height = 1.45, lines.stern_height = 0.9;
+  lines.camber = camber, lines.flare = 1.1, lines.hollow = 0.7, lines.bow_height = 1.45, lines.stern_height = 0.9;
   lines.midship = midship, lines.keel_rise = 0.45, lines.transom_draught = 0.45;
   lines.forefoot = 0.7, lines.forefoot_draught = 0.15;
   return lines;
@@ -105,14 +106,14 @@ HullLines planing(double midship) {
 const std::array<ShipKindForm, 10> kForms{{
     {{8.1, 8.5}, {3.0, 3.2}, {1.95, 2.1}, {0.48, 0.53}, {0.065, 0.11}, 0.075, 0.95, frigate()},
     {{6.8, 7.6}, {3.2, 3.5}, {2.05, 2.25}, {0.45, 0.51}, {0.07, 0.12}, 0.08, 0.95, naval(1.09, 0.80)},
-    {{4.8, 5.6}, {3.1, 3.7}, {2.0, 2.3}, {0.40, 0.45}, {0.13, 0.20}, 0.15, 0.95, planing(0.68)},
+    {{4.8, 5.6}, {3.1, 3.7}, {2.0, 2.3}, {0.40, 0.45}, {0.13, 0.20}, 0.15, 0.95, planing(0.68, 0.02)},
     {{6.6, 7.4}, {2.8, 3.2}, {1.70, 1.85}, {0.60, 0.68}, {0.02, 0.06}, 0.09, 0.75, container()},
     {{5.5, 6.1}, {2.5, 3.0}, {1.42, 1.58}, {0.78, 0.84}, {0.08, 0.14}, 0.24, 0.5, full(1.35)},
     {{5.8, 6.4}, {2.4, 2.8}, {1.38, 1.50}, {0.79, 0.85}, {0.07, 0.13}, 0.24, 0.5, full(1.0)},
     {{3.5, 4.4}, {2.2, 2.6}, {1.30, 1.45}, {0.50, 0.58}, {0.07, 0.12}, 0.10, 0.9, fishing()},
     {{5.9, 6.6}, {3.9, 4.4}, {2.2, 2.5}, {0.54, 0.61}, {0.05, 0.10}, 0.08, 0.95, ferry()},
     {{2.7, 3.2}, {2.3, 2.7}, {1.28, 1.40}, {0.50, 0.58}, {0.12, 0.20}, 0.16, 0.9, tug()},
-    {{3.3, 3.8}, {3.8, 4.5}, {1.8, 2.1}, {0.36, 0.42}, {0.36, 0.46}, 0.40, 0.95, planing(0.62)},
+    {{3.3, 3.8}, {3.8, 4.5}, {1.8, 2.1}, {0.36, 0.42}, {0.36, 0.46}, 0.40, 0.95, planing(0.62, 0)},
 }};
 // clang-format on
 

@@ -55,7 +55,7 @@ void add_deck_gear(MeshBuilder& builder, const HullSurface& hull, const DeckGear
     const double x = gear.from + (gear.to - gear.from) * (k + random.uniform()) / gear.count;
     const double side = k % 2 == 0 ? 1 : -1, inboard = between(random, 0.7, 1.1) * gear.size;
     const double y = side * (hull.deck_half_breadth(x) - inboard), yaw = 2 * kPi * random.uniform();
-    const Pose pose = upright({x, y, hull.deck_height(x)}, yaw);
+    const Pose pose = upright({x, y, hull.deck_height(x, y)}, yaw);
     if (k % 3 == 0) add_locker(builder, pose, Vec3(0.8, 0.5, 0.6) * gear.size);
     if (k % 3 == 1) add_ventilator(builder, pose, between(random, 0.4, 0.8) * gear.size, gear.size);
     if (k % 3 == 2) add_shield(builder, pose, 0.4 * gear.size, 0.6 * gear.size);
@@ -113,7 +113,7 @@ Deckhouse add_wheelhouse(MeshBuilder& builder, double aft, double fore, double h
 void add_corvette(MeshBuilder& builder, const HullSurface& hull, const ShipDesign& ship, Random& random) {
   const double length = ship.length, breadth = hull.deck_half_breadth(0), slope = between(random, 4, 9);
   const Plating plating{1.8, 0.002};
-  const double foot = std::min(hull.deck_height(-0.18 * length), hull.deck_height(0.15 * length)) - 0.3;
+  const double foot = std::min(hull.deck_edge_height(-0.18 * length), hull.deck_edge_height(0.15 * length)) - 0.3;
   const auto house = [&](const char* name, double aft, double fore, double half, double from, double to) {
     return Deckhouse{.name = name,
                      .aft = aft * length,
@@ -139,11 +139,11 @@ void add_corvette(MeshBuilder& builder, const HullSurface& hull, const ShipDesig
               octagon(-0.118 * length, -0.075 * length, 0.24 * breadth, 0.4, 0.6, aft.roof + 3.2));
   if (ship.spec.detail == ShipDetail::kHull) return;
   builder.begin_part("gun");
-  add_turret(builder, {0.3 * length, 0, hull.deck_height(0.3 * length)}, between(random, 1.8, 2.2));
+  add_turret(builder, {0.3 * length, 0, hull.deck_height(0.3 * length, 0)}, between(random, 1.8, 2.2));
   builder.begin_part("missile_canisters");
   for (double side : {1.0, -1.0}) {
     const Pose base =
-        upright({-0.2 * length - 1.5 * side, -0.5 * side, hull.deck_height(-0.2 * length)}, side * radians(90));
+        upright({-0.2 * length - 1.5 * side, -0.5 * side, hull.deck_height(-0.2 * length, 0)}, side * radians(90));
     for (double y : {-0.5, 0.5}) {
       for (double z : {0.9, 1.75})
         add_box(builder, base * Pose{{0, y, z}, axis_rotation(radians(-12), Vec3::UnitY())}, {4.2, 0.72, 0.72});
@@ -175,7 +175,7 @@ void add_corvette(MeshBuilder& builder, const HullSurface& hull, const ShipDesig
   builder.begin_part("mooring_gear");
   add_mooring_gear(builder, hull, {-0.44 * length, -0.25 * length, 0.24 * length, 0.38 * length}, 0);
   builder.begin_part("windlasses");
-  add_windlasses(builder, {0.41 * length, 0, hull.deck_height(0.41 * length)}, 1.6, 0.6);
+  add_windlasses(builder, {0.41 * length, 0, hull.deck_height(0.41 * length, 0.8)}, 1.6, 0.6);
   add_bulwark(builder, hull, {.from = 0.36 * length, .to = 0.49 * length, .bays = 9, .height = 0.9});
   add_side_rails(builder, hull, 0.8 * ship.rail_width, -0.47 * length, 0.35 * length);
   if (!(ship.rail_width > 0)) return;
@@ -189,7 +189,7 @@ void add_corvette(MeshBuilder& builder, const HullSurface& hull, const ShipDesig
 void add_patrol_boat(MeshBuilder& builder, const HullSurface& hull, const ShipDesign& ship, Random& random) {
   const double length = ship.length, breadth = hull.deck_half_breadth(0), scale = std::clamp(length / 34, 0.6, 1.4);
   const Plating plating{1.2, 0.0015};
-  const double foot = std::min(hull.deck_height(-0.14 * length), hull.deck_height(0.1 * length)) - 0.2,
+  const double foot = std::min(hull.deck_edge_height(-0.14 * length), hull.deck_edge_height(0.1 * length)) - 0.2,
                tier = 2.3 * std::sqrt(scale);
   const Deckhouse main{.name = "deckhouse",
                        .aft = -0.2 * length,
@@ -232,14 +232,14 @@ void add_patrol_boat(MeshBuilder& builder, const HullSurface& hull, const ShipDe
   for (double side : {1.0, -1.0}) add_whip(builder, mast + Vec3(0.5, side * 0.5 * wheelhouse.half_width, 0), 4);
   if (ship.spec.detail == ShipDetail::kHull) return;
   builder.begin_part("gun");
-  add_turret(builder, {0.27 * length, 0, hull.deck_height(0.27 * length)}, between(random, 0.9, 1.1) * scale);
+  add_turret(builder, {0.27 * length, 0, hull.deck_height(0.27 * length, 0)}, between(random, 0.9, 1.1) * scale);
   const double cradle = -0.36 * length;
   if (length > 25) {
     builder.begin_part("boat");
-    add_rescue_boat(builder, upright({cradle, 0, hull.deck_height(cradle) + 0.45}));
+    add_rescue_boat(builder, upright({cradle, 0, hull.deck_height(cradle, 0) + 0.45}));
     for (double x : {-1.6, 1.4})
-      add_box(builder, upright({cradle + x, 0, hull.deck_height(cradle) - 0.1}), {0.2, 1.5, 0.7});
-    add_crane(builder, {.foot = {-0.26 * length, 0.5 * breadth, hull.deck_height(-0.26 * length)},
+      add_box(builder, upright({cradle + x, 0, hull.deck_height(cradle, 0) - 0.1}), {0.2, 1.5, 0.7});
+    add_crane(builder, {.foot = {-0.26 * length, 0.5 * breadth, hull.deck_height(-0.26 * length, 0.5 * breadth)},
                         .pedestal = 1.6,
                         .radius = 0.22,
                         .jib = 4.5,
@@ -262,8 +262,8 @@ void add_patrol_boat(MeshBuilder& builder, const HullSurface& hull, const ShipDe
 void add_fishing_vessel(MeshBuilder& builder, const HullSurface& hull, const ShipDesign& ship, Random& random) {
   const double length = ship.length, scale = std::clamp(length / 28, 0.55, 2.0);
   const double aft = between(random, -0.02, 0.06) * length, fore = aft + between(random, 0.18, 0.24) * length;
-  const double deck = std::min(hull.deck_height(aft), hull.deck_height(fore)),
-               half = 0.7 * hull.deck_half_breadth(fore);
+  const double half = 0.7 * hull.deck_half_breadth(fore),
+               deck = std::min(hull.deck_height(aft, half), hull.deck_height(fore, half));
   // Below 20 m a wheelhouse stands on the deck, as high as people.
   const bool is_boat = length < 20;
   const double rise = is_boat ? scale : std::sqrt(scale);
@@ -301,11 +301,11 @@ void add_fishing_vessel(MeshBuilder& builder, const HullSurface& hull, const Shi
   if (ship.spec.detail == ShipDetail::kHull) return;
   const double stern = hull.lines().stern_at_deck;
   builder.begin_part("gantry");
-  add_gantry(builder, {stern + 0.05 * length, 0, hull.deck_height(stern + 0.05 * length)},
-             0.75 * hull.deck_half_breadth(stern + 0.05 * length), between(random, 3.2, 4.4) * rise, 0.26 * scale);
+  const double gantry = stern + 0.05 * length, leg = 0.75 * hull.deck_half_breadth(gantry);
+  add_gantry(builder, {gantry, 0, hull.deck_height(gantry, leg)}, leg, between(random, 3.2, 4.4) * rise, 0.26 * scale);
   builder.begin_part("net_drum");
-  const Pose drum = upright({-0.32 * length, 0, hull.deck_height(-0.32 * length)});
   const double r = 0.75 * scale, w = 0.4 * hull.deck_half_breadth(-0.32 * length);
+  const Pose drum = upright({-0.32 * length, 0, hull.deck_height(-0.32 * length, w)});
   add_cone(builder, drum * Vec3(0, -w, 1.3 * r), drum * Vec3(0, w, 1.3 * r), 0.75 * r, 0.75 * r, 16);
   for (double side : {1.0, -1.0}) {
     add_cone(builder, drum * Vec3(0, side * (w - 0.04), 1.3 * r), drum * Vec3(0, side * (w + 0.04), 1.3 * r), 1.25 * r,
@@ -314,11 +314,11 @@ void add_fishing_vessel(MeshBuilder& builder, const HullSurface& hull, const Shi
   }
   builder.begin_part("winches");
   add_winch(builder,
-            upright({aft - 0.07 * length, 0, hull.deck_height(aft - 0.07 * length)}, between(random, -0.05, 0.05)),
+            upright({aft - 0.07 * length, 0, hull.deck_height(aft - 0.07 * length, 0)}, between(random, -0.05, 0.05)),
             0.75 * scale);
   builder.begin_part("gallows");
   for (double side : {1.0, -1.0}) {
-    const double x = -0.22 * length, y = side * (hull.deck_half_breadth(x) - 0.5), z = hull.deck_height(x);
+    const double x = -0.22 * length, y = side * (hull.deck_half_breadth(x) - 0.5), z = hull.deck_height(x, y);
     for (double at : {-0.7, 0.7})
       add_bar(builder, {x + at * scale, y, z - 0.1}, {x + 0.1 * at * scale, y + 0.1 * side, z + 2.4 * scale},
               0.18 * scale);
@@ -338,13 +338,14 @@ void add_fishing_vessel(MeshBuilder& builder, const HullSurface& hull, const Shi
            8);
   add_bar(builder, mast + Vec3(0, 0, 6.8 * rise), mast + Vec3(-0.215 * length, 0, 4.9 * rise), 0.04);
   builder.begin_part("hatches");
-  add_hatch(builder, {-0.13 * length, 0, hull.deck_height(-0.13 * length)}, Vec3(1.6, 1.8, 0.55) * scale, 1, random);
+  add_hatch(builder, {-0.13 * length, 0, hull.deck_height(-0.13 * length, 0)}, Vec3(1.6, 1.8, 0.55) * scale, 1, random);
   builder.begin_part("liferafts");
   add_liferafts(builder, bridge, bridge.roof, {0.5 * (bridge.aft + bridge.fore)}, 1);
   add_deck_gear(builder, hull,
                 {-0.42 * length, (is_boat ? -0.04 : 0.3) * length, is_boat ? 4 : 10, is_boat ? scale : 1}, random);
   builder.begin_part("windlasses");
-  add_windlasses(builder, {0.40 * length, 0, hull.deck_height(0.40 * length) + 1.0 * scale}, 1.1 * scale, 0.4 * scale);
+  add_windlasses(builder, {0.40 * length, 0, hull.deck_edge_height(0.40 * length) + 1.0 * scale}, 1.1 * scale,
+                 0.4 * scale);
   const double bulwark = is_boat ? 0.65 : 0.9;
   add_bulwark(builder, hull,
               {.from = stern + 0.1, .to = 0.33 * length, .bays = 14, .height = bulwark, .aft_height = bulwark});
@@ -353,8 +354,8 @@ void add_fishing_vessel(MeshBuilder& builder, const HullSurface& hull, const Shi
 void add_tug(MeshBuilder& builder, const HullSurface& hull, const ShipDesign& ship, Random& random) {
   const double length = ship.length, scale = length / 30;
   const double aft = between(random, -0.08, -0.03) * length, fore = aft + between(random, 0.27, 0.32) * length;
-  const double deck = std::min(hull.deck_height(aft), hull.deck_height(fore)),
-               half = 0.66 * hull.deck_half_breadth(fore);
+  const double half = 0.66 * hull.deck_half_breadth(fore),
+               deck = std::min(hull.deck_height(aft, half), hull.deck_height(fore, half));
   const int tiers = length < 25 ? 1 : 2;
   const Deckhouse bridge = add_accommodation(builder,
                                              {.aft = aft,
@@ -385,11 +386,11 @@ void add_tug(MeshBuilder& builder, const HullSurface& hull, const ShipDesign& sh
   }
   if (ship.spec.detail == ShipDetail::kHull) return;
   builder.begin_part("winches");
-  add_winch(builder, upright({fore + 0.07 * length, 0, hull.deck_height(fore + 0.07 * length)}), 0.9 * scale);
-  add_winch(builder, upright({aft - 0.09 * length, 0, hull.deck_height(aft - 0.09 * length)}), 0.9 * scale);
+  add_winch(builder, upright({fore + 0.07 * length, 0, hull.deck_height(fore + 0.07 * length, 0)}), 0.9 * scale);
+  add_winch(builder, upright({aft - 0.09 * length, 0, hull.deck_height(aft - 0.09 * length, 0)}), 0.9 * scale);
   builder.begin_part("staple");
   for (double x : {0.40, -0.33}) {
-    const double at = x * length, z = hull.deck_height(at);
+    const double at = x * length, z = hull.deck_height(at, 0.6 * scale);
     for (double side : {1.0, -1.0})
       add_cone(builder, {at, side * 0.6 * scale, z - 0.1}, {at, side * 0.6 * scale, z + 1.4 * scale}, 0.2 * scale,
                0.2 * scale, 12);
@@ -401,15 +402,15 @@ void add_tug(MeshBuilder& builder, const HullSurface& hull, const ShipDesign& sh
   const double tyre = 0.55 * std::sqrt(scale);
   for (double side : {1.0, -1.0}) {
     for (double x = -0.42 * length; x < 0.24 * length; x += 1.75 * tyre * 1.6) {
-      const double z = hull.deck_height(x) - 0.62 * tyre, y = hull.deck_half_breadth(x);
+      const double z = hull.deck_edge_height(x) - 0.62 * tyre, y = hull.deck_half_breadth(x);
       add_cone(builder, {x, side * (y - 0.12), z}, {x, side * (y + 0.22), z}, 0.9 * tyre, 0.8 * tyre, 14);
     }
     double x = 0.28 * length;
     const double stem = hull.lines().stem_at_deck - 0.05;
     while (x < stem - 0.2) {
       const double next = std::min(stem, x + 0.045 * length);
-      const Vec3 from(x, side * hull.deck_half_breadth(x), hull.deck_height(x) - 0.35),
-          to(next, side * hull.deck_half_breadth(next), hull.deck_height(next) - 0.35);
+      const Vec3 from(x, side * hull.deck_half_breadth(x), hull.deck_edge_height(x) - 0.35),
+          to(next, side * hull.deck_half_breadth(next), hull.deck_edge_height(next) - 0.35);
       add_cone(builder, from, to, 0.36 * scale, 0.355 * scale, 10);
       x = next;
     }
@@ -446,7 +447,7 @@ void add_inflatable_boat(MeshBuilder& builder, const HullSurface& hull, const Sh
     const auto at = [&](double x) {
       const double inside = std::clamp(x, hull.lines().stern_at_deck, hull.lines().stem_at_deck);
       return Vec3(x, side * std::max(0.06, hull.deck_half_breadth(inside) - 0.1 * radius),
-                  hull.deck_height(inside) + 0.05 * radius);
+                  hull.deck_edge_height(inside) + 0.05 * radius);
     };
     constexpr int kPieces = 14;
     const double bow = hull.lines().stem_at_deck - 0.4 * radius;
@@ -459,9 +460,9 @@ void add_inflatable_boat(MeshBuilder& builder, const HullSurface& hull, const Sh
                radius * (1 - 0.0004 * static_cast<double>(k + 1)), 16);
     }
   }
-  builder.begin_material("pec");
-  const double deck = hull.deck_height(-0.1 * length);
+  const double deck = hull.deck_height(-0.1 * length, 0);
   builder.begin_part("console");
+  builder.begin_material("grp_sheet");
   const double x = between(random, -0.08, 0.02) * length;
   // From 9.5 m on the console is as wide as three people, under a roof.
   const bool is_large = length > 9.5;
@@ -469,11 +470,12 @@ void add_inflatable_boat(MeshBuilder& builder, const HullSurface& hull, const Sh
   add_frustum(builder, octagon(x, x + 0.8 * wide, 0.4 * wide, 0.05, 0.2, deck - 0.05),
               octagon(x + 0.05, x + 0.5 * wide, 0.36 * wide, 0.04, 0.15, deck + 1.0));
   if (is_large) {
+    add_box(builder, upright({x - 0.05, 0, deck + 2.05}), {2.1, 1.7, 0.06});
+    builder.begin_material("pec");
     for (double at : {-0.8, 0.7}) {
       for (double side : {1.0, -1.0})
         add_cone(builder, {x + at, side * 0.62, deck - 0.05}, {x + at, side * 0.62, deck + 2.1}, 0.03, 0.03, 8);
     }
-    add_box(builder, upright({x - 0.05, 0, deck + 2.05}), {2.1, 1.7, 0.06});
   }
   builder.begin_material("window_glass");
   add_plate(builder,
@@ -482,25 +484,29 @@ void add_inflatable_boat(MeshBuilder& builder, const HullSurface& hull, const Sh
              {x + 0.42 * wide - 0.2, 0.3 * wide, deck + 1.4},
              {x + 0.42 * wide - 0.2, -0.3 * wide, deck + 1.4}},
             0.02);
-  builder.begin_material("pec");
   builder.begin_part("seats");
+  builder.begin_material("grp_sheet");
   const int seats = length < 6.5 ? 1 : is_large ? 4 + 2 * static_cast<int>((length - 9) / 2) : 3;
-  const double abreast = is_large ? 0.45 : 0.35;
+  // In pairs, the last of an odd number in the middle.
+  const auto seat = [&](int k) {
+    const double side = k + 1 == seats && k % 2 == 0 ? 0 : k % 2 == 0 ? 1 : -1;
+    return Vec3(x - 0.55 - 0.85 * (k / 2), side * (is_large ? 0.45 : 0.35), deck);
+  };
+  const double last = hull.lines().stern_at_deck + 0.12 * length;
   for (int k = 0; k < seats; ++k) {
-    const double at = x - 0.55 - 0.85 * (k / 2), y = seats == 1 ? 0 : (k % 2 == 0 ? abreast : -abreast);
-    if (at < hull.lines().stern_at_deck + 0.12 * length) continue;
-    add_box(builder, upright({at, y, deck - 0.05}), {0.6, 0.34, 0.75});
-    add_box(builder, upright({at - 0.24, y, deck + 0.65}), {0.1, 0.32, 0.45});
+    if (seat(k).x() < last) continue;
+    add_box(builder, upright(seat(k) - Vec3(0, 0, 0.05)), {0.6, 0.34, 0.75});
+    add_box(builder, upright(seat(k) + Vec3(-0.24, 0, 0.65)), {0.1, 0.32, 0.45});
   }
   // Crew: torso and head.
   builder.begin_part("crew");
   builder.begin_material("human_body");
   const int crew = std::min(seats, (is_large ? 3 : 1) + static_cast<int>(random.below(3)));
   for (int k = 0; k < crew; ++k) {
-    const double at = x - 0.5 - 0.85 * (k / 2), y = seats == 1 ? 0 : (k % 2 == 0 ? abreast : -abreast);
-    if (at < hull.lines().stern_at_deck + 0.12 * length) continue;
-    add_cone(builder, {at, y, deck + 0.68}, {at, y, deck + 1.3}, 0.17, 0.2, 10);
-    add_sphere(builder, {at, y, deck + 1.45}, 0.13, 1);
+    if (seat(k).x() < last) continue;
+    const Vec3 body = seat(k) + Vec3(0.05, 0, 0);
+    add_cone(builder, body + Vec3(0, 0, 0.68), body + Vec3(0, 0, 1.3), 0.17, 0.2, 10);
+    add_sphere(builder, body + Vec3(0, 0, 1.45), 0.13, 1);
   }
   builder.begin_material("pec");
   // Frame over the stern with radar, light and aerials.

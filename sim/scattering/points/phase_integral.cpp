@@ -150,12 +150,15 @@ class CurvedDecomposer {
     const Corner& at(std::size_t i) const { return corner[i % corners]; }
   };
 
-  // Largest change of psi between two corners, by the slopes at both.
+  // Largest change of psi between two corners, by the slopes at both or by the change of slope while the terms hold,
+  // per the change that a piece may have.
   double path_change(const Corner& a, const Corner& b) const {
     const Vec2 along = b.p - a.p;
     const double length = footprint_.surface_length(along);
     const double steepest = std::max(std::abs(a.w.dot(along)), std::abs(b.w.dot(along)));
-    return std::max(std::min(steepest, kMaxSlope * length), kMaxAmplitudeError * min_slope_ * length);
+    return 0.5 * band_.form().centre() *
+           std::max(std::min(steepest, kMaxSlope * length) / kMaxCurvedHalfPhase,
+                    kMaxAmplitudeError * min_slope_ * length / kMaxHalfPhase);
   }
 
   // Decomposes the illuminated polygon inside a cell of the facet; the cell determines the form.
@@ -179,7 +182,7 @@ class CurvedDecomposer {
       contour(polygon);
       return;
     }
-    if (k * largest / 2 <= kMaxHalfPhase || size < 1e-6) {
+    if (largest <= 1 || size < 1e-6) {
       point(polygon);
       return;
     }
@@ -234,14 +237,14 @@ class CurvedDecomposer {
 
   // Integral over a small polygon as one term at its centroid, by the seven-point rule of degree 5 on its triangles (A.
   // H. Stroud, Approximate Calculation of Multiple Integrals, T2: 5-1), as a power series of e^{jkd} in the path d from
-  // the centroid: with |kd| < 1 its first omitted term is below 1/40320. The path is limited to that, so that a piece
-  // that rounding leaves outside its cell, seen almost edge-on, contributes no more than its area. Where it is more
-  // than twice that the slope of psi exceeds kMaxSlope and the phase varies within the piece: it is omitted, since its
-  // area with one phase would be the more, the larger the piece (turned random bodies change by 0.097 of their echo
-  // with such pieces, by 0.042 without; MeshInvariance).
+  // the centroid: within a triangle |kd| is below 4/3, its first omitted term below 3e-4. The path is limited to that
+  // of a piece from end to end, so that one that rounding leaves outside its cell, seen almost edge-on, contributes no
+  // more than its area. Where it is more than twice that the slope of psi exceeds kMaxSlope and the phase varies within
+  // the piece: it is omitted, since its area with one phase would be the more, the larger the piece (turned random
+  // bodies change by 0.097 of their echo with such pieces, by 0.042 without; MeshInvariance).
   void point(const MovingPolygon& polygon) {
     const Vec2 c = centroid(polygon);
-    const double psi_c = psi(c), max_path = 1 / band_.form().highest;
+    const double psi_c = psi(c), max_path = 2 * kMaxCurvedHalfPhase / band_.form().highest;
     constexpr double kNear = 0.10128650732345634, kFar = 0.47014206410511509;
     constexpr double kWeightNear = 0.12593918054482715, kWeightFar = 0.13239415278850618, kWeightMiddle = 0.225;
     std::array<double, 8> moment{};  // of d^n / n!, with the taper

@@ -489,9 +489,11 @@ TEST_F(BodiesInWater, HaveTheMaterialsThatTheirMeshesNameUnlessTheScenarioAssign
       "  pec: {label: 0, ship: {kind: inflatable_boat}, motion: {model: fixed}, part_materials: [{part: '*', material: "
       "pec}]}");
   const Pipeline pipeline(scenario);
-  EXPECT_THAT(material_notes(pipeline.targets()),
-              ElementsAre("targets.own.ship: materials as the mesh names them: rubber_tube, window_glass, human_body; "
-                          "part_materials: [{part: '*', material: pec}] makes every face a perfect conductor"));
+  EXPECT_THAT(
+      material_notes(pipeline.targets()),
+      ElementsAre(
+          "targets.own.ship: materials as the mesh names them: rubber_tube, grp_sheet, window_glass, human_body; "
+          "part_materials: [{part: '*', material: pec}] makes every face a perfect conductor"));
 }
 
 }  // namespace

@@ -362,7 +362,7 @@ TEST(WavefrontCurvature, OfATrihedralIsThatOfItsAperture) {
     EXPECT_NEAR(std::abs(s[kHhChannel]) / expected, 1, 0.005) << range_m;
     // In an interval, at rest, with the few other bounces. A piece is a point at its centroid, which leaves out the
     // mean of its own second order, and the two decompositions cut differently: 0.011 rad at most from 20 m to 1000 m,
-    // and a quarter of it where pieces end at half of kMaxHalfPhase.
+    // and a quarter of it where pieces end at half of their largest phase.
     SolverSpec solver;
     solver.edges = false;
     solver.wavefront_range_m = range_m;
