@@ -547,6 +547,23 @@ void check_dataset(const Scenario& scenario, const ScenarioDocument& document) {
   }
 }
 
+// Looks follow one another, and the next interval of the realisation follows the last of them.
+void check_looks(const Scenario& scenario, const ScenarioDocument& document) {
+  const LookSpec& looks = scenario.looks;
+  const DatasetSpec& dataset = scenario.dataset;
+  if (looks.count == 1) return;
+  const double interval_s = 1e-6 * scenario.radar.pulses * scenario.radar.pri_us;
+  if (!(looks.spacing_s >= interval_s))
+    document.fail_at(
+        "looks.spacing_s",
+        fmt::format("must be at least {:g}, the length of a look (radar.pulses times radar.pri_us)", interval_s));
+  const bool has_next = dataset.maps_per_case > dataset.realisations_per_case * dataset.maps_per_interval;
+  if (has_next && !(looks.last_start_s() + interval_s <= dataset.interval_spacing_s))
+    document.fail_at(
+        "dataset.interval_spacing_s",
+        fmt::format("must be at least {:g}, the time of all looks of a sample", looks.last_start_s() + interval_s));
+}
+
 // Equal directions would give equal cases.
 void check_directions(const std::string& key, const Sweep& values_deg, const ScenarioDocument& document) {
   constexpr double kSame = 1e-9;                      // deg, above the rounding of a full turn
@@ -645,6 +662,7 @@ void check_contradictions(const Scenario& scenario, const ScenarioDocument& docu
   errors.check({"targets", "radar.intra_pulse_motion"}, [&] { check_intra_pulse_motion(scenario, document); });
   errors.check({"dataset.maps_per_case", "dataset.realisations_per_case", "dataset.maps_per_interval"},
                [&] { check_dataset(scenario, document); });
+  errors.check({"looks", "radar.pulses", "radar.pri_us", "dataset"}, [&] { check_looks(scenario, document); });
 }
 
 }  // namespace seaglint

@@ -625,6 +625,11 @@ void visit(MapSpec& spec, FieldVisitor& v) {
   v.flag("clean", spec.clean, "The map shows the points that CLEAN finds, without the pedestal of the hop code.");
 }
 
+void visit(LookSpec& spec, FieldVisitor& v) {
+  v.integer("count", spec.count, within(1, 1000), "Coherent intervals of a sample, each with its own map.");
+  v.number("spacing_s", spec.spacing_s, within(0.001, 1000), "Time from the start of one look to that of the next.");
+}
+
 void visit(DatasetSpec& spec, FieldVisitor& v) {
   v.integer("maps_per_case", spec.maps_per_case, within(1, 1000000),
             "Maps of each target in a case (one sea state at one view).");
@@ -760,6 +765,8 @@ void visit_fields(Scenario& scenario, FieldVisitor& v) {
   v.items("targets", targets, "Targets by their names: letters, digits, '_' and '-'; {}: the sea alone.");
   v.section("clutter", scenario.clutter, visit, "Sea clutter and noise.");
   v.section("map", scenario.map, visit, "Range-velocity map.");
+  if (v.optional("looks", scenario.looks.count != 1))
+    v.section("looks", scenario.looks, visit, "Several looks of one target in one sea make a sample.");
   v.section("dataset", scenario.dataset, visit, "Size and division of the data set.");
   v.section("features", scenario.features, visit, "Scattering centres and their features.");
   v.section("learning", scenario.learning, visit, "Training of network and trees.");

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The `radar`, `view`, `clutter` and `map` sections of a scenario, in the units of their keys. Defaults are the paper's
-// radar. Meaning, unit and bound of each key stand in the table of fields (sim/scenario/fields.cpp, `seaglint keys`).
+// The `radar`, `view`, `clutter`, `map` and `looks` sections of a scenario, in the units of their keys. Defaults are
+// the paper's radar. Meaning, unit and bound of each key stand in the table of fields (sim/scenario/fields.cpp,
+// `seaglint keys`).
 
 #include <array>
 #include <optional>
@@ -144,6 +145,15 @@ struct MapSpec {
   bool clean = false;
 
   bool operator==(const MapSpec&) const = default;
+};
+
+// Coherent intervals of one sample, which the radar takes of one target in one sea.
+struct LookSpec {
+  int count = 1;
+  double spacing_s = 0.5;  // from the start of one to that of the next
+
+  double last_start_s() const { return (count - 1) * spacing_s; }
+  bool operator==(const LookSpec&) const = default;
 };
 
 }  // namespace seaglint

@@ -42,7 +42,8 @@ SamplePlan::SamplePlan(const Scenario& scenario)
       per_interval_(static_cast<std::size_t>(std::max(1, scenario.dataset.maps_per_interval))),
       per_realisation_(views_.size() * static_cast<std::size_t>(intervals_) * classes_.size()),
       per_shard_(static_cast<std::size_t>(scenario.dataset.maps_per_shard)),
-      spacing_s_(scenario.dataset.interval_spacing_s) {
+      spacing_s_(scenario.dataset.interval_spacing_s),
+      looks_(scenario.looks) {
   SEAGLINT_CHECK(realisations_ >= 1 && intervals_ >= 1 && per_shard_ >= 1 &&
                      scenario.dataset.maps_per_case ==
                          intervals_ * scenario.dataset.realisations_per_case * scenario.dataset.maps_per_interval,
@@ -134,7 +135,19 @@ std::int64_t SamplePlan::group(const SampleAddress& address) const {
   return static_cast<std::int64_t>(address.sea_state) * static_cast<std::int64_t>(realisations_) + address.realisation;
 }
 
-double SamplePlan::start_s(const SampleAddress& address) const { return address.interval * spacing_s_; }
+double SamplePlan::start_s(const SampleAddress& address) const {
+  const double first_s = address.interval * spacing_s_;
+  if (address.look == 0) return first_s;
+  return first_s + address.look * (varied_ ? drawn(*varied_, address).looks : looks_).spacing_s;
+}
+
+std::uint64_t SamplePlan::look_key(std::size_t sample, int look) const {
+  // Beyond all samples; odd, so that looks take different codes of a file.
+  constexpr std::uint64_t kStride = (std::uint64_t{1} << 40) + 1;
+  SEAGLINT_CHECK(sample < kStride && look >= 0 && look < looks_.count,
+                 fmt::format("look {} of sample {}", look, sample));
+  return sample + static_cast<std::uint64_t>(look) * kStride;
+}
 
 double SamplePlan::last_start_s() const { return (intervals_ - 1) * spacing_s_; }
 

@@ -2,7 +2,8 @@
 #pragma once
 
 // Enumeration of the samples of a scenario: sea, view, target and interval of each, and its shard. One sample is one
-// map of one coherent interval. Definitions of case, realisation and group: classify/dataset/README.md.
+// map of one coherent interval, or of several looks. Definitions of case, realisation and group:
+// classify/dataset/README.md.
 
 #include <cstddef>
 #include <cstdint>
@@ -21,6 +22,7 @@ struct SampleAddress {
   int interval = 0;     // 0..maps_per_case/realisations_per_case/maps_per_interval-1, of the realisation
   int target = 0;       // index into scenario.targets, of one with role: class
   int clutter = 0;      // 0..maps_per_interval-1: map of the interval, with clutter and noise of its own
+  int look = 0;         // 0..looks.count-1, no index of the sample: interval of it
 
   bool operator==(const SampleAddress&) const = default;
 };
@@ -69,9 +71,12 @@ class SamplePlan {
   std::size_t first_of_interval(std::size_t sample) const { return sample - sample % per_interval_; }
   // One group = one sea realisation, numbered from 0 without gaps.
   std::int64_t group(const SampleAddress& address) const;
-  double start_s(const SampleAddress& address) const;  // of the interval within the realisation
-  // Start of the last interval of a realisation, s.
+  double start_s(const SampleAddress& address) const;  // of the look within the realisation
+  // Start of the last interval of a realisation, of its first look, s.
   double last_start_s() const;
+  int looks() const { return looks_.count; }
+  // Random index of a look of a sample: that of the sample for the first one.
+  std::uint64_t look_key(std::size_t sample, int look) const;
 
  private:
   // The shuffled order of the intervals of one realisation: entry = (view intervals + interval) classes + class.
@@ -88,6 +93,7 @@ class SamplePlan {
   std::size_t per_realisation_ = 0;  // intervals and classes
   std::size_t per_shard_ = 1;
   double spacing_s_ = 0;
+  LookSpec looks_;
 };
 
 }  // namespace seaglint

@@ -41,6 +41,7 @@ struct Scenario : ScenarioOrigin {
   std::vector<TargetSpec> targets;  // in the order of the file; for `targets: {}` the one of is_sea_alone()
   ClutterSpec clutter;
   MapSpec map;
+  LookSpec looks;
   DatasetSpec dataset;
   FeatureSpec features;
   LearningSpec learning;

@@ -129,6 +129,7 @@ const std::vector<DrawnKey>& drawn_job_keys() {
       {"radar.hop_code", "choice(random, balanced, stepped)"},
       {"radar.pri_jitter_us", "uniform(0, 5)"},
       {"radar.polarisation", "choice(hh, hv, vv)"},
+      {"looks.spacing_s", "uniform(0.1, 0.4)", "", {{"looks.count", "2"}}},
       {"sea.spectrum", "choice(jonswap, bretschneider)"},
       {"sea.significant_wave_height_m", "loguniform(0.5, 2)"},
       {"sea.peak_period_s", "uniform(7, 10)"},
@@ -366,8 +367,8 @@ TEST_F(DrawnJob, HasADistributionForEveryKeyThatCanBeDrawn) {
   const std::set<std::string> not_drawn{std::istream_iterator<std::string>(names), {}};
   for (const KeyEntry& entry : scenario_keys()) {
     const std::string section = entry.key.substr(0, entry.key.find('.'));
-    const bool is_of_radar =
-        entry.key == "radar.hop_code" || entry.key == "radar.pri_jitter_us" || entry.key == "radar.polarisation";
+    const bool is_of_radar = entry.key == "radar.hop_code" || entry.key == "radar.pri_jitter_us" ||
+                             entry.key == "radar.polarisation" || entry.key == "looks.spacing_s";
     if (section != "view" && section != "sea" && section != "sea_reflection" && section != "targets" &&
         section != "clutter" && !is_of_radar)
       continue;

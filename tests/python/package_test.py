@@ -235,6 +235,26 @@ def test_drawn_keys_are_columns(tmp_path):
     assert sorted([*data.where(**{"radar.hop_code": "random"}), *data.where(**{"radar.hop_code": "balanced"})]) == list(range(40))
 
 
+def test_samples_of_several_looks(tmp_path):
+    import h5py
+    import torch
+
+    made = program("generate", "points.yaml", "-o", tmp_path / "set", "--set", "looks.count=3", "--set", "looks.spacing_s=0.4", "--set", "dataset.maps_per_shard=30")
+    assert made.returncode == 0, made.stderr
+    data = seaglint.Dataset(tmp_path / "set", check=True)
+    assert data.looks == 3 and data.map_shape == (64, 256)
+    with h5py.File(tmp_path / "set/shard_00001.h5") as shard:
+        assert np.array_equal(data[35], shard["maps"][5]) and data.maps([35, 2]).shape == (2, 3, 64, 256)
+        assert np.array_equal(data.look_columns["centres"][30:], shard["looks/centres"][:])
+    assert np.allclose(np.diff(data.look_columns["start_s"], axis=1), 0.4)
+    assert np.array_equal(data.look_columns["mwr"][:, 0], data.columns["mwr"])
+    item, label = data.torch_dataset()[35]
+    assert item.shape == (3, 64, 256) and item.dtype == torch.float32 and label == data.columns["label"][35]
+    assert data.to_webdataset(tmp_path / "tar") == 1
+    one = program("generate", "points.yaml", "-o", tmp_path / "one")
+    assert one.returncode == 0 and seaglint.Dataset(tmp_path / "one").looks == 1 and not seaglint.Dataset(tmp_path / "one").look_columns
+
+
 @pytest.mark.parametrize("number", [0, 1, 5])
 def test_a_changed_byte_of_a_column_is_found(data_set, tmp_path, number):
     """In the first shard, one of equal structure, and the last, which is shorter."""

@@ -113,7 +113,9 @@ void make_features(const FeaturesArguments& arguments, const CommandContext& con
   GenerateOptions options;
   options.resume = arguments.resume;
   options.threads = context.threads;
-  options.response = [&](std::size_t sample, const PulseTrain& train) { return echoes.response(sample, train); };
+  options.response = [&](const SampleLook& of, const PulseTrain& train) {
+    return std::make_shared<const IntervalResult>(echoes.response(of, train));
+  };
   make_data_set(pipeline, arguments.directory, options, context, " from stored echoes");
 }
 

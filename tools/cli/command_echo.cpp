@@ -156,6 +156,9 @@ void print_result(const ReceivedInterval& received, const std::vector<Scattering
 struct MapArguments : SampleArguments {
   std::string product = "rv", style = "screen", centres = "on";
   bool whole = false;
+  int look = 0;
+
+  SampleLook of() const { return {sample, look}; }
 };
 
 std::vector<float> single(const std::vector<double>& values) { return {values.begin(), values.end()}; }
@@ -172,7 +175,7 @@ struct ProductRequest {
   const SampleRecord& record;  // planned
   int threads = 0;
 
-  double start_s() const { return pipeline.plan().start_s(pipeline.plan().address(arguments.sample)); }
+  double start_s() const { return pipeline.plan().start_s(pipeline.address(arguments.of())); }
 };
 
 void append(const std::vector<std::string>& more, std::vector<std::string>& notes) {
@@ -186,7 +189,7 @@ std::string product_title(const std::string& product, const SampleRecord& record
 
 Heatmap isar_figure(const ProductRequest& request) {
   const auto& [arguments, pipeline, radar, record, threads] = request;
-  IsarPlan plan = isar_plan(pipeline, arguments.sample);
+  IsarPlan plan = isar_plan(pipeline, arguments.of());
   const MapSpec& own = pipeline.scenario().map;
   MapSpec& map = *plan.sampling.map;
   if (sets(arguments, "radar.pulses")) {
@@ -200,7 +203,7 @@ Heatmap isar_figure(const ProductRequest& request) {
   if (sets(arguments, "map.velocity_oversampling")) map.velocity_oversampling = own.velocity_oversampling;
   if (sets(arguments, "map.range_taper")) map.range_taper = own.range_taper;
   if (sets(arguments, "map.velocity_taper")) map.velocity_taper = own.velocity_taper;
-  const FullBandInterval band = full_band_interval(pipeline, arguments.sample, plan.sampling);
+  const FullBandInterval band = full_band_interval(pipeline, arguments.of(), plan.sampling);
   const MagnitudeMap image = magnitude_map(band.image);
   const std::optional<MapWindow> window =
       arguments.whole ? std::nullopt : std::optional(MapWindow{plan.range_m, plan.velocity_mps});
@@ -246,7 +249,7 @@ Heatmap hrrp_figure(const ProductRequest& request, std::size_t names) {
       scenario.targets, [](const TargetSpec& target) { return target.motion.model == MotionModel::kSeries; });
   if (record.significant_wave_height_m > 0 && !recorded && !sets(arguments, "radar.pulses"))
     times.duration_s = std::max(times.duration_s, record.peak_period_s);
-  const RangeProfiles profiles = profiles_over(pipeline, arguments.sample, times);
+  const RangeProfiles profiles = profiles_over(pipeline, arguments.of(), times);
   const std::size_t cells = profiles.range_m.size();
   const std::vector<float> magnitudes = single(profiles.magnitude_m);
   const float strongest = std::ranges::max(magnitudes);
@@ -257,7 +260,7 @@ Heatmap hrrp_figure(const ProductRequest& request, std::size_t names) {
   const bool seconds = profiles.time_s.back() >= 1;
   figure.y.label = seconds ? "time (s)" : "time (ms)";
   figure.colour = {"level to peak (dB)", AxisRange{kMapFloorDb, 0}, false};
-  const IsarPlan plan = isar_plan(pipeline, arguments.sample);
+  const IsarPlan plan = isar_plan(pipeline, arguments.of());
   const std::optional<MapWindow> window =
       arguments.whole ? std::nullopt : std::optional(MapWindow{plan.range_m, {-1e300, 1e300}});
   figure.map = levels_in({profiles.range_m, profiles.time_s}, magnitudes, window);
@@ -276,7 +279,7 @@ Heatmap hrrp_figure(const ProductRequest& request, std::size_t names) {
     const auto at = static_cast<std::size_t>(std::ranges::find(profiles.range_m, range_m) - profiles.range_m.begin());
     above.values.push_back(dbsm(profiles.magnitude_m[at]));
   }
-  for (const NamedPeak& peak : named_peaks(pipeline, arguments.sample, profiles, names))
+  for (const NamedPeak& peak : named_peaks(pipeline, arguments.of(), profiles, names))
     above.peaks.push_back({peak.range_m, dbsm(peak.magnitude_m), peak.name});
   figure.notes.push_back("target alone, whole band in every pulse");
   figure.notes.push_back(fmt::format("above: at {:.2f} s, named by what scatters most", request.start_s()));
@@ -313,7 +316,9 @@ void show_map(const MapArguments& arguments, int threads) {
   require_figure(arguments.output);
   const Pipeline pipeline = pipeline_of(arguments);
   const SamplePlan& plan = pipeline.plan();
-  const SampleAddress at = plan.address(arguments.sample);
+  if (arguments.look >= plan.looks())
+    throw InputError(fmt::format("--look {}: the sample has looks 0 to {}", arguments.look, plan.looks() - 1));
+  const SampleAddress at = pipeline.address(arguments.of());
   const RadarSpec radar = pipeline.scenario_of(at).radar;
   const bool is_map = arguments.product == "rv";
   const FigureStyle style = figure_style(arguments.style);
@@ -323,7 +328,8 @@ void show_map(const MapArguments& arguments, int threads) {
     write_figure(figure, arguments.output, map_size(style));
   };
   if (is_map) {
-    const GeneratedSample made = pipeline.generate_sample(arguments.sample);
+    const GeneratedSample made =
+        std::move(pipeline.generate_looks(arguments.sample)[static_cast<std::size_t>(arguments.look)]);
     write(map_figure(arguments, pipeline, radar, made));
     print_result(made.received, made.centres, made.features);
     return;
@@ -341,6 +347,9 @@ void add_map(CommandOptions& program, CommandContext& context) {
       program.add_command("map", "Draw one range-velocity map, list its scattering centres and features");
   auto arguments = std::make_shared<MapArguments>();
   add_sample_arguments(command, *arguments, "Picture, .png, .svg or .pdf");
+  command.add_option("--look", arguments->look, "Number of the look, of a scenario with looks.count")
+      .integer_within(0, 999)
+      .show_default();
   command
       .add_option(
           "--product", arguments->product,

@@ -33,8 +33,7 @@ struct OpenShard {
 
 GeneratedSample made_sample(const Pipeline& pipeline, std::size_t sample, const GenerateOptions& options) {
   if (!options.response) return pipeline.generate_sample(sample);
-  const PulseTrain train = pipeline.pulse_train(sample);
-  return pipeline.received_sample(sample, train, options.response(sample, train));
+  return with_all_looks(pipeline.looks_of_responses(sample, options.response));
 }
 
 }  // namespace
@@ -149,20 +148,21 @@ StoredEchoes::StoredEchoes(const DatasetReader& reader) : reader_(reader) {
   }
 }
 
-IntervalResult StoredEchoes::response(std::size_t sample, const PulseTrain& train) const {
-  const auto [number, file] = shard_of(reader_, sample);
+IntervalResult StoredEchoes::response(const SampleLook& of, const PulseTrain& train) const {
+  const auto [number, file] = shard_of(reader_, of.sample);
   const auto shard = shards_.get(number, [&] {
     const std::lock_guard lock(hdf5_mutex());
     return reader_.shard(number);
   });
-  const Sample& stored = shard->samples[sample - file.first_sample];
+  const Sample& stored = look_of(shard->samples[of.sample - file.first_sample], of.look);
   IntervalResult response;
   response.response.pulses = static_cast<int>(train.pulses());
   response.response.frequencies_per_pulse = static_cast<int>(train.frequencies());
   const std::size_t values = train.pulses() * train.frequencies();
   if (stored.echo.size() != 2 * values) {
     throw InputError(fmt::format("{}: sample {}: the echo has {} values, its pulses {}",
-                                 (reader_.directory() / file.file).string(), sample, stored.echo.size() / 2, values));
+                                 (reader_.directory() / file.file).string(), of.sample, stored.echo.size() / 2,
+                                 values));
   }
   for (std::size_t i = 0; i < values; ++i)
     response.response.values.emplace_back(stored.echo[2 * i], stored.echo[2 * i + 1]);
@@ -243,6 +243,10 @@ double reproduction_tolerance(const Provenance& origin) {
 
 std::vector<std::string> differences(const Sample& stored, const Sample& again, double tolerance) {
   std::vector<std::string> found;
+  if (look_count(stored) != look_count(again)) return {"it has other looks"};
+  for (std::size_t i = 0; i < stored.further_looks.size(); ++i)
+    for (const std::string& what : differences(stored.further_looks[i], again.further_looks[i], tolerance))
+      found.push_back(fmt::format("in look {} {}", i + 1, what));
   const auto compare = [&](const char* name, const std::vector<float>& a, const std::vector<float>& b) {
     const double largest = largest_difference(a, b);
     if (!(largest <= tolerance * stored.record.peak_m))

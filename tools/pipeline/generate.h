@@ -30,7 +30,7 @@ struct GenerateOptions {
   bool resume = false;  // keep existing shards that are valid
   int threads = 0;      // 0 = all processors
   // Response of a sample's target in place of a computed one; from any thread.
-  std::function<IntervalResult(std::size_t sample, const PulseTrain& train)> response = {};
+  Pipeline::ResponseOfLook response = {};
 };
 
 struct GenerateResult {
@@ -53,9 +53,9 @@ class StoredEchoes {
   // Throws InputError when the data set has no echoes.
   explicit StoredEchoes(const DatasetReader& reader);
 
-  // The response of a sample's target at the pulses and frequencies of `train`, as it was computed, to the bit. Throws
+  // The response of a target in a look at the pulses and frequencies of `train`, as it was computed, to the bit. Throws
   // InputError naming a damaged shard, or a sample whose echo has other pulses or frequencies.
-  IntervalResult response(std::size_t sample, const PulseTrain& train) const;
+  IntervalResult response(const SampleLook& of, const PulseTrain& train) const;
 
  private:
   static constexpr std::size_t kKept = 4;  // shards

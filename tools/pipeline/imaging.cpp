@@ -14,8 +14,8 @@
 
 namespace seaglint {
 
-FullBandInterval full_band_interval(const Pipeline& pipeline, std::size_t sample, const FullBandSampling& sampling) {
-  const SampleAddress at = pipeline.plan().address(sample);
+FullBandInterval full_band_interval(const Pipeline& pipeline, const SampleLook& of, const FullBandSampling& sampling) {
+  const SampleAddress at = pipeline.address(of);
   const Scenario scenario = pipeline.scenario_of(at);
   // One carrier with the bandwidth of all; the hop step is the whole band, so that the unambiguous range window is
   // unchanged.
@@ -30,12 +30,13 @@ FullBandInterval full_band_interval(const Pipeline& pipeline, std::size_t sample
   if (sampling.pulses > 0) radar.pulses = sampling.pulses;
 
   FullBandInterval band;
-  band.train = make_pulse_train(radar, pipeline.window_m(), scenario.seed, pipeline.plan().first_of_interval(sample));
+  band.train = make_pulse_train(radar, pipeline.window_m(), scenario.seed,
+                                pipeline.plan().look_key(pipeline.plan().first_of_interval(of.sample), of.look));
   PulseTrain later = band.train;
   for (double& t : later.time_s) t += sampling.offset_s;
   ClutterSpec none;
   none.enabled = false;
-  band.echo = pipeline.echo(sample, band.train, pipeline.response(at, later), none).target;
+  band.echo = pipeline.echo(of, band.train, pipeline.response(at, later), none).target;
   band.image = form_rv_map(band.echo, band.train, sampling.map.value_or(scenario.map), radar.intra_pulse_motion);
   return band;
 }
@@ -58,12 +59,12 @@ RangeProfiles range_profiles(const FullBandInterval& band, const MapSpec& spec) 
   return profiles;
 }
 
-RangeProfiles profiles_over(const Pipeline& pipeline, std::size_t sample, const ProfileTimes& times) {
+RangeProfiles profiles_over(const Pipeline& pipeline, const SampleLook& of, const ProfileTimes& times) {
   std::vector<RangeProfiles> single(static_cast<std::size_t>(times.count));
   parallel_for(single.size(), thread_count(times.threads), [&](std::size_t i) {
     const double offset_s = times.duration_s * static_cast<double>(i) / static_cast<double>(single.size());
-    single[i] = range_profiles(
-        full_band_interval(pipeline, sample, {.offset_s = offset_s, .pulses = 1, .map = times.map}), times.map);
+    single[i] = range_profiles(full_band_interval(pipeline, of, {.offset_s = offset_s, .pulses = 1, .map = times.map}),
+                               times.map);
     single[i].time_s = {offset_s};
   });
   RangeProfiles all;
@@ -122,9 +123,9 @@ std::vector<Vec3> corners_of(const Bounds& box) {
 }
 
 // at_least_s: from the start of the sample's interval.
-Observed observed(const Pipeline& pipeline, std::size_t sample, double at_least_s) {
+Observed observed(const Pipeline& pipeline, const SampleLook& of, double at_least_s) {
   const SamplePlan& plan = pipeline.plan();
-  const SampleAddress at = plan.address(sample);
+  const SampleAddress at = pipeline.address(of);
   Observed seen;
   seen.scenario = pipeline.scenario_of(at);
   seen.start_s = plan.start_s(at);
@@ -224,14 +225,14 @@ bool has_series(const Scenario& scenario) {
 
 }  // namespace
 
-IsarPlan isar_plan(const Pipeline& pipeline, std::size_t sample) {
+IsarPlan isar_plan(const Pipeline& pipeline, const SampleLook& of) {
   if (is_sea_alone(pipeline.scenario())) {
     throw InputError(fmt::format("{}: the sea alone: an image and a range profile need a target",
                                  place_of(pipeline.scenario(), "targets")));
   }
   constexpr int kMostPulses = 65536;
   constexpr double kCalm_s = 4, kCells = 4, kLeastCells = 8;
-  const SampleAddress at = pipeline.plan().address(sample);
+  const SampleAddress at = pipeline.address(of);
   const double pri_s = 1e-6 * pipeline.scenario_of(at).radar.pri_us;
   const double period_s = pipeline.plan().sea_state(at).significant_wave_height_m > 0
                               ? pipeline.plan().sea_state(at).peak_period_s
@@ -241,7 +242,7 @@ IsarPlan isar_plan(const Pipeline& pipeline, std::size_t sample) {
   const bool bounded = has_series(pipeline.scenario());
   const double search_s = bounded ? 0 : period_s,
                longest_s = bounded ? own_s : std::max(own_s, std::min(period_s, pri_s * kMostPulses));
-  const Observed seen = observed(pipeline, sample, bounded ? 0 : search_s + longest_s);
+  const Observed seen = observed(pipeline, of, bounded ? 0 : search_s + longest_s);
   const auto [first_s, last_s] = imaging_interval(seen, search_s, longest_s);
 
   IsarPlan plan;
@@ -346,9 +347,9 @@ void append_contributions(const PointContributions& of, std::vector<RangeContrib
   }
 }
 
-std::vector<NamedPeak> named_peaks(const Pipeline& pipeline, std::size_t sample, const RangeProfiles& profiles,
+std::vector<NamedPeak> named_peaks(const Pipeline& pipeline, const SampleLook& of, const RangeProfiles& profiles,
                                    std::size_t most) {
-  const Observed seen = observed(pipeline, sample, 0);
+  const Observed seen = observed(pipeline, of, 0);
   std::vector<NamedPeak> peaks = strongest_peaks(
       profiles.range_m, {profiles.magnitude_m.data(), profiles.range_m.size()}, seen.range_cell_m, most);
   std::vector<RangeContribution> contributions;
@@ -361,7 +362,7 @@ std::vector<NamedPeak> named_peaks(const Pipeline& pipeline, std::size_t sample,
     }
     const Scatterer& scatterer = *body.prepared->scatterer;
     const Vec3 look = body.trajectory.pose(seen.start_s).R.transpose() * seen.r_hat;
-    const std::size_t target = static_cast<std::size_t>(pipeline.plan().address(sample).target);
+    const std::size_t target = static_cast<std::size_t>(pipeline.address(of).target);
     const SolveResult solved = solve({.scatterer = scatterer,
                                       .views = {monostatic(radar_basis(look))},
                                       .wavenumbers = {k},

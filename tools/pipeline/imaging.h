@@ -34,7 +34,7 @@ struct FullBandInterval {
   std::vector<Complex> echo;  // [pulse][frequency]
   RvMap image;
 };
-FullBandInterval full_band_interval(const Pipeline& pipeline, std::size_t sample,
+FullBandInterval full_band_interval(const Pipeline& pipeline, const SampleLook& of,
                                     const FullBandSampling& sampling = {});
 
 // High-resolution range profiles |HRRP| of its single pulses, metres, [pulse][range].
@@ -52,7 +52,7 @@ struct ProfileTimes {
   MapSpec map;
   int threads = 0;  // 0: all processors
 };
-RangeProfiles profiles_over(const Pipeline& pipeline, std::size_t sample, const ProfileTimes& times);
+RangeProfiles profiles_over(const Pipeline& pipeline, const SampleLook& of, const ProfileTimes& times);
 
 // The interval and the map of an ISAR image. The interval begins within a peak period of the waves (4 s without) after
 // the sample's; it is that in which the look direction changes most in body axes while no point of the target departs
@@ -76,7 +76,7 @@ struct IsarPlan {
   std::optional<CrossRange> cross_range;
   std::string no_cross_range;  // why it is absent
 };
-IsarPlan isar_plan(const Pipeline& pipeline, std::size_t sample);
+IsarPlan isar_plan(const Pipeline& pipeline, const SampleLook& of);
 
 // A peak of a range profile with what scatters most there.
 struct NamedPeak {
@@ -112,7 +112,7 @@ void append_contributions(const PointContributions& of, std::vector<RangeContrib
 
 // Strongest peaks of a sample's range profile at the start of its interval, named after a part of the mesh, a body of
 // several or a point.
-std::vector<NamedPeak> named_peaks(const Pipeline& pipeline, std::size_t sample, const RangeProfiles& profiles,
+std::vector<NamedPeak> named_peaks(const Pipeline& pipeline, const SampleLook& of, const RangeProfiles& profiles,
                                    std::size_t most);
 
 }  // namespace seaglint

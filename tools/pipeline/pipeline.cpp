@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <variant>
 
 #include "classify/dataset/directory/dataset_writer.h"
@@ -66,17 +67,24 @@ Scenario with_files(Scenario scenario) {
 }
 
 // The waves below a body of a target, of surface_profile: waves. The frame of a ship under way moves with it; a
-// companion and a drifting float move from their places at the start of the interval relative to that frame, the float
-// with its waves. velocity_mps: the body's mean one in the frame.
+// companion and a drifting float move from their places at begin_s, the start of the sample, relative to that frame,
+// the float with its waves. velocity_mps: the body's mean one in the frame.
 std::optional<WavesBelow> waves_below(const Scenario& scenario, const Scene& scene, const Target& target,
-                                      const Vec3& velocity_mps, double start_s) {
+                                      const Vec3& velocity_mps, double begin_s) {
   if (scenario.sea_reflection.surface_profile == SurfaceProfileKind::kMean) return std::nullopt;
   const auto wind_sea = wind_sea_spectrum(scene.state);
   const double above_m2 = wind_sea ? wind_sea->energy_above(linear_cutoff(scene.state)) : 0;
   return WavesBelow{.field = &scene.sea,
-                    .origin_m = start_s * velocity_mps,
+                    .origin_m = begin_s * velocity_mps,
                     .velocity_mps = Vec3(target.spec.motion.speed_mps, 0, 0) - velocity_mps,
                     .rms_above_cutoff_m = std::sqrt(above_m2)};
+}
+
+// The points after this time.
+std::vector<PointSpec> moved_on(std::vector<PointSpec> points, double time_s) {
+  for (PointSpec& point : points)
+    for (std::size_t i = 0; i < 3; ++i) point.position_m[i] += time_s * point.velocity_mps[i];
+  return points;
 }
 
 // Throws InputError for an observation whose drawn values contradict each other.
@@ -141,28 +149,27 @@ std::shared_ptr<const Scene> Pipeline::scene(const SampleAddress& at, double at_
 }
 
 IntervalResult Pipeline::target_response(std::size_t index, const ObservedInterval& seen, const StopFlag* stop) {
-  const auto& [scenario, scene, view, sampling] = seen;
+  const auto& [scenario, scene, view, sampling, begin_s] = seen;
   const Target& target = (*scene->targets)[index];
   const Vec3 r_hat = direction_to_radar(view.azimuth_rad, view.elevation_rad);
   const TargetSpec& spec = target.spec;
-  const double start_s = sampling.pulse_time_s.front();
   const bool has_mirror = scenario.sea_reflection.enabled;
   const auto mirror_of = [&](const Vec3& velocity_mps) {
     return SeaReflection(scenario.sea_reflection, total_wave_height(scene->state),
-                         waves_below(scenario, *scene, target, velocity_mps, start_s));
+                         waves_below(scenario, *scene, target, velocity_mps, begin_s));
   };
   if (target.models.empty()) {
-    if (!has_mirror) return {point_response(spec.points, r_hat, sampling), 0};
-    return {point_response_over_sea(spec.points, r_hat, sampling, scenario.radar.polarisation,
+    const std::vector<PointSpec> points = moved_on(spec.points, sampling.pulse_time_s.front() - begin_s);
+    if (!has_mirror) return {point_response(points, r_hat, sampling), 0};
+    return {point_response_over_sea(points, r_hat, sampling, scenario.radar.polarisation,
                                     mirror_of(target.relative_velocity_mps)),
             0};
   }
   IntervalResult sum;
   for (std::size_t i = 0; i < target.models.size(); ++i) {
     const Trajectory& body = scene->bodies[index][i];
-    // A companion or a drifting float is at its given place at the start of the interval.
     const Vec3& velocity_mps = scene->velocities_mps[index][i];
-    const Trajectory carried = velocity_mps.isZero(0) ? body : body.with_drift(velocity_mps, start_s);
+    const Trajectory carried = velocity_mps.isZero(0) ? body : body.with_drift(velocity_mps, begin_s);
     const SeaReflection mirror = mirror_of(velocity_mps);
     const IntervalResult term = solve({.scatterer = *target.models[i]->prepared->scatterer,
                                        .trajectory = carried,
@@ -200,10 +207,25 @@ ClutterScene Pipeline::clutter_scene(const SampleAddress& at, const Scene& scene
           current_mps(motion)};
 }
 
+namespace {
+
+SampleAddress first_look(SampleAddress at) {
+  at.look = 0;
+  return at;
+}
+
+}  // namespace
+
+SampleAddress Pipeline::address(const SampleLook& of) const {
+  SampleAddress at = plan_.address(of.sample);
+  at.look = of.look;
+  return at;
+}
+
 IntervalResult Pipeline::response(const SampleAddress& at, const PulseTrain& train, const StopFlag* stop) const {
   const double start_s = plan_.start_s(at);
   ObservedInterval seen{scenario_of(at), scene(at, start_s + train.time_s.back()), plan_.view(at),
-                        interval_sampling(train, start_s)};
+                        interval_sampling(train, start_s), plan_.start_s(first_look(at))};
   seen.sampling.line_of_sight_rate = Vec3(scenario_.radar.platform.velocity_mps) / (scenario_.radar.range_km * 1e3);
   const auto target = static_cast<std::size_t>(at.target);
   IntervalResult sum = target_response(target, seen, stop);
@@ -215,25 +237,26 @@ IntervalResult Pipeline::response(const SampleAddress& at, const PulseTrain& tra
   return sum;
 }
 
-Echo Pipeline::echo(std::size_t sample, const PulseTrain& train, const IntervalResult& response,
+Echo Pipeline::echo(const SampleLook& of, const PulseTrain& train, const IntervalResult& response,
                     const ClutterSpec& clutter) const {
-  const SampleAddress at = plan_.address(sample);
-  const std::shared_ptr<const Scene> moving = scene(at);
+  const SampleAddress at = address(of);
+  const std::shared_ptr<const Scene> moving = scene(at, plan_.start_s(at) + train.time_s.back());
   try {
     if (!is_sea_alone(scenario_)) require_power(response.response);
-    return synthesise_echo(train, response.response, clutter, scenario_.seed, sample, clutter_scene(at, *moving));
+    return synthesise_echo(train, response.response, clutter, scenario_.seed, plan_.look_key(of.sample, of.look),
+                           clutter_scene(at, *moving));
   } catch (const InputError& error) {
     const TargetSpec& target = scenario_.targets[static_cast<std::size_t>(at.target)];
     const View view = plan_.view(at);
     throw InputError(fmt::format("{}: sample {}, azimuth {:g} deg, elevation {:g} deg: {}",
-                                 place_of(scenario_, "targets." + target.name), sample, view.azimuth_deg,
+                                 place_of(scenario_, "targets." + target.name), of.sample, view.azimuth_deg,
                                  view.elevation_deg, error.what()));
   }
 }
 
-PulseTrain Pipeline::pulse_train(std::size_t sample) const {
-  return make_pulse_train(scenario_of(plan_.address(sample)).radar, range_window_m_, scenario_.seed,
-                          plan_.first_of_interval(sample));
+PulseTrain Pipeline::pulse_train(const SampleLook& of) const {
+  return make_pulse_train(scenario_of(plan_.address(of.sample)).radar, range_window_m_, scenario_.seed,
+                          plan_.look_key(plan_.first_of_interval(of.sample), of.look));
 }
 
 ClutterScene Pipeline::nominal_clutter_scene() const {
@@ -256,24 +279,59 @@ PulseTrain Pipeline::nominal_train() const {
 }
 
 GeneratedSample Pipeline::generate_sample(std::size_t sample, const StopFlag* stop) const {
-  const PulseTrain train = pulse_train(sample);
-  const auto made = [&] { return response(plan_.address(sample), train, stop); };
-  if (plan_.maps_per_interval() == 1) return received_sample(sample, train, made(), stop);
-  return received_sample(sample, train, *responses_.get(plan_.first_of_interval(sample), made), stop);
+  return with_all_looks(generate_looks(sample, stop));
 }
 
-GeneratedSample Pipeline::received_sample(std::size_t sample, const PulseTrain& train, const IntervalResult& response,
-                                          const StopFlag* stop) const {
-  const SampleAddress at = plan_.address(sample);
-  SampleRecord record = planned_record(scenario_, plan_, sample, at);
+GeneratedSample with_all_looks(std::vector<GeneratedSample> looks) {
+  GeneratedSample sample = std::move(looks.front());
+  for (std::size_t i = 1; i < looks.size(); ++i) sample.stored.further_looks.push_back(std::move(looks[i].stored));
+  return sample;
+}
+
+std::vector<GeneratedSample> Pipeline::generate_looks(std::size_t sample, const StopFlag* stop) const {
+  return looks_of_responses(
+      sample,
+      [&](const SampleLook& of, const PulseTrain& train) {
+        const auto made = [&] { return response(address(of), train, stop); };
+        if (plan_.maps_per_interval() == 1) return std::make_shared<const IntervalResult>(made());
+        return responses_.get({plan_.first_of_interval(of.sample), of.look}, made);
+      },
+      stop);
+}
+
+std::vector<GeneratedSample> Pipeline::looks_of_responses(std::size_t sample, const ResponseOfLook& response_of,
+                                                          const StopFlag* stop) const {
+  std::vector<PulseTrain> trains;
+  std::vector<std::shared_ptr<const IntervalResult>> responses;
+  std::vector<double> powers_m2;
+  for (int look = 0; look < plan_.looks(); ++look) {
+    trains.push_back(pulse_train({sample, look}));
+    responses.push_back(response_of({sample, look}, trains.back()));
+    powers_m2.push_back(mean_power(responses.back()->response.values));
+  }
+  const double mean_m2 =
+      std::accumulate(powers_m2.begin(), powers_m2.end(), 0.0) / static_cast<double>(powers_m2.size());
+  std::vector<GeneratedSample> looks;
+  for (std::size_t i = 0; i < responses.size(); ++i) {
+    const double change_db = powers_m2[i] > 0 && responses.size() > 1 ? 10 * std::log10(powers_m2[i] / mean_m2) : 0;
+    looks.push_back(received_sample({sample, static_cast<int>(i)}, trains[i], *responses[i], stop, change_db));
+  }
+  return looks;
+}
+
+GeneratedSample Pipeline::received_sample(const SampleLook& of, const PulseTrain& train, const IntervalResult& response,
+                                          const StopFlag* stop, double level_change_db) const {
+  const SampleAddress at = address(of);
+  SampleRecord record = planned_record(scenario_, plan_, of.sample, at);
   record.aspect_traces = response.traces;
-  const std::shared_ptr<const Scene> moving = scene(at);
+  const std::shared_ptr<const Scene> moving = scene(at, plan_.start_s(at) + train.time_s.back());
   const std::vector<Trajectory>& bodies = moving->bodies[static_cast<std::size_t>(at.target)];
   const double middle_s = plan_.start_s(at) + 0.5 * (train.time_s.front() + train.time_s.back());
   if (!bodies.empty()) store_motion(bodies.front(), middle_s, record);  // points have velocities only
-  const ClutterSpec clutter = scenario_of(at).clutter;
+  ClutterSpec clutter = scenario_of(at).clutter;
+  clutter.scr_db += level_change_db;
   GeneratedSample made =
-      sample_of_echo(echo(sample, train, response, clutter), train, scenario_, clutter, std::move(record), stop);
+      sample_of_echo(echo(of, train, response, clutter), train, scenario_, clutter, std::move(record), stop);
   made.address = at;
   if (scenario_.dataset.echoes) {
     for (const Complex& value : response.response.values) {

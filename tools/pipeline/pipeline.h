@@ -4,6 +4,7 @@
 // Generates one sample of a scenario: sea and motion, response, echo, map, features; and its I/Q samples. Every step is
 // one call of one stage.
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <tuple>
@@ -24,14 +25,22 @@
 
 namespace seaglint {
 
-// All results for one sample.
+// A look of a sample; the first where only its number is given.
+struct SampleLook {
+  std::size_t sample = 0;
+  int look = 0;
+
+  SampleLook(std::size_t of, int number = 0) : sample(of), look(number) {}
+};
+
+// All results for one sample, or one of its looks.
 struct GeneratedSample {
   SampleAddress address;
   PulseTrain train;
   ReceivedInterval received;  // echo, map, measured SCR
   std::vector<ScatteringCentre> centres;
   FeatureVector features;
-  Sample stored;  // as the data set stores it
+  Sample stored;  // as the data set stores it; of a sample with all its looks
 };
 
 // The sample of an echo: map, measured SCR, scattering centres, features, and what the data set stores of them. Map and
@@ -39,6 +48,9 @@ struct GeneratedSample {
 // row that are not measured in the map.
 GeneratedSample sample_of_echo(const Echo& echo, const PulseTrain& train, const Scenario& scenario,
                                const ClutterSpec& clutter, SampleRecord record, const StopFlag* stop = nullptr);
+
+// The first look, with all of them in `stored`.
+GeneratedSample with_all_looks(std::vector<GeneratedSample> looks);
 
 // The axes of a map.
 StoredAxes stored_axes(const RvMap& map);
@@ -64,18 +76,26 @@ class Pipeline {
   // That of another scenario with the same targets.
   double window_m_of(const Scenario& other) const;
 
-  // sample < plan().size(). Throws InputError when the target has no power, Interrupted when *stop becomes true.
+  // Its first look, with all its looks in `stored`. sample < plan().size(). Throws InputError when the target has no
+  // power, Interrupted when *stop becomes true.
   GeneratedSample generate_sample(std::size_t sample, const StopFlag* stop = nullptr) const;
+  // All looks of a sample. `response_of` returns the response of its target in a look. Clutter that is relative to the
+  // target has one level in all looks: that of the ratio to the target's mean power over them.
+  using ResponseOfLook = std::function<std::shared_ptr<const IntervalResult>(const SampleLook&, const PulseTrain&)>;
+  std::vector<GeneratedSample> generate_looks(std::size_t sample, const StopFlag* stop = nullptr) const;
+  std::vector<GeneratedSample> looks_of_responses(std::size_t sample, const ResponseOfLook& response_of,
+                                                  const StopFlag* stop = nullptr) const;
 
-  // Its steps after one another: the pulses of a sample; the response of its target with its companions at their times
+  // Its steps after one another: the pulses of a look; the response of its target with its companions at their times
   // and frequencies; the echo; the map and its features. The last two throw InputError, naming target and sample, when
-  // the response has no power; that of the sea alone is zero.
-  PulseTrain pulse_train(std::size_t sample) const;
+  // the response has no power; that of the sea alone is zero. level_change_db is added to clutter.scr_db.
+  PulseTrain pulse_train(const SampleLook& of) const;
   IntervalResult response(const SampleAddress& at, const PulseTrain& train, const StopFlag* stop = nullptr) const;
-  Echo echo(std::size_t sample, const PulseTrain& train, const IntervalResult& response,
+  Echo echo(const SampleLook& of, const PulseTrain& train, const IntervalResult& response,
             const ClutterSpec& clutter) const;
-  GeneratedSample received_sample(std::size_t sample, const PulseTrain& train, const IntervalResult& response,
-                                  const StopFlag* stop = nullptr) const;
+  GeneratedSample received_sample(const SampleLook& of, const PulseTrain& train, const IntervalResult& response,
+                                  const StopFlag* stop = nullptr, double level_change_db = 0) const;
+  SampleAddress address(const SampleLook& of) const;
 
   // A pulse train with drawn keys at the middles of their distributions: band, frequencies and number of pulses of all
   // maps, and the hop code of the first.
@@ -98,6 +118,7 @@ class Pipeline {
     std::shared_ptr<const Scene> scene;
     View view;
     IntervalSampling sampling;
+    double begin_s = 0;  // of the sample's first look, where companions and drifting floats are at their places
   };
   // H of a target: the sum over its bodies, or its ideal points.
   static IntervalResult target_response(std::size_t target, const ObservedInterval& seen, const StopFlag* stop);
@@ -113,7 +134,8 @@ class Pipeline {
   // By sea state, realisation, target (-1: all) and least duration. Those of drawn targets have models of their own, up
   // to 100 MB each.
   mutable SharedResults<std::tuple<int, int, int, double>, Scene> scenes_{draws_targets(scenario_) ? 2u : 8u};
-  mutable SharedResults<std::size_t, IntervalResult> responses_{16};  // by the first sample of interval and target
+  // By the first sample of interval and target, and look.
+  mutable SharedResults<std::pair<std::size_t, int>, IntervalResult> responses_{16};
 };
 
 // Echo of a sample over time as I/Q samples of a receiver. Target and clutter are those of the sample's map, at the

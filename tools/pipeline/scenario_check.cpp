@@ -133,7 +133,10 @@ class TrialMaps {
     const Pipeline* pipeline = made->second.get();
     if (pipeline == nullptr) return std::nullopt;
     try {
-      return pipeline->generate_sample(pipeline->plan().sample({.target = target}), stop_).received.map.values;
+      std::vector<Complex> values;
+      for (const GeneratedSample& look : pipeline->generate_looks(pipeline->plan().sample({.target = target}), stop_))
+        values.insert(values.end(), look.received.map.values.begin(), look.received.map.values.end());
+      return values;
     } catch (const InputError&) {
       return std::nullopt;
     }
@@ -145,6 +148,7 @@ class TrialMaps {
     if (trial.cost == TrialCost::kReduced) scenario = reduced(std::move(scenario));
     DatasetSpec& dataset = scenario.dataset;
     dataset.maps_per_case = dataset.realisations_per_case = dataset.maps_per_interval = 1;
+    scenario.looks.count = std::min(scenario.looks.count, 2);
     if (is_echo) {
       scenario.clutter.enabled = false;
       scenario.clutter.noise_level = NoiseLevel::kCnr;  // relative to the clutter: none
@@ -439,6 +443,9 @@ std::string sea_line(const Scenario& scenario, const SamplePlan& plan) {
                                  realisations == 1 ? "" : "s", intervals, intervals == 1 ? "" : "s");
   if (intervals > 1) text += fmt::format(" {:g} s apart", scenario.dataset.interval_spacing_s);
   text += " and view";
+  if (plan.looks() > 1)
+    text += fmt::format(", {} looks {} apart", plan.looks(),
+                        value_text(scenario, "looks.spacing_s", fmt::format("{:g} s", scenario.looks.spacing_s)));
   if (plan.maps_per_interval() > 1) text += fmt::format(", {} maps of each interval", plan.maps_per_interval());
   return line("seas", text);
 }
@@ -576,6 +583,7 @@ double stored_bytes(const Pipeline& pipeline) {
   for (const Variation& variation : scenario.variations)
     each += static_cast<double>(variation.distribution.is_numeric() ? sizeof(double) : kNameBytes);
   const SamplePlan& plan = pipeline.plan();
+  each *= plan.looks();
   return static_cast<double>(plan.size()) * each + static_cast<double>(plan.shards()) * kShardBytes + kOtherBytes;
 }
 

@@ -216,9 +216,14 @@ namespace {
 
 double interval_length_s(const RadarSpec& radar) { return radar.pulses * radar.pri_us * 1e-6; }
 
+// From the first pulse of a sample to its last.
+double sample_length_s(const Scenario& scenario) {
+  return scenario.looks.last_start_s() + interval_length_s(scenario.radar);
+}
+
 // From t = 0 to the end of a realisation's last interval.
 double scene_duration_s(const Scenario& scenario, const SamplePlan& plan) {
-  return plan.last_start_s() + interval_length_s(scenario.radar);
+  return plan.last_start_s() + sample_length_s(scenario);
 }
 
 // Of a body of one size, above its mesh origin, m, with the margin of what counts as in the water surface.

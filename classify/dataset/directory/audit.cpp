@@ -138,14 +138,31 @@ class Auditor {
     for (const std::string& what : record_mismatches(record, planned)) fault(where, what);
     ++result_.per_target[static_cast<std::size_t>(planned.target)];
     seas_of_group_[record.group].insert(record.sea_key);
+    if (look_count(sample) != static_cast<std::size_t>(plan_.looks()))
+      fault(where, fmt::format("{} looks, by the scenario {}", look_count(sample), plan_.looks()));
     check_map(where, sample);
-    for (const std::uint16_t carrier : sample.hop_code) {
-      if (carrier >= result_.scenario.radar.carrier_count) {
-        fault(where, fmt::format("hop code {}, the radar has carriers 0 to {}", carrier,
-                                 result_.scenario.radar.carrier_count - 1));
-        break;
-      }
+    check_hop_code(where, sample);
+    check_further_looks(where, sample);
+  }
+
+  void check_further_looks(const std::string& of_sample, const Sample& sample) {
+    const auto number = static_cast<std::size_t>(sample.record.sample);
+    SampleAddress at = plan_.address(number);
+    for (const Sample& look : sample.further_looks) {
+      if (++at.look == plan_.looks()) return;
+      const std::string where = fmt::format("{}, look {}", of_sample, at.look);
+      const SampleRecord planned = planned_record(result_.scenario, plan_, number, at);
+      for (const std::string& what : record_mismatches(look.record, planned)) fault(where, what);
+      check_map(where, look);
+      check_hop_code(where, look);
     }
+  }
+
+  void check_hop_code(const std::string& where, const Sample& look) {
+    const int carriers = result_.scenario.radar.carrier_count;
+    const auto beyond = std::ranges::find_if(look.hop_code, [&](std::uint16_t carrier) { return carrier >= carriers; });
+    if (beyond != look.hop_code.end())
+      fault(where, fmt::format("hop code {}, the radar has carriers 0 to {}", *beyond, carriers - 1));
   }
 
   void check_map(const std::string& where, const Sample& sample) {

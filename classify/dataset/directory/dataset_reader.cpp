@@ -128,7 +128,7 @@ Shard DatasetReader::shard(std::size_t index) const {
   }
   Shard shard = read_shard(loaded);
   if (shard.samples.size() != entry.samples || shard.axes.velocity_mps.size() != manifest_.rows ||
-      shard.axes.range_m.size() != manifest_.columns) {
+      shard.axes.range_m.size() != manifest_.columns || look_count(shard.samples.front()) != manifest_.looks) {
     throw InputError(fmt::format("{}: does not contain what the manifest lists", file.string()));
   }
   for (std::size_t row = 0; row < shard.samples.size(); ++row) {

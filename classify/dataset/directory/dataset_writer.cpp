@@ -68,7 +68,7 @@ SampleRecord planned_record(const Scenario& scenario, const SamplePlan& plan, st
   // 53 bits, which a double holds, of the random numbers that give the sea its phases.
   record.sea_id = static_cast<std::int64_t>(Random({scenario.seed, Stream::kWavePhase, sea}).bits() >> 11);
   record.first_motion_key = static_cast<std::int64_t>(body_index(sea, first_body));
-  record.radar_key = static_cast<std::int64_t>(sample);
+  record.radar_key = static_cast<std::int64_t>(plan.look_key(sample, at.look));
   for (const Variation& variation : scenario.variations) {
     const ScalarValue value = drawn_value(variation, scenario.seed, plan.draw_place(at));
     const double* number = std::get_if<double>(&value);
@@ -207,18 +207,24 @@ std::string clutter_level(const Scenario& scenario) {
 // The arrays of a shard with n samples.
 std::string arrays_table(const Scenario& scenario, const StoredAxes& axes) {
   const std::size_t velocities = axes.velocity_mps.size(), ranges = axes.range_m.size();
+  const std::string n = scenario.looks.count == 1 ? "n" : fmt::format("n, {}", scenario.looks.count);
   std::string table = "| array | type | shape | units | meaning |\n|---|---|---|---|---|\n";
   const auto add = [&](const StoredArray& array, const char* type, const std::string& shape) {
     table += fmt::format("| `{}` | {} | {} | {} | {} |\n", array.path, type, shape, array.units,
                          markdown_text(array.description));
   };
-  add(kMaps, "float32", fmt::format("n, {}, {}", velocities, ranges));
-  if (scenario.dataset.complex_maps) add(kComplexMaps, "float32", fmt::format("n, {}, {}, 2", velocities, ranges));
-  if (scenario.dataset.echoes) add(kEchoes, "float64", fmt::format("n, {}, frequencies, 2", scenario.radar.pulses));
+  add(kMaps, "float32", fmt::format("{}, {}, {}", n, velocities, ranges));
+  if (scenario.dataset.complex_maps) add(kComplexMaps, "float32", fmt::format("{}, {}, {}, 2", n, velocities, ranges));
+  if (scenario.dataset.echoes) add(kEchoes, "float64", fmt::format("{}, {}, frequencies, 2", n, scenario.radar.pulses));
   add(kVelocityAxis, "float64", fmt::format("{}", velocities));
   add(kRangeAxis, "float64", fmt::format("{}", ranges));
-  add(kHopCodes, "uint16", fmt::format("n, {}", scenario.radar.pulses));
-  add(kCentres, "float32", fmt::format("n, {}, 3", scenario.features.max_centres));
+  add(kHopCodes, "uint16", fmt::format("{}, {}", n, scenario.radar.pulses));
+  add(kCentres, "float32", fmt::format("{}, {}, 3", n, scenario.features.max_centres));
+  if (scenario.looks.count > 1)
+    table += fmt::format(
+        "| `/looks/COLUMN` | int64, float64 | {} | | start and random key of every look, and what is measured in it or "
+        "of its motion; `samples/` has those of the first look |\n",
+        n);
   return table + "| `/samples/COLUMN` | int64, float64, text | n | | the columns below |\n";
 }
 
@@ -267,7 +273,7 @@ std::string data_card(const Scenario& scenario, const SamplePlan& plan, const Ma
   text += fmt::format(
       "\n* Sea: significant wave height (m) {}; peak period (s) {}; direction of propagation (deg) {}.\n"
       "* Views: azimuth (deg) {}; elevation (deg) {}.\n"
-      "* {} maps per case (sea state and view) and target, from {} independent seas; intervals {:g} s apart.\n"
+      "* {} {} per case (sea state and view) and target, from {} independent seas; intervals {:g} s apart.\n"
       "* A map has {} velocity cells ({:.3f} to {:.3f} m/s, positive = receding) and {} range cells ({:.2f} to {:.2f} "
       "m, positive = farther).\n"
       "* Values are |RV| in metres: a point scatterer of amplitude a = sqrt(sigma / 4 pi) peaks at a.\n\n"
@@ -279,9 +285,13 @@ std::string data_card(const Scenario& scenario, const SamplePlan& plan, const Ma
           value_text(scenario, "view.azimuth_deg", fmt::format("{:g}", fmt::join(scenario.view.azimuth_deg, ", ")))),
       markdown_text(value_text(scenario, "view.elevation_deg",
                                fmt::format("{:g}", fmt::join(scenario.view.elevation_deg, ", ")))),
-      set.maps_per_case, set.realisations_per_case, set.interval_spacing_s, axes.velocity_mps.size(),
-      axes.velocity_mps.front(), axes.velocity_mps.back(), axes.range_m.size(), axes.range_m.front(),
-      axes.range_m.back());
+      set.maps_per_case,
+      scenario.looks.count == 1
+          ? "maps"
+          : fmt::format("samples of {} looks {} apart", scenario.looks.count,
+                        value_text(scenario, "looks.spacing_s", fmt::format("{:g} s", scenario.looks.spacing_s))),
+      set.realisations_per_case, set.interval_spacing_s, axes.velocity_mps.size(), axes.velocity_mps.front(),
+      axes.velocity_mps.back(), axes.range_m.size(), axes.range_m.front(), axes.range_m.back());
   text += arrays_table(scenario, axes) + "\n" + kReading + "## Columns of `samples/`\n\n" + columns_table(set.classes) +
           drawn_table(scenario);
   text += fmt::format(
@@ -399,9 +409,10 @@ bool holds(const fs::path& file, const Shard& content, int max_centres, std::str
 }
 
 // True if the shard has the arrays that the scenario stores, and no others.
-bool has_arrays_of(const DatasetSpec& dataset, const Shard& shard) {
+bool has_arrays_of(const DatasetSpec& dataset, std::size_t looks, const Shard& shard) {
   return std::ranges::all_of(shard.samples, [&](const Sample& sample) {
-    return sample.complex_values.empty() != dataset.complex_maps && sample.echo.empty() != dataset.echoes;
+    return sample.complex_values.empty() != dataset.complex_maps && sample.echo.empty() != dataset.echoes &&
+           look_count(sample) == looks;
   });
 }
 
@@ -501,7 +512,9 @@ bool DatasetWriter::complete(std::size_t shard) {
   }
   require_version(file, content.origin.program_version);
   const ShardRange range = plan_.shard(shard);
-  if (content.samples.size() != range.count || !has_arrays_of(scenario_.dataset, content)) return false;
+  if (content.samples.size() != range.count ||
+      !has_arrays_of(scenario_.dataset, static_cast<std::size_t>(plan_.looks()), content))
+    return false;
   for (std::size_t i = 0; i < range.count; ++i) {
     const SampleRecord planned = planned_record(scenario_, plan_, range.first + i);
     if (!record_mismatches(content.samples[i].record, planned).empty()) return false;
@@ -558,6 +571,7 @@ Manifest DatasetWriter::manifest() const {
   manifest.samples = plan_.size();
   manifest.rows = axes_->velocity_mps.size();
   manifest.columns = axes_->range_m.size();
+  manifest.looks = static_cast<std::uint64_t>(plan_.looks());
   std::set<std::string> processors;
   for (std::size_t i = 0; i < plan_.shards(); ++i) {
     const ShardRange range = plan_.shard(i);

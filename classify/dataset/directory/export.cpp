@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -102,6 +103,7 @@ void write_merged(const DatasetReader& reader, const fs::path& temporary, const 
 
   merged.group("/samples");
   const std::uint64_t chunk = std::min(manifest.samples, kColumnChunk);
+  std::size_t looks = 1;
   StoredAxes axes;
   DrawnKeys keys;
   bool complex_maps = false;
@@ -113,6 +115,7 @@ void write_merged(const DatasetReader& reader, const fs::path& temporary, const 
       keys = drawn_keys(shard.samples.front().record);
       axes = shard.axes;
       complex_maps = !shard.samples.front().complex_values.empty();
+      looks = look_count(shard.samples.front());
     }
     require_same(reader.directory() / manifest.shards[i].file, shard, axes, complex_maps, keys);
     const StoredColumns table = stored_columns(shard.rows(), manifest.classes);
@@ -122,6 +125,14 @@ void write_merged(const DatasetReader& reader, const fs::path& temporary, const 
     }
     for (const auto* columns : {&table.samples, &table.drawn})
       for (const StoredColumn& column : *columns) write_column(merged, column, manifest.shards[i].first_sample);
+    if (looks > 1) {
+      const std::vector<StoredColumn> of_looks = stored_look_columns(look_rows(shard.samples), manifest.classes);
+      if (i == 0) merged.group("/looks");
+      for (const StoredColumn& column : of_looks) {
+        if (i == 0) create_column(merged, column, manifest.samples, chunk, looks);
+        write_column(merged, column, manifest.shards[i].first_sample);
+      }
+    }
     progress.advance();
   }
 
@@ -346,7 +357,7 @@ NpzArray npz_column(const StoredColumn& column, Dimensions shape) {
 void export_shards(const DatasetReader& reader, std::size_t first, std::size_t count, const fs::path& file,
                    const StopFlag* stop) {
   const Range range{reader, first, count, stop};
-  std::vector<SampleRecord> rows;
+  std::vector<SampleRecord> rows, of_looks;
   std::set<std::string> processors;
   StoredAxes axes;
   bool complex_maps = false;
@@ -357,28 +368,38 @@ void export_shards(const DatasetReader& reader, std::size_t first, std::size_t c
     complex_maps = !shard.samples.front().complex_values.empty();
     processors.insert(shard.origin.processor);
     for (const Sample& sample : shard.samples) rows.push_back(sample.record);
+    std::ranges::move(look_rows(shard.samples), std::back_inserter(of_looks));
   }
 
-  const std::uint64_t n = rows.size(), velocities = axes.velocity_mps.size(), ranges = axes.range_m.size();
+  const std::uint64_t n = rows.size(), looks = of_looks.size() / n;
   std::vector<NpzArray> arrays;
   const auto add_axis = [&](const StoredArray& axis, const std::vector<double>& values) {
     arrays.push_back(npz_array(name_of(axis.path), "<f8", {values.size()}, bytes_of_values(std::span(values))));
   };
   add_axis(kRangeAxis, axes.range_m);
   add_axis(kVelocityAxis, axes.velocity_mps);
-  arrays.push_back(streamed<float>(range, kMaps, "<f4", {n, velocities, ranges}));
-  if (complex_maps) arrays.push_back(streamed<float>(range, kComplexMaps, "<c8", {n, velocities, ranges}));
   const Hdf5Reader shard(load_shard(range.file(0)).image);
-  arrays.push_back(streamed<std::uint16_t>(range, kHopCodes, "<u2", {n, shard.size(kHopCodes.path).at(1)}));
-  arrays.push_back(streamed<float>(range, kCentres, "<f4", {n, shard.size(kCentres.path).at(1), 3}));
+  const auto shape = [&](const StoredArray& array) {
+    Dimensions size = shard.size(array.path);
+    size.front() = n;
+    return size;
+  };
+  arrays.push_back(streamed<float>(range, kMaps, "<f4", shape(kMaps)));
+  if (complex_maps) arrays.push_back(streamed<float>(range, kComplexMaps, "<c8", shape(kMaps)));
+  arrays.push_back(streamed<std::uint16_t>(range, kHopCodes, "<u2", shape(kHopCodes)));
+  arrays.push_back(streamed<float>(range, kCentres, "<f4", shape(kCentres)));
   const DrawnKeys keys = drawn_keys(rows.front());
   for (const SampleRecord& row : rows) {
     if (drawn_keys(row) != keys)
       throw InputError(fmt::format("{}: the shards have different drawn keys", reader.directory().string()));
   }
-  const StoredColumns table = stored_columns(rows, reader.manifest().classes);
+  StoredColumns table = stored_columns(rows, reader.manifest().classes);
   for (const auto* columns : {&table.samples, &table.drawn})
     for (const StoredColumn& column : *columns) arrays.push_back(npz_column(column, {n}));
+  std::vector<StoredColumn> look_table;
+  if (looks > 1) look_table = stored_look_columns(of_looks, reader.manifest().classes);
+  for (const StoredColumn& column : look_table) arrays.push_back(npz_column(column, {n, looks}));
+  std::ranges::move(look_table, std::back_inserter(table.samples));
   write_npz(file, arrays, {{kDescription, description(range, processors, complex_maps, table)}});
 }
 

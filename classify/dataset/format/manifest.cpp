@@ -73,6 +73,7 @@ std::string to_json(const Manifest& manifest) {
   json["samples"] = manifest.samples;
   if (manifest.classes != default_classes()) json["classes"] = manifest.classes;
   json["map"] = {{"rows", manifest.rows}, {"columns", manifest.columns}, {"units", "m"}};
+  if (manifest.looks > 1) json["map"]["looks"] = manifest.looks;
   json["shards"] = ordered_json::array();
   for (const ManifestShard& shard : manifest.shards) {
     json["shards"].push_back({{"file", shard.file},
@@ -110,6 +111,7 @@ Manifest read_manifest(const std::filesystem::path& file) {
     manifest.samples = whole(json, "samples");
     manifest.rows = whole(json.at("map"), "rows");
     manifest.columns = whole(json.at("map"), "columns");
+    if (json.at("map").contains("looks")) manifest.looks = whole(json.at("map"), "looks");
     std::uint64_t next = 0;
     for (const ordered_json& entry : json.at("shards")) {
       ManifestShard shard{entry.at("file").get<std::string>(), whole(entry, "first_sample"), whole(entry, "samples"),

@@ -33,6 +33,7 @@ struct Manifest {
   std::uint64_t samples = 0;
   std::uint64_t rows = 0;     // velocity cells of a map
   std::uint64_t columns = 0;  // range cells of a map
+  std::uint64_t looks = 1;    // of a sample; in the file where there are several
   std::vector<ManifestShard> shards;
   std::vector<std::string> classes = default_classes();  // names by label; in the file where they are others
 };

@@ -75,6 +75,19 @@ std::span<const SampleColumn> sample_columns() {
   return columns;
 }
 
+const std::vector<SampleColumn>& look_columns() {
+  static const std::vector<SampleColumn> columns = [] {
+    constexpr std::string_view kOfSample[] = {"seed", "sea_key", "sea_id", "first_motion_key"};
+    const auto all = sample_columns();
+    auto column = std::ranges::find(all, std::string_view("start_s"), &SampleColumn::name);
+    std::vector<SampleColumn> found;
+    for (; column != all.end(); ++column)
+      if (std::ranges::find(kOfSample, std::string_view(column->name)) == std::end(kOfSample)) found.push_back(*column);
+    return found;
+  }();
+  return columns;
+}
+
 std::string label_description(std::span<const std::string> classes) {
   if (std::ranges::equal(classes, default_classes())) return kLabelOfDefault;
   std::string text;

@@ -103,7 +103,16 @@ struct Sample {
                              // empty unless dataset.echoes
   std::vector<std::uint16_t> hop_code;    // C_n of every pulse
   std::vector<StoredCentre> centre_list;  // strongest first
+  std::vector<Sample> further_looks;      // the second one on; empty within them
 };
+
+inline std::size_t look_count(const Sample& sample) { return 1 + sample.further_looks.size(); }
+inline const Sample& look_of(const Sample& sample, std::size_t look) {
+  return look == 0 ? sample : sample.further_looks.at(look - 1);
+}
+
+// Columns that differ between looks: start and random key, and everything measured or of the motion.
+const std::vector<SampleColumn>& look_columns();
 
 // The axes that all maps of a data set share.
 struct StoredAxes {

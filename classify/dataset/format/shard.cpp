@@ -49,14 +49,18 @@ void check_shapes(const Shard& shard, int max_centres) {
   SEAGLINT_CHECK(!shard.samples.empty() && max_centres >= 1, "a shard contains at least one sample and one centre");
   const Sample& first = shard.samples.front();
   for (const Sample& sample : shard.samples) {
-    SEAGLINT_CHECK(sample.magnitude.size() == shard.axes.cells(),
-                   fmt::format("{} cells, axes say {}", sample.magnitude.size(), shard.axes.cells()));
-    SEAGLINT_CHECK(sample.complex_values.size() == first.complex_values.size() &&
-                       (sample.complex_values.empty() || sample.complex_values.size() == 2 * shard.axes.cells()),
-                   "complex maps for all samples or none");
-    SEAGLINT_CHECK(sample.echo.size() == first.echo.size() && sample.echo.size() % (2 * first.hop_code.size()) == 0,
-                   "echoes of equal size for all samples or none");
-    SEAGLINT_CHECK(!sample.hop_code.empty() && sample.hop_code.size() == first.hop_code.size(), "equal pulses");
+    SEAGLINT_CHECK(look_count(sample) == look_count(first), "equal numbers of looks");
+    for (std::size_t i = 0; i < look_count(sample); ++i) {
+      const Sample& look = look_of(sample, i);
+      SEAGLINT_CHECK(look.magnitude.size() == shard.axes.cells(),
+                     fmt::format("{} cells, axes say {}", look.magnitude.size(), shard.axes.cells()));
+      SEAGLINT_CHECK(look.complex_values.size() == first.complex_values.size() &&
+                         (look.complex_values.empty() || look.complex_values.size() == 2 * shard.axes.cells()),
+                     "complex maps for all samples or none");
+      SEAGLINT_CHECK(look.echo.size() == first.echo.size() && look.echo.size() % (2 * first.hop_code.size()) == 0,
+                     "echoes of equal size for all samples or none");
+      SEAGLINT_CHECK(!look.hop_code.empty() && look.hop_code.size() == first.hop_code.size(), "equal pulses");
+    }
   }
 }
 
@@ -84,17 +88,40 @@ ArrayText drawn_text(const std::string& key) {
   return {unit.empty() ? "1" : unit, "drawn value of the scenario's key " + key};
 }
 
+namespace {
+
+StoredColumn stored_column(const std::string& path, const SampleColumn& column, std::span<const SampleRecord> rows,
+                           std::span<const std::string> classes) {
+  return std::visit(
+      [&]<class T>(T SampleRecord::*member) {
+        std::vector<T> values;
+        for (const SampleRecord& row : rows) values.push_back(row.*member);
+        return StoredColumn{path, column_text(column, classes), std::move(values)};
+      },
+      column.member);
+}
+
+}  // namespace
+
+std::vector<SampleRecord> look_rows(std::span<const Sample> samples) {
+  std::vector<SampleRecord> rows;
+  for (const Sample& sample : samples)
+    for (std::size_t look = 0; look < look_count(sample); ++look) rows.push_back(look_of(sample, look).record);
+  return rows;
+}
+
+std::vector<StoredColumn> stored_look_columns(std::span<const SampleRecord> look_rows,
+                                              std::span<const std::string> classes) {
+  std::vector<StoredColumn> columns;
+  for (const SampleColumn& column : look_columns())
+    columns.push_back(stored_column(look_path(column), column, look_rows, classes));
+  return columns;
+}
+
 StoredColumns stored_columns(std::span<const SampleRecord> rows, std::span<const std::string> classes) {
   StoredColumns columns;
-  for (const SampleColumn& column : sample_columns()) {
-    std::visit(
-        [&](auto member) {
-          std::vector<std::decay_t<decltype(rows.front().*member)>> values;
-          for (const SampleRecord& row : rows) values.push_back(row.*member);
-          columns.samples.push_back({column_path(column), column_text(column, classes), std::move(values)});
-        },
-        column.member);
-  }
+  for (const SampleColumn& column : sample_columns())
+    columns.samples.push_back(stored_column(column_path(column), column, rows, classes));
   const DrawnKeys keys = drawn_keys(rows.front());
   for (const SampleRecord& row : rows) SEAGLINT_CHECK(drawn_keys(row) == keys, "all samples have the same drawn keys");
   const auto add = [&](const std::vector<std::string>& names, auto drawn) {
@@ -109,10 +136,13 @@ StoredColumns stored_columns(std::span<const SampleRecord> rows, std::span<const
   return columns;
 }
 
-void create_column(Hdf5Writer& file, const StoredColumn& column, std::uint64_t rows, std::uint64_t chunk) {
-  std::visit([&]<class T>(
-                 const std::vector<T>&) { file.array(column.path, array_type_of<T>(), {rows}, {chunk}, column.text); },
-             column.values);
+void create_column(Hdf5Writer& file, const StoredColumn& column, std::uint64_t rows, std::uint64_t chunk,
+                   std::uint64_t looks) {
+  Dimensions size{rows}, of_chunk{chunk};
+  if (looks > 1) size.push_back(looks), of_chunk.push_back(looks);
+  std::visit(
+      [&]<class T>(const std::vector<T>&) { file.array(column.path, array_type_of<T>(), size, of_chunk, column.text); },
+      column.values);
 }
 
 void create_drawn(Hdf5Writer& file, const StoredColumns& columns, std::uint64_t rows, std::uint64_t chunk) {
@@ -189,29 +219,31 @@ void write_content(Hdf5Writer& file, const Shard& shard, int max_centres) {
   std::vector<float> maps, complex_maps;
   std::vector<double> echoes;
   std::vector<std::uint16_t> codes;
-  const std::uint64_t pulses = shard.samples.front().hop_code.size();
+  const std::uint64_t pulses = shard.samples.front().hop_code.size(), looks = look_count(shard.samples.front());
   const auto centres = static_cast<std::uint64_t>(max_centres);
-  std::vector<float> centre_table(n * centres * 3, 0.0f);
-  for (std::size_t i = 0; i < n; ++i) {
-    const Sample& sample = shard.samples[i];
-    maps.insert(maps.end(), sample.magnitude.begin(), sample.magnitude.end());
-    complex_maps.insert(complex_maps.end(), sample.complex_values.begin(), sample.complex_values.end());
-    echoes.insert(echoes.end(), sample.echo.begin(), sample.echo.end());
-    codes.insert(codes.end(), sample.hop_code.begin(), sample.hop_code.end());
-    for (std::size_t k = 0; k < std::min<std::size_t>(sample.centre_list.size(), centres); ++k) {
-      std::copy(sample.centre_list[k].begin(), sample.centre_list[k].end(),
-                centre_table.begin() + (i * centres + k) * 3);
+  std::vector<float> centre_table(n * looks * centres * 3, 0.0f);
+  for (std::size_t i = 0; i < n * looks; ++i) {
+    const Sample& look = look_of(shard.samples[i / looks], i % looks);
+    maps.insert(maps.end(), look.magnitude.begin(), look.magnitude.end());
+    complex_maps.insert(complex_maps.end(), look.complex_values.begin(), look.complex_values.end());
+    echoes.insert(echoes.end(), look.echo.begin(), look.echo.end());
+    codes.insert(codes.end(), look.hop_code.begin(), look.hop_code.end());
+    for (std::size_t k = 0; k < std::min<std::size_t>(look.centre_list.size(), centres); ++k) {
+      std::copy(look.centre_list[k].begin(), look.centre_list[k].end(), centre_table.begin() + (i * centres + k) * 3);
     }
   }
-  write_values(file, kMaps, {n, rows, columns}, {1, rows, columns}, maps);
-  if (!complex_maps.empty())
-    write_values(file, kComplexMaps, {n, rows, columns, 2}, {1, rows, columns, 2}, complex_maps);
-  if (!echoes.empty()) {
-    const std::uint64_t frequencies = echoes.size() / (2 * n * pulses);
-    write_values(file, kEchoes, {n, pulses, frequencies, 2}, {1, pulses, frequencies, 2}, echoes);
-  }
-  write_values(file, kHopCodes, {n, pulses}, {1, pulses}, codes);
-  write_values(file, kCentres, {n, centres, 3}, {1, centres, 3}, centre_table);
+  const auto write = [&](const StoredArray& array, Dimensions of_look, const auto& values) {
+    Dimensions size{n}, chunk{1};
+    if (looks > 1) size.push_back(looks), chunk.push_back(1);
+    size.insert(size.end(), of_look.begin(), of_look.end());
+    chunk.insert(chunk.end(), of_look.begin(), of_look.end());
+    write_values(file, array, size, chunk, values);
+  };
+  write(kMaps, {rows, columns}, maps);
+  if (!complex_maps.empty()) write(kComplexMaps, {rows, columns, 2}, complex_maps);
+  if (!echoes.empty()) write(kEchoes, {pulses, echoes.size() / (2 * n * looks * pulses), 2}, echoes);
+  write(kHopCodes, {pulses}, codes);
+  write(kCentres, {centres, 3}, centre_table);
   file.group("/samples");
   const StoredColumns table = stored_columns(shard.rows(), shard.classes);
   for (const StoredColumn& column : table.samples) {
@@ -220,6 +252,12 @@ void write_content(Hdf5Writer& file, const Shard& shard, int max_centres) {
   }
   create_drawn(file, table, n, n);
   for (const StoredColumn& column : table.drawn) write_column(file, column, 0);
+  if (looks == 1) return;
+  file.group("/looks");
+  for (const StoredColumn& column : stored_look_columns(look_rows(shard.samples), shard.classes)) {
+    create_column(file, column, n, n, looks);
+    write_column(file, column, 0);
+  }
 }
 
 void expect(bool condition, const std::string& what) {
@@ -237,6 +275,27 @@ std::vector<std::string> classes_of(const std::string& names) {
   return classes;
 }
 
+// The columns of /looks into the rows of n samples; the first look's are those of /samples.
+template <class LookAt>
+void read_look_columns(const Hdf5Reader& file, std::size_t looks, const LookAt& look, std::size_t n) {
+  for (const SampleColumn& column : look_columns()) {
+    std::visit(
+        [&]<class T>(T SampleRecord::*member) {
+          if constexpr (std::is_same_v<T, std::string>) return;  // no column of a look
+          const ReadArray<T> values = file.read<T>(look_path(column), 2);
+          expect(values.size == Dimensions{n, looks}, fmt::format("{} does not fit /maps", look_path(column)));
+          for (std::size_t i = 0; i < n * looks; ++i) {
+            const bool is_first = i % looks == 0;
+            const T &stored = values.values[i], &of_sample = look(i).record.*member;
+            expect(!is_first || stored == of_sample || (stored != stored && of_sample != of_sample),
+                   fmt::format("{} is not that of {} in a first look", look_path(column), column_path(column)));
+            look(i).record.*member = stored;
+          }
+        },
+        column.member);
+  }
+}
+
 Shard read_content(const ShardFile& loaded) {
   const Hdf5Reader file(loaded.image);
   const std::string format = file.attribute("format");
@@ -251,45 +310,65 @@ Shard read_content(const ShardFile& loaded) {
   shard.axes.range_m = file.read<double>(kRangeAxis.path, 1).values;
   shard.axes.velocity_mps = file.read<double>(kVelocityAxis.path, 1).values;
   const std::size_t cells = shard.axes.cells();
-  const ReadArray<float> maps = file.read<float>(kMaps.path, 3);
+  expect(cells > 0, "the axes are empty");
+  // Dimensions of an array without that of the looks.
+  const Dimensions of_maps = file.size(kMaps.path);
+  const std::size_t looks = of_maps.size() == 4 ? of_maps[1] : 1;
+  expect(looks >= 1, "/maps has no look");
+  const auto read = [&]<class T>(const StoredArray& array, std::size_t rank, std::type_identity<T>) {
+    ReadArray<T> values = file.read<T>(array.path, looks > 1 ? rank + 1 : rank);
+    if (looks > 1) {
+      expect(values.size[1] == looks, fmt::format("{} does not fit the looks of /maps", array.path));
+      values.size.erase(values.size.begin() + 1);
+    }
+    return values;
+  };
+  const ReadArray<float> maps = read(kMaps, 3, std::type_identity<float>());
   const std::size_t n = maps.size[0];
   expect(n > 0 && maps.size[1] == shard.axes.velocity_mps.size() && maps.size[2] == shard.axes.range_m.size(),
          "/maps does not fit the axes");
   shard.samples.resize(n);
-  for (std::size_t i = 0; i < n; ++i)
-    shard.samples[i].magnitude.assign(maps.values.begin() + i * cells, maps.values.begin() + (i + 1) * cells);
+  for (Sample& sample : shard.samples) sample.further_looks.resize(looks - 1);
+  const auto look = [&](std::size_t i) -> Sample& {
+    Sample& sample = shard.samples[i / looks];
+    return i % looks == 0 ? sample : sample.further_looks[i % looks - 1];
+  };
+  // Gives each look its part of the values of an array.
+  const auto divide = [&](const auto& values, auto member) {
+    const std::size_t each = values.size() / (n * looks);
+    for (std::size_t i = 0; i < n * looks; ++i)
+      (look(i).*member).assign(values.begin() + i * each, values.begin() + (i + 1) * each);
+  };
+  divide(maps.values, &Sample::magnitude);
   if (file.has(kComplexMaps.path)) {
-    const std::vector<float> values = file.read<float>(kComplexMaps.path, 4).values;
-    expect(values.size() == 2 * n * cells, "/maps_complex does not fit /maps");
-    for (std::size_t i = 0; i < n; ++i)
-      shard.samples[i].complex_values.assign(values.begin() + 2 * i * cells, values.begin() + 2 * (i + 1) * cells);
+    const std::vector<float> values = read(kComplexMaps, 4, std::type_identity<float>()).values;
+    expect(values.size() == 2 * n * looks * cells, "/maps_complex does not fit /maps");
+    divide(values, &Sample::complex_values);
   }
-  const ReadArray<std::uint16_t> codes = file.read<std::uint16_t>(kHopCodes.path, 2);
+  const ReadArray<std::uint16_t> codes = read(kHopCodes, 2, std::type_identity<std::uint16_t>());
   expect(codes.size[0] == n, "/hop_code does not fit /maps");
   const std::size_t pulses = codes.size[1];
-  for (std::size_t i = 0; i < n; ++i)
-    shard.samples[i].hop_code.assign(codes.values.begin() + i * pulses, codes.values.begin() + (i + 1) * pulses);
+  divide(codes.values, &Sample::hop_code);
   if (file.has(kEchoes.path)) {
-    const ReadArray<double> echoes = file.read<double>(kEchoes.path, 4);
+    const ReadArray<double> echoes = read(kEchoes, 4, std::type_identity<double>());
     expect(echoes.size[0] == n && echoes.size[1] == pulses && echoes.size[3] == 2, "/echoes does not fit /hop_code");
-    const std::size_t each = echoes.values.size() / n;
-    for (std::size_t i = 0; i < n; ++i)
-      shard.samples[i].echo.assign(echoes.values.begin() + i * each, echoes.values.begin() + (i + 1) * each);
+    divide(echoes.values, &Sample::echo);
   }
-  const ReadArray<float> centres = file.read<float>(kCentres.path, 3);
+  const ReadArray<float> centres = read(kCentres, 3, std::type_identity<float>());
   expect(centres.size[0] == n && centres.size[2] == 3, "/centres does not fit /maps");
   const std::size_t max_centres = centres.size[1];
 
   for (const SampleColumn& column : sample_columns())
     expect(file.size(column_path(column)) == Dimensions{n}, fmt::format("{} does not fit /maps", column_path(column)));
   std::vector<SampleRecord> rows = read_rows(file, 0, n);
-  for (std::size_t i = 0; i < n; ++i) {
-    shard.samples[i].record = std::move(rows[i]);
-    const std::int64_t count = shard.samples[i].record.centres;
+  for (std::size_t i = 0; i < n * looks; ++i) look(i).record = rows[i / looks];
+  if (looks > 1) read_look_columns(file, looks, look, n);
+  for (std::size_t i = 0; i < n * looks; ++i) {
+    const std::int64_t count = look(i).record.centres;
     expect(count >= 0 && static_cast<std::size_t>(count) <= max_centres, "/samples/centres does not fit /centres");
     for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
       const float* row = centres.values.data() + (i * max_centres + k) * 3;
-      shard.samples[i].centre_list.push_back({row[0], row[1], row[2]});
+      look(i).centre_list.push_back({row[0], row[1], row[2]});
     }
   }
   return shard;

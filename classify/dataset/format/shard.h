@@ -11,8 +11,12 @@
 //   /hop_code                           uint16 [sample][pulse]
 //   /centres                            float32 [sample][centre][range_m, velocity_mps, amplitude_m], zero beyond
 //                                       /samples/centres
-//   /samples/<column>                   [sample], one array per column of sample_columns()
+//   /samples/<column>                   [sample], one array per column of sample_columns(); of the first look where
+//                                       they differ between looks
+//   /looks/<column>                     [sample][look], one array per column of look_columns(); only with several looks
 //   /drawn/<key path>                   [sample], numbers or text, one array per drawn key (sim/scenario/draws)
+//
+// With several looks (looks.count) maps, echoes, hop codes and centres have a dimension [look] after [sample].
 //
 // Attributes of the file: `format`, `program_version`, `processor`; `classes`, their names by label separated by ", ",
 // where the scenario names them; `drawn_numbers` and `drawn_words`, the drawn keys separated by blanks, where there are
@@ -57,6 +61,7 @@ inline constexpr StoredArray kHopCodes{"/hop_code", "1", "carrier number of ever
 inline constexpr StoredArray kCentres{"/centres", "m, m/s, m", "range_m, velocity_mps, amplitude_m"};
 
 inline std::string column_path(const SampleColumn& column) { return std::string("/samples/") + column.name; }
+inline std::string look_path(const SampleColumn& column) { return std::string("/looks/") + column.name; }
 inline ArrayText column_text(const SampleColumn& column, std::span<const std::string> classes) {
   return {column.unit, description_of(column, classes)};
 }
@@ -94,9 +99,14 @@ struct StoredColumns {
   std::vector<StoredColumn> samples, drawn;
 };
 StoredColumns stored_columns(std::span<const SampleRecord> rows, std::span<const std::string> classes);
+// Rows of all looks of samples, [sample][look]; the columns of /looks with their values in that order.
+std::vector<SampleRecord> look_rows(std::span<const Sample> samples);
+std::vector<StoredColumn> stored_look_columns(std::span<const SampleRecord> look_rows,
+                                              std::span<const std::string> classes);
 
-// Creates the array of a column with `rows` values in chunks of `chunk`.
-void create_column(Hdf5Writer& file, const StoredColumn& column, std::uint64_t rows, std::uint64_t chunk);
+// Creates the array of a column with `rows` rows in chunks of `chunk`; of several looks each row has one value a look.
+void create_column(Hdf5Writer& file, const StoredColumn& column, std::uint64_t rows, std::uint64_t chunk,
+                   std::uint64_t looks = 1);
 // Creates /drawn with its arrays and the attributes of the file; nothing without drawn keys.
 void create_drawn(Hdf5Writer& file, const StoredColumns& columns, std::uint64_t rows, std::uint64_t chunk);
 // Writes the values of a column as rows from `first` on.

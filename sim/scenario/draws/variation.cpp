@@ -183,7 +183,8 @@ std::uint64_t hash_of(std::string_view path, std::uint64_t number) {
 constexpr const char* kOtherKey = "must name another key that is written here, drawn as often if it is drawn";
 
 constexpr std::array<std::string_view, 3> kPerSea{"sea", "sea_reflection", "targets"};
-constexpr std::array<std::string_view, 3> kOfRadar{"radar.hop_code", "radar.pri_jitter_us", "radar.polarisation"};
+constexpr std::array<std::string_view, 4> kOfRadar{"radar.hop_code", "radar.pri_jitter_us", "radar.polarisation",
+                                                   "looks.spacing_s"};
 
 // Nothing for a node that is not a text, or none of a distribution.
 std::optional<Distribution> distribution_of(const ScenarioDocument& document, const YamlNode& node,

@@ -316,6 +316,7 @@ class Mutator : public PathVisitor {
 Scenario full_scenario() {
   Scenario scenario;
   scenario.name = "full";
+  scenario.looks.count = 2;
   TargetSpec ship;
   ship.name = "ship-1";
   ship.label = 1;
@@ -395,6 +396,13 @@ void make_consistent(Scenario& scenario) {
     scenario.radar.pulse_width_us = 0.7;
   }
   scenario.radar.pri_jitter_us = scenario.radar.pri_us / 3.1 * (0.5 + 0.4 / (1 + scenario.radar.pri_jitter_us));
+  // Looks that follow one another, all of them within the time to the next interval.
+  LookSpec& looks = scenario.looks;
+  looks.spacing_s = std::max(looks.spacing_s, 2e-6 * scenario.radar.pri_us);
+  scenario.radar.pulses =
+      std::min(scenario.radar.pulses, static_cast<int>(0.5e6 * looks.spacing_s / scenario.radar.pri_us) + 1);
+  looks.count = std::min(looks.count, 2 + static_cast<int>(5000 / looks.spacing_s));
+  scenario.dataset.interval_spacing_s = std::max(scenario.dataset.interval_spacing_s, looks.count * looks.spacing_s);
   scenario.map.range_span_m = std::min(scenario.map.range_span_m, 90 * scenario.radar.pri_us);
   if (scenario.sea_reflection.enabled && scenario.seed % 2 == 0)
     scenario.sea_reflection.surface_profile = SurfaceProfileKind::kMean;

@@ -36,28 +36,32 @@ class _Shard:
         try:
             with h5py.File(file) as data:
                 maps = data["maps"]
-                if maps.shape != (count, *shape) or maps.dtype != np.dtype("<f4") or maps.chunks != (1, *shape):
+                if maps.shape != (count, *shape) or maps.dtype != np.dtype("<f4") or maps.chunks != (*[1] * (len(shape) - 1), *shape[-2:]):
                     raise InputError(f"{file}: maps are {maps.dtype} of shape {maps.shape}: not a shard of this data set")
                 chunks = [maps.id.get_chunk_info(i) for i in range(maps.id.get_num_chunks())]
         except (OSError, KeyError, RuntimeError) as error:
             raise InputError(f"{file}: not a shard: {error}") from None
-        bytes_of_map = 4 * shape[0] * shape[1]
+        bytes_of_map = 4 * shape[-2] * shape[-1]
         size = os.path.getsize(file)
-        if len(chunks) != count or any(c.size != bytes_of_map + 4 or c.byte_offset + c.size > size for c in chunks):
+        self._looks = shape[0] if len(shape) == 3 else 1
+        if len(chunks) != count * self._looks or any(c.size != bytes_of_map + 4 or c.byte_offset + c.size > size for c in chunks):
             raise InputError(f"{file}: its maps are not stored as this program does")
         self._shape = shape
-        self._offsets = [0] * count
+        self._offsets = [0] * len(chunks)
         for chunk in chunks:
-            self._offsets[chunk.chunk_offset[0]] = chunk.byte_offset
+            self._offsets[chunk.chunk_offset[0] * self._looks + (chunk.chunk_offset[1] if len(shape) == 3 else 0)] = chunk.byte_offset
         with open(file, "rb") as stream:
             self._bytes = mmap.mmap(stream.fileno(), 0, access=mmap.ACCESS_READ)
 
     def map(self, row):
-        return np.frombuffer(self._bytes, "<f4", self._shape[0] * self._shape[1], self._offsets[row]).reshape(self._shape)
+        velocities, ranges = self._shape[-2:]
+        looks = [np.frombuffer(self._bytes, "<f4", velocities * ranges, offset).reshape(velocities, ranges) for offset in self._offsets[row * self._looks:(row + 1) * self._looks]]
+        return looks[0] if len(self._shape) == 2 else np.stack(looks)
 
 
 class Dataset:
-    """A data set: len(), data[i] -> map [velocity, range] in metres, data.columns["label"], data.where(label=1).
+    """A data set: len(), data[i] -> map [velocity, range] in metres, of several looks [look, velocity, range],
+    data.columns["label"], data.where(label=1).
 
     path: the folder of `generate` or of `run`. Maps are read when they are used; each process has handles of its own,
     so that it can be shared with workers, forked or spawned. Maps are views of the file, not to be written to.
@@ -74,6 +78,8 @@ class Dataset:
             raise InputError(f"{folder / 'manifest.json'}: {error}") from None
         self.folder, self.manifest = folder, manifest
         self._shape = (int(manifest["map"]["rows"]), int(manifest["map"]["columns"]))
+        self._looks = int(manifest["map"].get("looks", 1))
+        self._sample_shape = self._shape if self._looks == 1 else (self._looks, *self._shape)
         self._files, self._first = [], [0]
         for shard in manifest["shards"]:
             file = folder / shard["file"]
@@ -90,7 +96,7 @@ class Dataset:
         self._first = np.array(self._first)
         if check:
             _handover.check_croissant(self)
-        self._shards, self._owner, self._columns, self._axes, self._closed = {}, os.getpid(), None, None, False
+        self._shards, self._owner, self._columns, self._look_columns, self._axes, self._closed = {}, os.getpid(), None, None, None, False
 
     def __len__(self):
         return int(self._first[-1])
@@ -99,6 +105,26 @@ class Dataset:
     def map_shape(self) -> tuple[int, int]:
         """(velocity cells, range cells)."""
         return self._shape
+
+    @property
+    def looks(self) -> int:
+        """Looks of a sample."""
+        return self._looks
+
+    @property
+    def look_columns(self) -> dict[str, NDArray]:
+        """{name: array [sample, look]} of what differs between looks: start_s, radar_key, everything measured and the
+        motion; empty with one look."""
+        if self._look_columns is None:
+            import h5py
+
+            self._require_open()
+            parts = []
+            for file in self._files if self._looks > 1 else []:
+                with h5py.File(file) as data:
+                    parts.append({name: array[...] for name, array in data["looks"].items()})
+            self._look_columns = {name: np.concatenate([part[name] for part in parts]) for name in (parts[0] if parts else {})}
+        return self._look_columns
 
     @property
     def classes(self) -> list[str]:
@@ -157,19 +183,19 @@ class Dataset:
         number = int(np.searchsorted(self._first, i, side="right")) - 1
         shard = self._shards.get(number)
         if shard is None:
-            shard = self._shards[number] = _Shard(self._files[number], int(self._first[number + 1] - self._first[number]), self._shape)
+            shard = self._shards[number] = _Shard(self._files[number], int(self._first[number + 1] - self._first[number]), self._sample_shape)
         return shard.map(i - int(self._first[number]))
 
     def maps(self, indices: ArrayLike) -> NDArray[np.float32]:
-        """The maps of some samples, [sample, velocity, range], copied."""
+        """The maps of some samples, [sample, velocity, range], of several looks [sample, look, velocity, range], copied."""
         indices = np.asarray(indices)
-        result = np.empty((len(indices), *self._shape), np.float32)
+        result = np.empty((len(indices), *self._sample_shape), np.float32)
         for row, index in enumerate(indices):
             result[row] = self[index]
         return result
 
     def torch_dataset(self, column: str | Sequence[str] = "label", transform=None):
-        """For torch.utils.data.DataLoader: items (map as a float32 tensor [1, velocity, range], value of the column), or with
+        """For torch.utils.data.DataLoader: items (map as a float32 tensor [look, velocity, range], value of the column), or with
         several columns (map, value, value, ...)."""
         columns = [column] if isinstance(column, str) else list(column)
         for name in columns:
@@ -244,5 +270,5 @@ class _TorchDataset:
     def __getitem__(self, index):
         import torch
 
-        values = torch.from_numpy(self.data[index].copy()).unsqueeze(0)
+        values = torch.from_numpy(self.data[index].reshape(-1, *self.data.map_shape).copy())
         return (values if self.transform is None else self.transform(values)), *(column[index].item() for column in self.values)

@@ -92,7 +92,7 @@ class _Stored:
             if isinstance(error, InputError):
                 raise
             raise InputError(f"{self.file}: not a shard: {error}") from None
-        if self.arrays["maps"].shape != (self.count, *data.map_shape):
+        if self.arrays["maps"].shape != (self.count, *([data.looks] if data.looks > 1 else []), *data.map_shape):
             raise InputError(f"{self.file}: does not contain what the manifest lists")
 
     def _array(self, file, path, rows=True):
