@@ -67,6 +67,7 @@ std::vector<Seen> entries_of(const TrackSet& set) {
 struct Core {
   std::vector<Seen> entries;
   std::vector<std::size_t> looks, tracks;  // numbers in the set
+  std::vector<double> time_s;              // of the looks
 };
 
 // Numbers in use, and each entry's place among them.
@@ -81,7 +82,7 @@ std::vector<std::size_t> renumber(std::vector<Seen>& entries, std::size_t Seen::
 }
 
 Core core_of(const TrackSet& set, std::size_t least_per_look, std::size_t least_per_track) {
-  Core core{entries_of(set), {}, {}};
+  Core core{entries_of(set), {}, {}, {}};
   for (std::size_t before = core.entries.size() + 1; core.entries.size() < before;) {
     before = core.entries.size();
     std::vector<std::size_t> of_look(set.time_s.size()), of_track(set.tracks.size());
@@ -92,7 +93,43 @@ Core core_of(const TrackSet& set, std::size_t least_per_look, std::size_t least_
   }
   core.looks = renumber(core.entries, &Seen::look);
   core.tracks = renumber(core.entries, &Seen::track);
+  for (const std::size_t look : core.looks) core.time_s.push_back(set.time_s[look]);
   return core;
+}
+
+// Ranges and range rates [look][track] without gaps, from which a fit starts.
+struct Histories {
+  DenseMatrix range_m, velocity_mps;
+};
+
+// Cubic through the ranges and rates on both sides (Hermite); constant velocity before the first and after the last.
+std::array<double, 2> interpolated(const Seen& before, const Seen& after, std::span<const double> time_s, double t) {
+  const LookCentre &one = before.measured, &other = after.measured;
+  const double t_0 = time_s[before.look], h = time_s[after.look] - t_0, x = h > 0 ? (t - t_0) / h : 0;
+  if (h <= 0) return {one.range_m + (t - t_0) * one.velocity_mps, one.velocity_mps};
+  const double step = other.range_m - one.range_m;
+  const double a = h * one.velocity_mps - step, b = step - h * other.velocity_mps;
+  return {one.range_m + x * step + x * (1 - x) * ((1 - x) * a + x * b),
+          (step + (1 - 2 * x) * ((1 - x) * a + x * b) + x * (1 - x) * (b - a)) / h};
+}
+
+Histories histories_of(const Core& core) {
+  const auto looks = static_cast<Index>(core.looks.size()), tracks = static_cast<Index>(core.tracks.size());
+  Histories histories{DenseMatrix(looks, tracks), DenseMatrix(looks, tracks)};
+  std::size_t i = 0;  // entries are by track, then by look
+  for (Index j = 0; j < tracks; ++j) {
+    std::size_t end = i;
+    while (end < core.entries.size() && core.entries[end].track == static_cast<std::size_t>(j)) ++end;
+    for (std::size_t k = 0; k < core.looks.size(); ++k) {
+      while (i + 1 < end && core.entries[i + 1].look <= k) ++i;
+      const bool between = core.entries[i].look < k && i + 1 < end;
+      const auto [r, v] = interpolated(core.entries[i], core.entries[between ? i + 1 : i], core.time_s, core.time_s[k]);
+      histories.range_m(static_cast<Index>(k), j) = r;
+      histories.velocity_mps(static_cast<Index>(k), j) = v;
+    }
+    i = end;
+  }
+  return histories;
 }
 
 // Least squares.
@@ -211,35 +248,58 @@ struct FactorModel {
   }
 };
 
+// Mean error of each row.
+DenseVector row_errors(std::span<const Observed> observed, Index rows) {
+  DenseVector sums = DenseVector::Zero(rows), counts = DenseVector::Zero(rows);
+  for (const Observed& entry : observed) {
+    sums(static_cast<Index>(entry.row)) += entry.error;
+    counts(static_cast<Index>(entry.row)) += 1;
+  }
+  return sums.cwiseQuotient(counts);
+}
+
 // One more factor: the first singular vectors of the residuals over their errors, 0 where an entry is missing.
 FactorModel with_next_factor(const FactorModel& model) {
   const Index rows = model.row.rows(), tracks = model.track.rows(), rank = model.rank();
   DenseMatrix residuals = DenseMatrix::Zero(rows, tracks);
-  DenseVector errors = DenseVector::Zero(rows), counts = DenseVector::Zero(rows);
-  for (const Observed& entry : model.observed) {
-    const auto k = static_cast<Index>(entry.row);
-    residuals(k, static_cast<Index>(entry.track)) = -model.residual(entry) / entry.error;
-    errors(k) += entry.error;
-    counts(k) += 1;
-  }
+  for (const Observed& entry : model.observed)
+    residuals(static_cast<Index>(entry.row), static_cast<Index>(entry.track)) = -model.residual(entry) / entry.error;
   const Eigen::JacobiSVD<DenseMatrix> svd(residuals, Eigen::ComputeThinU | Eigen::ComputeThinV);
   const double root = std::sqrt(svd.singularValues()(0));
   FactorModel next{model.observed, DenseMatrix(rows, rank + 2), DenseMatrix(tracks, rank + 1)};
-  next.row << model.row, errors.cwiseQuotient(counts).cwiseProduct(svd.matrixU().col(0)) * root;
+  next.row << model.row, row_errors(model.observed, rows).cwiseProduct(svd.matrixU().col(0)) * root;
   next.track << model.track, svd.matrixV().col(0) * root;
   return next;
 }
 
-// Least squares factor by factor, each from the fit of the ones before: ranges, whose first factor is the body's extent
-// along the line of sight, leave no missing entry far from its value.
-FactorModel fit_factors(std::span<const Observed> observed, Index rows, Index tracks, int rank) {
-  FactorModel model{observed, DenseMatrix::Zero(rows, 1), DenseMatrix::Zero(tracks, 0)};
-  minimise(model);
-  for (int q = 0; q < rank; ++q) {
-    model = with_next_factor(model);
-    minimise(model);
-  }
+// Mean rows and singular vectors of values without gaps [row][track], in units of the rows' errors.
+FactorModel factors_of(std::span<const Observed> observed, const DenseMatrix& values, const DenseVector& errors,
+                       Index rank) {
+  FactorModel model{observed, DenseMatrix::Zero(values.rows(), 1 + rank), DenseMatrix::Zero(values.cols(), rank)};
+  model.row.col(0) = values.rowwise().mean();
+  const DenseMatrix scaled = errors.cwiseInverse().asDiagonal() * (values.colwise() - model.row.col(0));
+  const Eigen::JacobiSVD<DenseMatrix> svd(scaled, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const Index used = std::min(rank, svd.singularValues().size());
+  const DenseVector root = svd.singularValues().head(used).cwiseSqrt();
+  model.row.middleCols(1, used) = errors.asDiagonal() * svd.matrixU().leftCols(used) * root.asDiagonal();
+  model.track.leftCols(used) = svd.matrixV().leftCols(used) * root.asDiagonal();
   return model;
+}
+
+// Least squares from the singular vectors of `values`, which are the observed ones with gaps filled. Gaps make local
+// minima: with them a second fit goes factor by factor, each from the one before, and the smaller sum counts.
+FactorModel fit_factors(std::span<const Observed> observed, const DenseMatrix& values, int rank) {
+  const Index rows = values.rows(), tracks = values.cols();
+  FactorModel model = factors_of(observed, values, row_errors(observed, rows), rank);
+  const double sum = minimise(model);
+  if (static_cast<Index>(observed.size()) == rows * tracks) return model;
+  FactorModel stepwise{observed, DenseMatrix::Zero(rows, 1), DenseMatrix::Zero(tracks, 0)};
+  double stepwise_sum = minimise(stepwise);
+  for (int q = 0; q < rank; ++q) {
+    stepwise = with_next_factor(stepwise);
+    stepwise_sum = minimise(stepwise);
+  }
+  return stepwise_sum < sum ? stepwise : model;
 }
 
 std::vector<Observed> velocities_of(const Core& core) {
@@ -265,7 +325,7 @@ ChiSquare rank_test(const TrackSet& set, int rank) {
                       static_cast<int>(core.tracks.size()) * rank + rank * rank + rank;
   if (core.entries.empty() || degrees <= 0) return {};
   const std::vector<Observed> observed = velocities_of(core);
-  return {chi_square(fit_factors(observed, size_of(core.looks), size_of(core.tracks), rank)), degrees};
+  return {chi_square(fit_factors(observed, histories_of(core).velocity_mps, rank)), degrees};
 }
 
 std::vector<VelocityResidual> rank_residuals(const TrackSet& set, int rank, FitWeights weights) {
@@ -274,7 +334,7 @@ std::vector<VelocityResidual> rank_residuals(const TrackSet& set, int rank, FitW
   const Core core = core_of_rank(set, rank);
   std::vector<Observed> observed = velocities_of(core);
   if (observed.empty()) return {};
-  FactorModel model = fit_factors(observed, size_of(core.looks), size_of(core.tracks), rank);
+  FactorModel model = fit_factors(observed, histories_of(core).velocity_mps, rank);
   for (int repeat = 0; repeat < repeats; ++repeat) {
     for (std::size_t i = 0; i < observed.size(); ++i) {
       const double error = core.entries[i].measured.velocity_error_mps;
@@ -372,6 +432,10 @@ struct JointFactors {
 
 JointFactors joint_factors(const Core& core) {
   std::vector<Observed> observed;  // rows 2k ranges, 2k + 1 rates
+  const Histories histories = histories_of(core);
+  DenseMatrix values(2 * size_of(core.looks), size_of(core.tracks));
+  for (Index k = 0; k < size_of(core.looks); ++k)
+    values.middleRows(2 * k, 2) << histories.range_m.row(k), histories.velocity_mps.row(k);
   JointFactors factors;
   const double share = 1 / static_cast<double>(core.entries.size());
   factors.of_range = factors.of_rate = 0;
@@ -382,7 +446,7 @@ JointFactors joint_factors(const Core& core) {
     factors.of_range += share * centre.range_error_m;
     factors.of_rate += share * centre.velocity_error_mps;
   }
-  const FactorModel model = fit_factors(observed, 2 * size_of(core.looks), size_of(core.tracks), 3);
+  const FactorModel model = fit_factors(observed, values, 3);
 
   // x = s . mean b. The remainder of s, without x, has rank 2.
   const Index looks = size_of(core.looks);
