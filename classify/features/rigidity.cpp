@@ -13,6 +13,8 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"

@@ -33,9 +33,9 @@ struct ChiSquare {
 
 // Range rates of all tracks against a matrix of this rank, 0 to 3, beside a common rate:
 //   v_kj = nu_k + sum_p a_kp s_jp,  p = 1..rank
-// by weighted least squares over the entries that are seen (factor analysis with missing data: Wiberg 1976). A rigid
-// body has rank 3 at most. It has rank 2 while it turns by a few degrees in all: a_k is then across one b. It has rank
-// 1 where its points lie on a line. Free reflectors have no bound.
+// by weighted least squares over the entries that are seen (principal components of data with gaps: Wiberg 1976). A
+// rigid body has rank 3 at most. It has rank 2 while it turns by a few degrees in all: a_k is then across one b. It has
+// rank 1 where its points lie on a line. Free reflectors have no bound.
 //   degrees = entries - looks (1 + rank) - tracks rank + rank^2 + rank
 // The last two terms: a linear map of s with the inverse of a, and a shift of s with nu, change no velocity. Looks with
 // fewer than rank + 2 entries and tracks with fewer than rank + 1 fit exactly and are left out of all counts; the rest

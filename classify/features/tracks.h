@@ -63,7 +63,9 @@ struct Look {
 //   |v' - v|                 <= velocity_gate_mps + acceleration_gate_mps2 dt
 //   |20 log10(A' / A)|       <= level_gate_db
 // The pair costs the sum of the three left sides, each over its scale; the scale of velocity is
-// velocity_scale_mps + acceleration_scale_mps2 dt.
+// velocity_scale_mps + acceleration_scale_mps2 dt. The gates hold for dt of some tenths of a second up to 1.5 s. Floats
+// follow the water: at Hs 2 m, Tp 7 s its accelerations have a standard deviation of 0.4 m/s^2. Identity changes by 0.5
+// % for range scales of 0.03 to 0.08 m and acceleration gates from 1.5 m/s^2 (README.md).
 struct TrackSettings {
   double range_gate_m = 0.6;
   double velocity_gate_mps = 0.15;

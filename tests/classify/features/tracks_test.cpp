@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <vector>
 
 #include "classify/features/tracks.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/random.h"
 #include "sim/core/process/error.h"
-#include "tests/measured.h"
 
 namespace seaglint {
 
@@ -139,8 +139,8 @@ TEST(PointErrorBound, IsReachedByTheMaximumOfTheMap) {
   const ErrorRatios hann = error_ratios(true, kTrials);
   EXPECT_NEAR(hann.range, 1.25, 1.25 * tolerance);
   EXPECT_NEAR(hann.velocity, 1.25, 1.25 * tolerance);
-  record_figure(uniform.range, 2, "track_range_error_over_bound");
-  record_figure(uniform.velocity, 2, "track_velocity_error_over_bound");
+  RecordProperty("track_range_error_over_bound", fmt::format("{:.2f}", uniform.range));
+  RecordProperty("track_velocity_error_over_bound", fmt::format("{:.2f}", uniform.velocity));
 }
 
 TEST(PointErrorBound, AddsTheErrorOfTheFit) {
@@ -297,8 +297,8 @@ TEST(Tracks, KeepTheIdentityOfPointsInWavesOfTwoMetres) {
   const double share = 100.0 * kept / points;
   EXPECT_GE(share, 99) << kept << " of " << points;
   EXPECT_GE(points, 1500);
-  record_figure(share, 1, "track_identity_percent");
-  record_figure(100.0 * mixed / tracks, 1, "track_mixed_percent");
+  RecordProperty("track_identity_percent", fmt::format("{:.1f}", share));
+  RecordProperty("track_mixed_percent", fmt::format("{:.1f}", 100.0 * mixed / tracks));
 }
 
 // The centres of each look in another order: the same tracks of the same measured values.
@@ -341,10 +341,8 @@ double false_tracks(double per_look, std::uint64_t seed, int sequences) {
 TEST(Tracks, OfClutterAloneAreRarerThanOneInAHundredSequences) {
   for (const int per_look : {1, 2, 4, 8, 16}) {
     const double tracks = false_tracks(per_look, 6, 1000);
-    record_figure(100 * tracks, 1, "track_false_of_{}_per_hundred", per_look);
-    if (per_look <= 8) {
-      EXPECT_LE(tracks, 0.01) << per_look << " centres a look";
-    }
+    RecordProperty(fmt::format("track_false_of_{}_per_hundred", per_look), fmt::format("{:.1f}", 100 * tracks));
+    EXPECT_LE(tracks, 0.01) << per_look << " centres a look";
   }
 }
 
