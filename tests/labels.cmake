@@ -34,7 +34,7 @@ set(medium_tests
   --gtest_filter=CurvedSurface.*:CylinderBeforeAPatch.*:DecoyMedian.*:EdgeDiffraction.*:Evaluation.*:FieldExport.*
   --gtest_filter=*Fleet.*:FuzzInputs.*:InfinitePrism.*:Interpolation.HasTheStated*:IntervalResponse.*
   --gtest_filter=ClutterModulatedByTheWaves.*:ModulatedScatterers.*:ScatterersOnTheWaves.*:ClutterLevel.*
-  --gtest_filter=MatchedTraining.*:MechanismWorth.*:MergedDataSet.HasTheSameBytes*:MergedFacets.*
+  --gtest_filter=MatchedTraining.*:MechanismWorth.*:MergedDataSet.HasTheSameBytes*:MergedFacets.*:Looks.*:Rigidity.*
   --gtest_filter=MeshFile.SixtyThousand*:MotionSummary.*:MultipleDiffraction.*:Network.*:PartSums.*:Pedestal.*:PermutedLabels.*
   --gtest_filter=PlateEdges.*:Progress.*:Rays.*:RigidRaft.Moves*:Rounding.*:RoundTrip.EveryField*:SampleCrossCheck.*
   --gtest_filter=ScenarioFuzzing.*:SeaReflection.*:SeaReflectivity.*:ShardFile.*:ShipRao.*:SimulateRao.*

@@ -11,6 +11,7 @@
 #include "classify/dataset/directory/dataset_writer.h"
 #include "classify/dataset/format/npz.h"
 #include "classify/features/feature_vector.h"
+#include "classify/features/rigidity.h"
 #include "classify/features/scattering_centres.h"
 #include "seaglint_version.h"
 #include "sim/core/numbers/constants.h"
@@ -151,6 +152,30 @@ void print_result(const ReceivedInterval& received, const std::vector<Scattering
   }
   if (!std::isnan(received.scr.snr_per_pulse_db)) print_out("SNR per pulse {:.2f} dB\n", received.scr.snr_per_pulse_db);
   if (received.map.unused_carriers > 0) print_out("carriers without a pulse: {}\n", received.map.unused_carriers);
+}
+
+// Tracks over the looks of a sample, their mean in the looks in which they are seen, and the test of rigidity.
+void print_tracks(const TrackSet& set) {
+  print_out("track  looks  range_m  velocity_mps  amplitude_m\n");
+  for (std::size_t j = 0; j < set.tracks.size(); ++j) {
+    ScatteringCentre sum;
+    for (const TrackPoint& point : set.tracks[j].points) {
+      sum.range_m += point.measured.range_m;
+      sum.velocity_mps += point.measured.velocity_mps;
+      sum.amplitude_m += point.measured.amplitude_m;
+    }
+    const int seen = set.tracks[j].looks_seen();
+    print_out("{:5} {:6} {:8.3f} {:13.4f} {:12.4g}\n", j, seen, sum.range_m / seen, sum.velocity_mps / seen,
+              sum.amplitude_m / seen);
+  }
+  const ChiSquare rigid = fit_rigid_body(set).test;
+  print_out("tracks {} over {} looks; ", set.tracks.size(), set.time_s.size());
+  if (rigid.defined()) {
+    print_out("one rigid body: chi-square {:.4g} of {} degrees of freedom, p = {:.2g}\n", rigid.value, rigid.degrees,
+              rigid.p_value());
+  } else {
+    print_out("too few to test whether they are one rigid body\n");
+  }
 }
 
 struct MapArguments : SampleArguments {
@@ -328,10 +353,11 @@ void show_map(const MapArguments& arguments, int threads) {
     write_figure(figure, arguments.output, map_size(style));
   };
   if (is_map) {
-    const GeneratedSample made =
-        std::move(pipeline.generate_looks(arguments.sample)[static_cast<std::size_t>(arguments.look)]);
+    const std::vector<GeneratedSample> looks = pipeline.generate_looks(arguments.sample);
+    const GeneratedSample& made = looks[static_cast<std::size_t>(arguments.look)];
     write(map_figure(arguments, pipeline, radar, made));
     print_result(made.received, made.centres, made.features);
+    if (looks.size() > 1) print_tracks(tracks_of(looks));
     return;
   }
   const SampleRecord record = planned_record(pipeline.scenario(), plan, arguments.sample, at);

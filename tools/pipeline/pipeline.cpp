@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "classify/dataset/directory/dataset_writer.h"
+#include "classify/features/residual_echo.h"
 #include "classify/features/scattering_centres.h"
 #include "sim/canonical/point_response.h"
 #include "sim/core/numbers/constants.h"
@@ -342,6 +343,47 @@ GeneratedSample Pipeline::received_sample(const SampleLook& of, const PulseTrain
   return made;
 }
 
+namespace {
+
+CoherentInterval coherent_interval(const PulseTrain& train, const RadarSpec& radar) {
+  return {.bandwidth_hz = train.synthetic_bandwidth_hz(),
+          .duration_s = 1e-6 * radar.pri_us * radar.pulses,
+          .wavelength_m = kSpeedOfLight / train.band_centre_hz()};
+}
+
+// Index of the value of an even axis nearest to x.
+std::size_t nearest(const std::vector<double>& axis, double x) {
+  if (axis.size() < 2) return 0;
+  const double at = std::round((x - axis.front()) / (axis[1] - axis[0]));
+  return static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(axis.size() - 1)));
+}
+
+// The floor of a centre is that of the residual at its cell.
+std::vector<LookCentre> with_errors(const CleanedMap& cleaned, const PulseTrain& train, const RadarSpec& radar) {
+  const RvMap& residual = cleaned.residual;
+  const std::vector<double> floor_m2 = residual_floor(residual);
+  const CoherentInterval interval = coherent_interval(train, radar);
+  std::vector<LookCentre> measured;
+  for (const ScatteringCentre& centre : cleaned.centres) {
+    const std::size_t cell = nearest(residual.velocity_mps, centre.velocity_mps) * residual.columns() +
+                             nearest(residual.range_m, centre.range_m);
+    const double least_m2 = std::pow(1e-6 * centre.amplitude_m, 2);  // without clutter and noise
+    measured.push_back(with_errors(centre, std::sqrt(std::max(floor_m2[cell], least_m2)), interval));
+  }
+  return measured;
+}
+
+}  // namespace
+
+TrackSet tracks_of(std::span<const GeneratedSample> looks) {
+  std::vector<Look> measured;
+  for (const GeneratedSample& look : looks) {
+    const double middle_s = 0.5 * (look.train.time_s.front() + look.train.time_s.back());
+    measured.push_back({look.stored.record.start_s + middle_s, look.measured_centres});
+  }
+  return associate(measured);
+}
+
 GeneratedSample sample_of_echo(const Echo& echo, const PulseTrain& train, const Scenario& scenario,
                                const ClutterSpec& clutter, SampleRecord record, const StopFlag* stop) {
   GeneratedSample made;
@@ -349,6 +391,7 @@ GeneratedSample sample_of_echo(const Echo& echo, const PulseTrain& train, const 
   const bool intra_pulse_motion = scenario.radar.intra_pulse_motion;
   made.received = form_received_interval(echo, train, clutter, scenario.map, intra_pulse_motion, stop);
   CleanedMap cleaned = clean_map(made.received.echo, train, scenario.map, intra_pulse_motion, scenario.features, stop);
+  if (scenario.looks.count > 1) made.measured_centres = with_errors(cleaned, train, scenario.radar);
   if (scenario.map.clean) made.received.map.values = restored_map(cleaned, train, scenario.map).values;
   made.centres = std::move(cleaned.centres);
   made.features = compute_features(made.centres, scenario.features);

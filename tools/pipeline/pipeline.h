@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "classify/dataset/format/sample.h"
 #include "classify/features/feature_vector.h"
 #include "classify/features/scattering_centres.h"
+#include "classify/features/tracks.h"
 #include "radar/echo/echo.h"
 #include "radar/rvmap/rv_map.h"
 #include "radar/waveform/pulse_train.h"
@@ -39,6 +41,7 @@ struct GeneratedSample {
   PulseTrain train;
   ReceivedInterval received;  // echo, map, measured SCR
   std::vector<ScatteringCentre> centres;
+  std::vector<LookCentre> measured_centres;  // with standard errors; of a scenario with several looks
   FeatureVector features;
   Sample stored;  // as the data set stores it; of a sample with all its looks
 };
@@ -51,6 +54,9 @@ GeneratedSample sample_of_echo(const Echo& echo, const PulseTrain& train, const 
 
 // The first look, with all of them in `stored`.
 GeneratedSample with_all_looks(std::vector<GeneratedSample> looks);
+
+// Tracks of the scattering centres over the looks of a sample, from generate_looks().
+TrackSet tracks_of(std::span<const GeneratedSample> looks);
 
 // The axes of a map.
 StoredAxes stored_axes(const RvMap& map);

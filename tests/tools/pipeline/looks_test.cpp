@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Several looks of a sample: each is the interval at its time, and the data set has them all.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -11,6 +12,7 @@
 #include "classify/dataset/directory/dataset_reader.h"
 #include "classify/dataset/directory/export.h"
 #include "classify/dataset/format/shard.h"
+#include "classify/features/rigidity.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/file.h"
 #include "tests/map_levels.h"
@@ -89,6 +91,33 @@ TEST(Looks, OfAPointFollowItsVelocity) {
                 -30 * std::cos(radians(40)) * std::cos(radians(2)) - 2.0 * static_cast<double>(i) * towards_mps, 0.4);
     EXPECT_NEAR(peak.velocity_mps, -towards_mps, 0.6);
   }
+}
+
+// Eight points that move as one, in clutter 3 dB above them in a pulse: every one is a track, and their ranges and velocities are
+// those of a rigid body within their standard errors.
+TEST(Looks, OfPointsThatMoveAsOneAreTracksOfARigidBody) {
+  std::string points;
+  for (int i = 0; i < 8; ++i)
+    points += fmt::format("{}{{position_m: [{}, 0, 0], amplitude_m: {}, velocity_mps: [0.3, 0, 0]}}",
+                          i == 0 ? "" : ", ", 11 * i - 40, 1 + 0.1 * i);
+  double value = 0, degrees = 0;
+  for (int seed = 1; seed <= 4; ++seed) {
+    const Pipeline pipeline(parse_scenario(
+        fmt::format("seaglint: 1\nseed: {}\nview: {{azimuth_deg: 0, elevation_deg: 0}}\ntargets: {{body: {{label: 1, "
+                    "points: [{}]}}}}\nclutter: {{scr_db: -3, doppler_spread_mps: 2}}\nlooks: {{count: 8, spacing_s: 0.5}}\ndataset: "
+                    "{{maps_per_case: 1, realisations_per_case: 1}}\n",
+                    seed, points),
+        "body.yaml"));
+    const TrackSet tracks = tracks_of(pipeline.generate_looks(0));
+    EXPECT_EQ(tracks.tracks.size(), 8u);
+    const ChiSquare common = rank_test(tracks, 0);
+    value += common.value, degrees += common.degrees;
+    EXPECT_GT(fit_rigid_body(tracks).test.p_value(), 1e-3) << seed;
+  }
+  fmt::print("chi-square over degrees of freedom {:.3f}\n", value / degrees);
+  // 224 degrees of freedom: 0.28 is three standard deviations. The error of CLEAN's fit is the largest one: -0.2.
+  EXPECT_GT(value / degrees, 1 - 0.28 - 0.2);
+  EXPECT_LT(value / degrees, 1 + 0.28);
 }
 
 TEST(Looks, AreStoredTheSameForAnyThreadsAndParts) {
