@@ -93,8 +93,8 @@ TEST(Looks, OfAPointFollowItsVelocity) {
   }
 }
 
-// Eight points that move as one, in clutter 3 dB above them in a pulse: every one is a track, and their ranges and velocities are
-// those of a rigid body within their standard errors.
+// Eight points that move as one, in clutter 3 dB above them in a pulse: every one is a track, and their ranges and
+// velocities are those of a rigid body within their standard errors.
 TEST(Looks, OfPointsThatMoveAsOneAreTracksOfARigidBody) {
   std::string points;
   for (int i = 0; i < 8; ++i)
@@ -104,7 +104,8 @@ TEST(Looks, OfPointsThatMoveAsOneAreTracksOfARigidBody) {
   for (int seed = 1; seed <= 4; ++seed) {
     const Pipeline pipeline(parse_scenario(
         fmt::format("seaglint: 1\nseed: {}\nview: {{azimuth_deg: 0, elevation_deg: 0}}\ntargets: {{body: {{label: 1, "
-                    "points: [{}]}}}}\nclutter: {{scr_db: -3, doppler_spread_mps: 2}}\nlooks: {{count: 8, spacing_s: 0.5}}\ndataset: "
+                    "points: [{}]}}}}\nclutter: {{scr_db: -3, doppler_spread_mps: 2}}\nlooks: {{count: 8, spacing_s: "
+                    "0.5}}\ndataset: "
                     "{{maps_per_case: 1, realisations_per_case: 1}}\n",
                     seed, points),
         "body.yaml"));
