@@ -44,8 +44,9 @@ dataset: {{maps_per_case: {}, realisations_per_case: {}}}
   TemporaryFolder folder_;
 };
 
-// A file rounds normals to float32, 6e-8, over facets of up to 1 m: 2 k 6e-8 m = 4e-5, -88 dB. Positions lie on a grid
-// that float32 has. The metacentric height is given with 15 digits.
+// Positions lie on a grid that float32 has; a file rounds normals. At rest the echoes are equal but for that. In waves
+// the attitudes differ in their last digits, by the metacentric height with 15 digits: a piece of a curved face at the
+// limit of kMaxCurvedHalfPhase may be cut once more, 0.1 % of it.
 TEST_F(GeneratedTargets, OfAShipHaveEchoAndMotionOfItsFile) {
   const Ship ship = make_ship({.kind = ShipKind::kPatrolBoat, .length_m = 20, .seed = 3});
   write_mesh(folder() / "boat.glb", ship.mesh);
@@ -54,7 +55,11 @@ TEST_F(GeneratedTargets, OfAShipHaveEchoAndMotionOfItsFile) {
       parse("  a: {label: 0, ship: {kind: patrol_boat, length_m: 20, seed: 3}, motion: {model: ship}}"));
   const Pipeline file(parse(
       fmt::format("  a: {{label: 0, mesh: boat.glb, motion: {{model: ship, metacentric_height_m: {:.15g}}}}}", gm)));
-  EXPECT_LT(relative_difference_db(response_of(made, 0), response_of(file, 0)), -88);
+  EXPECT_LT(relative_difference_db(response_of(made, 0), response_of(file, 0)), -60);
+  const Pipeline made_at_rest(
+      parse("  a: {label: 0, ship: {kind: patrol_boat, length_m: 20, seed: 3}, motion: {model: fixed}}"));
+  const Pipeline file_at_rest(parse("  a: {label: 0, mesh: boat.glb, motion: {model: fixed}}"));
+  EXPECT_LT(relative_difference_db(response_of(made_at_rest, 0), response_of(file_at_rest, 0)), -120);
   const auto& of_made = std::get<ShipParticulars>(made.targets()[0].models[0]->motion->model);
   const auto& of_file = std::get<ShipParticulars>(file.targets()[0].models[0]->motion->model);
   EXPECT_NEAR(of_made.metacentric_height, gm, 1e-12);
@@ -63,7 +68,7 @@ TEST_F(GeneratedTargets, OfAShipHaveEchoAndMotionOfItsFile) {
 }
 
 // Positions of 0.5 to 2 m are rounded to float32 by up to 6e-8 m: 2 k 6e-8 m of phase in each of three reflections,
-// 1.2e-4, -78 dB.
+// 1.2e-4, -78 dB. An edge at the limit of a piece may be cut once more: -72 dB.
 TEST_F(GeneratedTargets, OfADecoyHaveTheEchoOfItsFile) {
   const DecoySpec spec{.kind = DecoyKind::kOctahedral,
                        .leg_m = 0.4,
@@ -73,12 +78,16 @@ TEST_F(GeneratedTargets, OfADecoyHaveTheEchoOfItsFile) {
                        .mast_m = 1.1};
   write_mesh(folder() / "decoy.glb", make_decoy(spec));
   const std::string motion = "motion: {model: float, origin_above_waterline_m: 1.1}";
-  const Pipeline made(
-      parse("  a: {label: 0, decoy: {kind: octahedral, leg_m: 0.4, seed: 5, angle_error_deg: 1, "
-            "support: float}, " +
-            motion + "}"));
-  const Pipeline file(parse("  a: {label: 0, mesh: decoy.glb, " + motion + "}"));
-  EXPECT_LT(relative_difference_db(response_of(made, 0), response_of(file, 0)), -78);
+  const auto difference_db = [&](const std::string& solver) {
+    const Pipeline made(
+        parse("  a: {label: 0, decoy: {kind: octahedral, leg_m: 0.4, seed: 5, angle_error_deg: 1, "
+              "support: float}, " +
+              motion + solver + "}"));
+    const Pipeline file(parse("  a: {label: 0, mesh: decoy.glb, " + motion + solver + "}"));
+    return relative_difference_db(response_of(made, 0), response_of(file, 0));
+  };
+  EXPECT_LT(difference_db(", solver: {edges: false}"), -78);
+  EXPECT_LT(difference_db(""), -71);
 }
 
 // The material of the lens is in the file. Its middle is the origin: positions of 0.2 m on the lens are rounded by 6e-9
