@@ -384,8 +384,8 @@ struct MeasuredWork {
   int intervals = 0, seas = 0;
 };
 
-// Adds a map of every target, at a place within the sweeps; those of one interval share its response. Of the target at
-// which it stops, the time until then.
+// Adds a map of every target, at a place within the sweeps; those of one interval share its response. For a map that
+// is stopped, the time until then.
 void measure(const Pipeline& pipeline, const TimedPlace& place, const StopFlag* stop, MeasuredWork& work) {
   const SamplePlan& plan = pipeline.plan();
   SampleAddress at{.sea_state = index_at(place.sea, plan.sea_states().size()),
