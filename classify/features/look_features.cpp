@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/core/numbers/dense.h"
+#include "sim/core/numbers/real_functions.h"
 
 namespace seaglint {
 
@@ -17,15 +18,6 @@ double deviation(const ChiSquare& test) {
   if (!test.defined()) return kUndefinedLookFeature;
   const double root = std::sqrt(test.ratio());
   return root < kLargestDeviation ? root : kLargestDeviation;
-}
-
-// Linear between the values in order (Hyndman and Fan 1996, definition 7); at least one value.
-double quantile(std::vector<double> values, double fraction) {
-  std::sort(values.begin(), values.end());
-  const double at = fraction * static_cast<double>(values.size() - 1);
-  const auto below = static_cast<std::size_t>(at);
-  const std::size_t above = std::min(below + 1, values.size() - 1);
-  return values[below] + (at - static_cast<double>(below)) * (values[above] - values[below]);
 }
 
 void set_shares(const TrackSet& set, LookFeatures& features) {
@@ -40,6 +32,7 @@ void set_shares(const TrackSet& set, LookFeatures& features) {
   for (std::size_t j = 0; j < tracks; ++j)
     if (spread[j] > 0) shares.push_back(std::min(std::sqrt(residual[j] / spread[j]), kLargestDeviation));
   if (shares.size() < kTracksOfShares) return;
+  std::ranges::sort(shares);
   features.share_lower_quartile = quantile(shares, 0.25);
   features.share_median = quantile(shares, 0.5);
   features.share_upper_quartile = quantile(shares, 0.75);
@@ -55,6 +48,8 @@ void set_tempo(const TrackSet& set, LookFeatures& features) {
                     (set.time_s[about[i].look] - set.time_s[about[i - 1].look]));
   }
   if (rates.empty()) return;
+  std::ranges::sort(sizes);
+  std::ranges::sort(rates);
   const double size = quantile(sizes, 0.5);
   if (size > 0) features.tempo_per_s = std::min(quantile(rates, 0.5) / size, kLargestDeviation);
 }
